@@ -22,7 +22,7 @@ struct FrameCounts {
 // Why the engine rejects a start: the first reason that holds. Never kDisabled, which is not a
 // matter of sizes.
 spec::geometric::Rejection rejection(const spec::geometric::Parameters& parameters,
-                                 const FrameCounts& counts);
+                                     const FrameCounts& counts);
 // Throws ConfigError that names the rejection and what would be possible.
 void check_frame(const spec::geometric::Parameters& parameters, const FrameCounts& counts);
 

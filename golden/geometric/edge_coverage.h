@@ -59,7 +59,8 @@ enum class Original : std::uint8_t { kNone, kAbove, kLeft };
 
 class EdgeCoverage {
  public:
-  void count_class(const spec::geometric::Configuration& configuration, spec::geometric::EdgeClass c) {
+  void count_class(const spec::geometric::Configuration& configuration,
+                   spec::geometric::EdgeClass c) {
     ++classes_[index(configuration.select)][index(configuration.crease)][index(c)];
   }
   void count_turned_away(spec::geometric::Cull cull, spec::geometric::EdgeClass c);

@@ -86,14 +86,14 @@ constexpr spec::geometric::Direction opposite(spec::geometric::Direction directi
 }
 
 // The depth that a line is compared with, of pixel and neighbour; U24.
-constexpr std::uint32_t compared_depth(const spec::geometric::Configuration& configuration, std::uint32_t own,
-                                       std::uint32_t other) {
+constexpr std::uint32_t compared_depth(const spec::geometric::Configuration& configuration,
+                                       std::uint32_t own, std::uint32_t other) {
   const bool own_alone = configuration.depth_test == spec::geometric::DepthTest::kOwn;
   return own_alone || own < other ? own : other;
 }
 // Whether a line at depth d is seen where pixel and neighbour have these depths; all U24.
-constexpr bool is_seen(const spec::geometric::Configuration& configuration, std::uint32_t d, std::uint32_t own,
-                       std::uint32_t other) {
+constexpr bool is_seen(const spec::geometric::Configuration& configuration, std::uint32_t d,
+                       std::uint32_t own, std::uint32_t other) {
   if (configuration.depth_test == spec::geometric::DepthTest::kOff) return true;
   const std::uint32_t f = compared_depth(configuration, own, other);
   return d >= f - (f >> configuration.depth_bias);
@@ -101,12 +101,15 @@ constexpr bool is_seen(const spec::geometric::Configuration& configuration, std:
 // Whether both pixels show what meets in a crease at depth d.
 constexpr bool is_near_crease(const spec::geometric::Configuration& configuration, std::uint32_t d,
                               std::uint32_t own, std::uint32_t other) {
-  if (configuration.depth_test == spec::geometric::DepthTest::kOff || configuration.crease_depth == 0) return true;
+  if (configuration.depth_test == spec::geometric::DepthTest::kOff ||
+      configuration.crease_depth == 0)
+    return true;
   return compared_depth(configuration, own, other) >= d - (d >> configuration.crease_depth);
 }
-constexpr bool passes(const spec::geometric::Configuration& configuration, bool crease, std::uint32_t d,
-                      std::uint32_t own, std::uint32_t other) {
-  return is_seen(configuration, d, own, other) && (!crease || is_near_crease(configuration, d, own, other));
+constexpr bool passes(const spec::geometric::Configuration& configuration, bool crease,
+                      std::uint32_t d, std::uint32_t own, std::uint32_t other) {
+  return is_seen(configuration, d, own, other) &&
+         (!crease || is_near_crease(configuration, d, own, other));
 }
 // Whether the pixel is nearer to the eye than its neighbour, as far as the rules know.
 constexpr bool is_nearer(const spec::geometric::Configuration& configuration, std::uint32_t own,

@@ -34,8 +34,8 @@ Probe probe_of(const Weights& weights) {
   return {false, up, down};
 }
 
-Rgba8 resolve(const spec::geometric::Configuration& configuration, const Probe& probe, const Rgba8& pixel,
-              const Rgba8& first, const Rgba8& second) {
+Rgba8 resolve(const spec::geometric::Configuration& configuration, const Probe& probe,
+              const Rgba8& pixel, const Rgba8& first, const Rgba8& second) {
   const auto fine = [](int share) { return share << spec::morphological::kMixFractionBits; };
   Rgba8 result = morphological::blend(configuration.linear_light, pixel, first, second,
                                       {fine(probe.first), fine(probe.second)});

@@ -24,8 +24,8 @@ constexpr bool is_blended(const spec::geometric::Weights& w) {
   return (w[0] | w[1] | w[2] | w[3]) != 0;
 }
 
-spec::geometric::Rgba8 resolve(const spec::geometric::Configuration& configuration, const Probe& probe,
-                               const spec::geometric::Rgba8& pixel,
+spec::geometric::Rgba8 resolve(const spec::geometric::Configuration& configuration,
+                               const Probe& probe, const spec::geometric::Rgba8& pixel,
                                const spec::geometric::Rgba8& first,
                                const spec::geometric::Rgba8& second);
 

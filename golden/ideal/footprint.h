@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The footprint of a pixel in real arithmetic, and how far the paper's shift-add rule is from it.
 //
-// Reference for golden/texture/footprint.h (paper 004, section 1.2). Double precision; nothing here is
-// bit-exact with any hardware.
+// Reference for golden/texture/footprint.h (paper 004, section 1.2). Double precision; nothing here
+// is bit-exact with any hardware.
 #pragma once
 
 #include <span>

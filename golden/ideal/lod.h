@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Level of detail and sample count in real arithmetic, and what the n + y logarithm costs.
 //
-// Reference for golden/texture/level_of_detail.h (paper 004, sections 1.3 to 1.5). Double precision.
+// Reference for golden/texture/level_of_detail.h (paper 004, sections 1.3 to 1.5). Double
+// precision.
 #pragma once
 
 #include <cstdint>

@@ -81,8 +81,8 @@ class MinimalAreaTable {
 
 // S(d), U4.8: the root by which a tile is read.
 int table_root(int distance);
-// Weights of a pixel `before` pixels from the start and `after` from the end of a run of this shape,
-// both 0..kTableDistances - 1.
+// Weights of a pixel `before` pixels from the start and `after` from the end of a run of this
+// shape, both 0..kTableDistances - 1.
 EdgeWeights table_weights(
     int shape, int before, int after,
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);

@@ -26,10 +26,10 @@ bool has(Marks marks, std::size_t place) { return (marks >> place & 1) != 0; }
 
 }  // namespace
 
-Marks marks_of(Bypass leave, const ImageView& image, int x, int y) {
-  if (leave == Bypass::kNone || leave == Bypass::kMasked) return 0;
+Marks marks_of(Bypass bypass, const ImageView& image, int x, int y) {
+  if (bypass == Bypass::kNone || bypass == Bypass::kMasked) return 0;
   Marks marks = 0;
-  const std::size_t places = leave == Bypass::kMarked ? 1 : kPlaces.size();
+  const std::size_t places = bypass == Bypass::kMarked ? 1 : kPlaces.size();
   for (std::size_t i = 0; i < places; ++i) {
     const int at_x = x + kPlaces[i].dx, at_y = y + kPlaces[i].dy;
     if (at_x < 0 || at_y < 0 || at_x >= image.width || at_y >= image.height) continue;
@@ -38,14 +38,14 @@ Marks marks_of(Bypass leave, const ImageView& image, int x, int y) {
   return marks;
 }
 
-bool is_left(Bypass leave, Marks marks) {
-  return leave == Bypass::kBeside ? marks != 0 : has(marks, 0);
+bool is_left(Bypass bypass, Marks marks) {
+  return bypass == Bypass::kBeside ? marks != 0 : has(marks, 0);
 }
 
-spec::morphological::BlendProbe remaining(Bypass leave, Marks marks,
-                                        const spec::morphological::BlendProbe& probe) {
-  if (is_left(leave, marks)) return {};
-  if (leave != Bypass::kHalf) return probe;
+spec::morphological::BlendProbe remaining(Bypass bypass, Marks marks,
+                                          const spec::morphological::BlendProbe& probe) {
+  if (is_left(bypass, marks)) return {};
+  if (bypass != Bypass::kHalf) return probe;
   spec::morphological::BlendProbe result = probe;
   const auto halve = [&](std::uint8_t& weight, std::size_t neighbour) {
     if (has(marks, neighbour)) weight = static_cast<std::uint8_t>(weight >> 1);
@@ -55,11 +55,12 @@ spec::morphological::BlendProbe remaining(Bypass leave, Marks marks,
   return (result.first | result.second) != 0 ? result : spec::morphological::BlendProbe{};
 }
 
-void BypassCoverage::count_pixel(Bypass leave, Marks marks, const spec::morphological::BlendProbe& probe,
-                                const ImageView& image, int x, int y) {
-  if (leave == Bypass::kNone || leave == Bypass::kMasked) return;
-  const bool left = is_left(leave, marks);
-  if (leave == Bypass::kBeside) {
+void BypassCoverage::count_pixel(Bypass bypass, Marks marks,
+                                 const spec::morphological::BlendProbe& probe,
+                                 const ImageView& image, int x, int y) {
+  if (bypass == Bypass::kNone || bypass == Bypass::kMasked) return;
+  const bool left = is_left(bypass, marks);
+  if (bypass == Bypass::kBeside) {
     if (left) {
       const unsigned all = marks;
       ++beside_[std::has_single_bit(all) ? static_cast<std::size_t>(std::countr_zero(all)) : 5];
@@ -70,15 +71,15 @@ void BypassCoverage::count_pixel(Bypass leave, Marks marks, const spec::morpholo
     return;
   }
   if (left) {
-    ++own_[leave == Bypass::kHalf ? 1 : 0];
+    ++own_[bypass == Bypass::kHalf ? 1 : 0];
     return;
   }
-  if (leave != Bypass::kHalf) return;
+  if (bypass != Bypass::kHalf) return;
   const std::size_t first = first_neighbour(probe.horizontal),
                     second = second_neighbour(probe.horizontal);
   if (probe.first != 0 && has(marks, first)) ++half_[first - 1];
   if (probe.second != 0 && has(marks, second)) ++half_[second - 1];
-  const spec::morphological::BlendProbe rest = remaining(leave, marks, probe);
+  const spec::morphological::BlendProbe rest = remaining(bypass, marks, probe);
   if ((rest.first | rest.second) == 0) ++half_[4];
 }
 

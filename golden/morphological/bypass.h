@@ -29,18 +29,19 @@ constexpr bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixe
 // Marks that the rule looks at, of the pixel and its neighbours up, left, right and down, a bit
 // each from bit 0 on; places outside the frame have none.
 using Marks = std::uint8_t;
-Marks marks_of(spec::morphological::Bypass leave, const ImageView& image, int x, int y);
+Marks marks_of(spec::morphological::Bypass bypass, const ImageView& image, int x, int y);
 
-bool is_left(spec::morphological::Bypass leave, Marks marks);
+bool is_left(spec::morphological::Bypass bypass, Marks marks);
 // The weights that remain; `edges` stays 0.
-spec::morphological::BlendProbe remaining(spec::morphological::Bypass leave, Marks marks,
-                                        const spec::morphological::BlendProbe& probe);
+spec::morphological::BlendProbe remaining(spec::morphological::Bypass bypass, Marks marks,
+                                          const spec::morphological::BlendProbe& probe);
 
 class BypassCoverage {
  public:
   // `tap` as it was before the rule.
-  void count_pixel(spec::morphological::Bypass leave, Marks marks,
-                   const spec::morphological::BlendProbe& probe, const ImageView& image, int x, int y);
+  void count_pixel(spec::morphological::Bypass bypass, Marks marks,
+                   const spec::morphological::BlendProbe& probe, const ImageView& image, int x,
+                   int y);
   // Every bin, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;
 

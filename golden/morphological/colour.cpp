@@ -122,7 +122,7 @@ EdgePlanes colour_edges(const spec::morphological::Parameters& p, const ImageVie
   const int least_step = (p.threshold + 65535) >> 16;
   if (least_step > 255) return edges;
   const Byte least = static_cast<Byte>(least_step);
-  ByteSteps steps(image, p.leave == spec::morphological::Bypass::kMasked);
+  ByteSteps steps(image, p.bypass == spec::morphological::Bypass::kMasked);
   for (int y = 0; y < image.height; ++y) {
     steps.advance_to(y);
     const Byte *a = steps.across(0), *d = steps.down(0), *a_above = steps.across(-1),

@@ -9,7 +9,7 @@ namespace deburr::golden::morphological {
 
 spec::morphological::Parameters following_geometric(spec::morphological::Parameters p) {
   const spec::morphological::FollowingRules configuration;
-  p.leave = configuration.leave;
+  p.bypass = configuration.bypass;
   if (p.threshold_mode == spec::morphological::ThresholdMode::kDynamic) return p;
   p.edge_source = configuration.edge_source;
   p.threshold_on_depth_edge = configuration.threshold_on_depth_edge;

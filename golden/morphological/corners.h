@@ -14,7 +14,7 @@ namespace deburr::golden::morphological {
 // Weights of a pixel `before` pixels from the start and `after` from the end of its run, whose ends
 // have these far bits; `stays` is corner_rounding, 256 keeps all.
 constexpr EdgeWeights rounded_at_corners(const EdgeWeights& weights, int far, int stays, int before,
-                                        int after) {
+                                         int after) {
   const auto rounded = [&](int weight, int side) {
     const int start = far >> side & 1, end = far >> (side + 2) & 1;
     const int halves = before < after ? 2 * start : before > after ? 2 * end : start + end;

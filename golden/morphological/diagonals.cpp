@@ -202,7 +202,7 @@ DiagonalEnds falling_diagonal(const EdgePlanes& edges, int steps, int x, int y, 
 }
 
 DiagonalWeights diagonal_weights(const DiagonalEnds& rising, const DiagonalEnds& falling,
-                               AreaValues values) {
+                                 AreaValues values) {
   DiagonalWeights weights;
   const auto areas = [&](const DiagonalEnds& ends) {
     weights.span = std::max(weights.span, ends.d1 + ends.d2 + 1);

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "golden/morphological/colour.h"
 #include "golden/morphological/bypass.h"
+#include "golden/morphological/colour.h"
 
 namespace deburr::golden::morphological {
 namespace {
@@ -297,7 +297,7 @@ EdgePlanes find_edges(const Parameters& parameters, const ImageView& image,
   EdgePlanes edges{BitPlane(image.width, image.height), BitPlane(image.width, image.height)};
   with_rule(parameters, [&](const auto& rule) { raw_edges(rule, y, depth, edges); });
   BitPlane mask;
-  if (parameters.leave == spec::morphological::Bypass::kMasked) {
+  if (parameters.bypass == spec::morphological::Bypass::kMasked) {
     mask = marked(image);
     clear_beside(mask, edges);
   }

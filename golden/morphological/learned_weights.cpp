@@ -11,8 +11,8 @@ namespace deburr::golden::morphological {
 namespace {
 
 using spec::morphological::LineDescriptor;
-using spec::morphological::RunPart;
 using spec::morphological::RunDescriptor;
+using spec::morphological::RunPart;
 using spec::morphological::Side;
 
 constexpr int kLongestLook = 10;  // edges away from the run
@@ -95,7 +95,8 @@ int crossing_class(const AxisEdges& edges, const RunDescriptor& run, bool at_end
   return n == 0 ? 0 : 2 + kAwayClass[static_cast<std::size_t>(n)];
 }
 
-LearnedEnds::LearnedEnds(const LineDescriptor& descriptor, Side own) : length_(descriptor.run.length) {
+LearnedEnds::LearnedEnds(const LineDescriptor& descriptor, Side own)
+    : length_(descriptor.run.length) {
   const RunPart part = descriptor.run.part;
   const auto end_of = [&](int code, int crossing_class) {
     if (own == Side::kSecond) code = swapped(code);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Weights of edges whose phase no staircase tells: what the ends of a run look like, and three small
-// tables over it.
+// Weights of edges whose phase no staircase tells: what the ends of a run look like, and three
+// small tables over it.
 //
 // After the predictor, in place of line.h and area.h;
-// docs/reference/morphological/learned_weights.md, "Records" and "Indices". Ours. Every entry that a
-// record can name is listed by reachable_entries().
+// docs/reference/morphological/learned_weights.md, "Records" and "Indices". Ours. Every entry that
+// a record can name is listed by reachable_entries().
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,8 @@ struct WeightIndices {
 };
 
 // The class 0..8 of the crossing at an end of a run of `room` = reach - L more pixels in sight.
-int crossing_class(const AxisEdges& edges, const spec::morphological::RunDescriptor& run, bool at_end,
-                   int room);
+int crossing_class(const AxisEdges& edges, const spec::morphological::RunDescriptor& run,
+                   bool at_end, int room);
 
 // Of an edge that no record covers, for both its pixels.
 inline constexpr WeightIndices kGapIndices = {63, 31, 31};

@@ -55,16 +55,18 @@ void chord(const Prediction& p, spec::morphological::LineDescriptor& line) {
 void end_of_long_run(const spec::morphological::RunDescriptor& run, int search_range,
                      spec::morphological::LineDescriptor& line) {
   line.scale = 2;
-  line.offset = run.part == spec::morphological::RunPart::kHead ? search_range : 2 * run.length - search_range;
+  line.offset = run.part == spec::morphological::RunPart::kHead ? search_range
+                                                                : 2 * run.length - search_range;
   line.slope = static_cast<std::uint32_t>(rdiv(kOne, 2 * static_cast<std::uint64_t>(search_range)));
-  line.inverse = static_cast<std::uint32_t>(search_range) << spec::morphological::kInverseFractionBits;
+  line.inverse = static_cast<std::uint32_t>(search_range)
+                 << spec::morphological::kInverseFractionBits;
 }
 
 }  // namespace
 
 spec::morphological::LineDescriptor line_through(const spec::morphological::Parameters& parameters,
-                                             const spec::morphological::RunDescriptor& run,
-                                             const Prediction& prediction) {
+                                                 const spec::morphological::RunDescriptor& run,
+                                                 const Prediction& prediction) {
   spec::morphological::LineDescriptor line;
   line.run = run;
   line.before = spec::morphological::kRunShapes[run.shape].before;

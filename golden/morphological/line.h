@@ -14,8 +14,8 @@
 namespace deburr::golden::morphological {
 
 spec::morphological::LineDescriptor line_through(const spec::morphological::Parameters& parameters,
-                                             const spec::morphological::RunDescriptor& run,
-                                             const Prediction& prediction);
+                                                 const spec::morphological::RunDescriptor& run,
+                                                 const Prediction& prediction);
 
 // t(X), S.24: height of the line over the edge at position X, in steps.
 constexpr std::int64_t height(const spec::morphological::LineDescriptor& line, int position) {

@@ -30,7 +30,8 @@ bool from_table(const spec::morphological::Parameters& parameters) {
 
 // A record whose weights come from the ROMs.
 spec::morphological::LineDescriptor without_line(const AxisEdges& edges,
-                                             const spec::morphological::RunDescriptor& run, int search_range) {
+                                                 const spec::morphological::RunDescriptor& run,
+                                                 int search_range) {
   using spec::morphological::RunPart;
   spec::morphological::LineDescriptor descriptor;
   descriptor.run = run;
@@ -172,7 +173,7 @@ void MorphologicalGolden::process_axis(AxisWeights& axis) {
 }
 
 void MorphologicalGolden::process_descriptor(AxisWeights& axis,
-                                         const spec::morphological::RunDescriptor& run) {
+                                             const spec::morphological::RunDescriptor& run) {
   const Prediction prediction = predict(parameters_, axis.edges, run);
   const bool learned = is_learned(run, prediction);
   const spec::morphological::LineDescriptor line =
@@ -216,7 +217,7 @@ bool MorphologicalGolden::is_learned(const spec::morphological::RunDescriptor& r
 }
 
 void MorphologicalGolden::weight_learned(AxisWeights& axis,
-                                        const spec::morphological::LineDescriptor& line) {
+                                         const spec::morphological::LineDescriptor& line) {
   const LearnedEnds first(line, spec::morphological::Side::kFirst);
   const LearnedEnds second(line, spec::morphological::Side::kSecond);
   const auto look_up = [&](const WeightIndices& i) {
@@ -238,7 +239,7 @@ void MorphologicalGolden::weight_gap(AxisWeights& axis, int edges) {
 }
 
 void MorphologicalGolden::weight(AxisWeights& axis,
-                                const spec::morphological::LineDescriptor& line) const {
+                                 const spec::morphological::LineDescriptor& line) const {
   const auto put = [&](const EdgeWeights& s) {
     axis.weights.push_back({s.first, s.second, line.span});
   };
@@ -264,7 +265,8 @@ void MorphologicalGolden::weight(AxisWeights& axis,
 }
 
 // Of every record, with sides or without.
-void MorphologicalGolden::count_searches(const spec::morphological::LineDescriptor& line, int extent) {
+void MorphologicalGolden::count_searches(const spec::morphological::LineDescriptor& line,
+                                         int extent) {
   if (!from_table(parameters_)) return;
   if (parameters_.border == spec::morphological::Border::kClamp)
     smaa_coverage_.count_descriptor(line.run, extent);
@@ -348,13 +350,13 @@ PixelWeights MorphologicalGolden::gather(int x, int y) const {
 // The text guard and the rule `leave`, for a pixel that has a weight.
 spec::morphological::BlendProbe MorphologicalGolden::remaining_probe(
     const ImageView& image, int x, int y, const spec::morphological::BlendProbe& probe) {
-  const Marks marks = marks_of(parameters_.leave, image, x, y);
+  const Marks marks = marks_of(parameters_.bypass, image, x, y);
   if (parameters_.text_guard && guard_.at(x, y).guarded()) {
-    if (everything_) guard_coverage_.count_kept(is_left(parameters_.leave, marks));
+    if (everything_) guard_coverage_.count_kept(is_left(parameters_.bypass, marks));
     return {};
   }
-  if (everything_) bypass_coverage_.count_pixel(parameters_.leave, marks, probe, image, x, y);
-  return remaining(parameters_.leave, marks, probe);
+  if (everything_) bypass_coverage_.count_pixel(parameters_.bypass, marks, probe, image, x, y);
+  return remaining(parameters_.bypass, marks, probe);
 }
 
 // Only pixels beside an edge can change colour; they are visited a word of bits at a time.
@@ -375,7 +377,7 @@ void MorphologicalGolden::blend_row(const ImageView& image, int y) {
       blend_pixel(image, 64 * i + std::countr_zero(rest), y);
     }
   }
-  if (parameters_.leave != spec::morphological::Bypass::kNone) {
+  if (parameters_.bypass != spec::morphological::Bypass::kNone) {
     std::for_each_n(row_start, image.width, [](spec::morphological::Rgba8& pixel) {
       pixel[3] = static_cast<std::uint8_t>(pixel[3] | 1);
     });

@@ -17,9 +17,9 @@
 
 #include "golden/morphological/area.h"
 #include "golden/morphological/blend.h"
+#include "golden/morphological/bypass.h"
 #include "golden/morphological/configuration.h"
 #include "golden/morphological/learned_weights.h"
-#include "golden/morphological/bypass.h"
 #include "golden/morphological/planes.h"
 #include "golden/morphological/predictor.h"
 #include "golden/morphological/run_coverage.h"
@@ -118,7 +118,7 @@ class MorphologicalGolden {
     std::vector<std::uint32_t> edges_before;  // each word of edges.along
     void count_edges();
     std::size_t index(int position, int line) const;  // of the weight of an edge
-    Weight at(int position, int line) const;           // zero where there is no edge
+    Weight at(int position, int line) const;          // zero where there is no edge
   };
   void smooth(const ImageView& image);
   void process_axis(AxisWeights& axis);
@@ -126,14 +126,15 @@ class MorphologicalGolden {
   void weight(AxisWeights& axis, const spec::morphological::LineDescriptor& line) const;
   void weight_learned(AxisWeights& axis, const spec::morphological::LineDescriptor& line);
   void weight_gap(AxisWeights& axis, int edges);
-  bool is_learned(const spec::morphological::RunDescriptor& run, const Prediction& prediction) const;
+  bool is_learned(const spec::morphological::RunDescriptor& run,
+                  const Prediction& prediction) const;
   void count_searches(const spec::morphological::LineDescriptor& line, int extent);
   void count_thresholds(const ImageView& image);
   void process_diagonals();
   void put_runs_in_order(std::size_t first_vertical);
   PixelWeights gather(int x, int y) const;
   spec::morphological::BlendProbe remaining_probe(const ImageView& image, int x, int y,
-                                              const spec::morphological::BlendProbe& probe);
+                                                  const spec::morphological::BlendProbe& probe);
   void blend_row(const ImageView& image, int y);
   void blend_pixel(const ImageView& image, int x, int y);
   ImageView as_read_back(const ImageView& image);

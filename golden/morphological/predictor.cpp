@@ -67,7 +67,9 @@ class Trials {
   // The largest candidate of the next step lies beyond the reach: had the trial none, the window
   // ended and not the line.
   bool out_of_search_range_right(int x, int largest) const { return x + largest > search_range_; }
-  bool out_of_search_range_left(int x, int largest) const { return x - largest < length_ - search_range_; }
+  bool out_of_search_range_left(int x, int largest) const {
+    return x - largest < length_ - search_range_;
+  }
 
  private:
   int code(int x, int row) const { return edges_.corner(origin_ + x, row); }
@@ -115,7 +117,7 @@ void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
       const int s = trial(k, side.end, steps);
       if (s == 0) {
         return growth.close(out_of_search_range(side.end, steps.largest()) ? SideEnd::kReach
-                                                                    : SideEnd::kNoHit);
+                                                                           : SideEnd::kNoHit);
       }
       growth.take(s, sign * s);
       if (s != length) other = s;

@@ -62,8 +62,8 @@ std::size_t RunCoverage::length_bin(int length) {
                                   kUpTo.begin());
 }
 
-void RunCoverage::count_run(const spec::morphological::RunDescriptor& run, const Prediction& prediction,
-                            int extent, int lines) {
+void RunCoverage::count_run(const spec::morphological::RunDescriptor& run,
+                            const Prediction& prediction, int extent, int lines) {
   const std::size_t axis = index(run.axis), length = length_bin(run.length);
   if (run.part == spec::morphological::RunPart::kWhole) {
     ++shapes_[run.shape][axis][length];

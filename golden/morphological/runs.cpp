@@ -34,17 +34,17 @@ int run_shape(const AxisEdges& edges, int line, int first, int end) {
 }
 
 RunParts descriptors_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
-                    int line, int first, int end) {
+                        int line, int first, int end) {
   const auto descriptor = [&](spec::morphological::RunPart part, int start, int length, int shape,
-                          int far, int endless) {
+                              int far, int endless) {
     return spec::morphological::RunDescriptor{edges.axis,
-                                          part,
-                                          static_cast<std::uint16_t>(line),
-                                          static_cast<std::uint16_t>(start),
-                                          static_cast<std::uint16_t>(length),
-                                          static_cast<std::uint8_t>(shape),
-                                          static_cast<std::uint8_t>(far),
-                                          static_cast<std::uint8_t>(endless)};
+                                              part,
+                                              static_cast<std::uint16_t>(line),
+                                              static_cast<std::uint16_t>(start),
+                                              static_cast<std::uint16_t>(length),
+                                              static_cast<std::uint8_t>(shape),
+                                              static_cast<std::uint8_t>(far),
+                                              static_cast<std::uint8_t>(endless)};
   };
   const int shape = run_shape(edges, line, first, end);
   const int endless = endless_ends(edges, line, first, end);
@@ -55,15 +55,16 @@ RunParts descriptors_of(const spec::morphological::Parameters& parameters, const
   const int longest = search_range(parameters, edges.axis);
   if (end - first <= longest) {
     return {
-        {descriptor(spec::morphological::RunPart::kWhole, first, end - first, shape, far, endless), {}},
+        {descriptor(spec::morphological::RunPart::kWhole, first, end - first, shape, far, endless),
+         {}},
         1};
   }
   const int half = longest / 2;
-  return {
-      {descriptor(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3, endless & 1),
-       descriptor(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12,
-              endless & 2)},
-      2};
+  return {{descriptor(spec::morphological::RunPart::kHead, first, half, shape & 3, far & 3,
+                      endless & 1),
+           descriptor(spec::morphological::RunPart::kTail, end - half, half, shape & 12, far & 12,
+                      endless & 2)},
+          2};
 }
 
 std::vector<spec::morphological::RunDescriptor> find_runs(

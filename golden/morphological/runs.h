@@ -73,7 +73,7 @@ struct RunParts {
   const spec::morphological::RunDescriptor* end() const { return descriptor + count; }
 };
 RunParts descriptors_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
-                    int line, int first, int end);
+                        int line, int first, int end);
 
 // Every record of the axis, by line, then by start.
 std::vector<spec::morphological::RunDescriptor> find_runs(

@@ -31,10 +31,10 @@ namespace deburr::golden::morphological {
 // Six bits.
 int colour_hash(const spec::morphological::Rgba8& pixel);
 
-inline constexpr int kGuardSearchRange = 5;    // pixels from the middle of a window to its sides
-inline constexpr int kMostStroke = 3;    // pixels
-inline constexpr int kLeastStrokes = 3;  // pixels of a window in strokes, each way
-inline constexpr int kLeastOfBoth = 24;  // the sum of both ways
+inline constexpr int kGuardSearchRange = 5;  // pixels from the middle of a window to its sides
+inline constexpr int kMostStroke = 3;        // pixels
+inline constexpr int kLeastStrokes = 3;      // pixels of a window in strokes, each way
+inline constexpr int kLeastOfBoth = 24;      // the sum of both ways
 
 // What decides about a pixel, of its window.
 struct GuardedPixel {

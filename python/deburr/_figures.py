@@ -6,7 +6,7 @@ import typing
 
 class Figures(collections.abc.Mapping[str, typing.Any]):
     """Named values that cannot be changed: `figures.cycles`, `figures["cycles"]`. Groups are Figures too, and a key
-    may name what is inside of them: `figures["units.filter.busy"]`."""
+    may name what is inside of them: `figures["units.filter_pipeline.busy"]`."""
 
     def __init__(self, values: collections.abc.Mapping[str, typing.Any]) -> None:
         self.__dict__["_values"] = {name: Figures(value) if isinstance(value, dict) else value

@@ -64,7 +64,7 @@ def _arrays(node):
 
 class Run(Figures):
     """What a run measured. Its figures are those of result.json, as attributes: `run.cycles`, `run.throughput.value`,
-    `run.units`, `run.work`; `run["units.filter.busy"]` names one by its key.
+    `run.units`, `run.work`; `run["units.filter_pipeline.busy"]` names one by its key.
 
     pictures and maps are arrays by name, windows an array a series by key, directory is where the files are, which
     are gone with this object unless run() was told where to leave them."""

@@ -120,7 +120,8 @@ class GeometricEngine final : public Engine {
 
  private:
   // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{}, configuration_shape(parameters_)};
+  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
+                                          configuration_shape(parameters_)};
   Pulse start_{"start"}, latch_{"latch"};
   CombinationalWire<spec::geometric::Rejection> rejection_{"rejection", rejection_shape()};
   Pulse frame_done_{"frame_done"}, invalid_edge_{"invalid_edge"}, memory_error_{"memory_error"};

@@ -14,20 +14,20 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       parameter_store("parameter_store", control, parameters_),
       window("edge_window", parameters_),
       rows(parameters_),
-      sequencer("sequencer", clock, parameters_, probe_),
-      luma("luma", clock, parameters_),
-      edges("edges", clock, parameters_),
-      extractor("extractor", clock, parameters_, window, rows),
-      predictor_h("predictor_h", clock, parameters_, rows),
-      predictor_v("predictor_v", clock, parameters_, window),
-      divider_h("divider_h", clock, parameters_, spec::morphological::Axis::kHorizontal),
-      divider_v("divider_v", clock, parameters_, spec::morphological::Axis::kVertical),
-      area("area", clock, parameters_),
+      sequencer("slot_sequencer", clock, parameters_, probe_),
+      luma("luma_unit", clock, parameters_),
+      edges("edge_detector", clock, parameters_),
+      extractor("run_extractor", clock, parameters_, window, rows),
+      endpoint_predictor_h("endpoint_predictor_h", clock, parameters_, rows),
+      endpoint_predictor_v("endpoint_predictor_v", clock, parameters_, window),
+      line_unit_h("line_unit_h", clock, parameters_, spec::morphological::Axis::kHorizontal),
+      line_unit_v("line_unit_v", clock, parameters_, spec::morphological::Axis::kVertical),
+      area("area_unit", clock, parameters_),
       weights_loader(parameters_.area == spec::morphological::AreaSource::kLearned
-                        ? std::make_unique<WeightsLoader>(control, area.weights_port().value())
-                        : nullptr),
+                         ? std::make_unique<WeightsLoader>(control, area.weights_port().value())
+                         : nullptr),
       diagonals(parameters_.diagonals
-                    ? std::make_unique<DiagonalUnit>("diagonals", clock, parameters_)
+                    ? std::make_unique<DiagonalUnit>("diagonal_unit", clock, parameters_)
                     : nullptr),
       text_guard(parameters_.text_guard
                      ? std::make_unique<TextGuard>("text_guard", clock, parameters_)
@@ -50,15 +50,17 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   extractor.area_slots_out(area_slots_);
   extractor.fetches_out(fetches_);
   for (std::size_t lane = 0; lane < built_lanes_.lanes; ++lane) {
-    predictor_h.descriptors_in[lane](extractor.descriptors(spec::morphological::Axis::kHorizontal, lane));
-    predictor_v.descriptors_in[lane](extractor.descriptors(spec::morphological::Axis::kVertical, lane));
+    endpoint_predictor_h.descriptors_in[lane](
+        extractor.descriptors(spec::morphological::Axis::kHorizontal, lane));
+    endpoint_predictor_v.descriptors_in[lane](
+        extractor.descriptors(spec::morphological::Axis::kVertical, lane));
   }
-  predictor_h.sums_out.bind(sums_h_);
-  predictor_v.sums_out.bind(sums_v_);
-  divider_h.sums_in.bind(sums_h_);
-  divider_v.sums_in.bind(sums_v_);
-  divider_h.lines_out.bind(lines_h_);
-  divider_v.lines_out.bind(lines_v_);
+  endpoint_predictor_h.sums_out.bind(sums_h_);
+  endpoint_predictor_v.sums_out.bind(sums_v_);
+  line_unit_h.sums_in.bind(sums_h_);
+  line_unit_v.sums_in.bind(sums_v_);
+  line_unit_h.lines_out.bind(lines_h_);
+  line_unit_v.lines_out.bind(lines_v_);
   area.lines_h_in.bind(lines_h_);
   area.lines_v_in.bind(lines_v_);
   area.slots_in(area_slots_);
@@ -79,10 +81,10 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
   luma.configuration_in(configuration_);
   edges.configuration_in(configuration_);
   extractor.configuration_in(configuration_);
-  predictor_h.configuration_in(configuration_);
-  predictor_v.configuration_in(configuration_);
-  divider_h.configuration_in(configuration_);
-  divider_v.configuration_in(configuration_);
+  endpoint_predictor_h.configuration_in(configuration_);
+  endpoint_predictor_v.configuration_in(configuration_);
+  line_unit_h.configuration_in(configuration_);
+  line_unit_v.configuration_in(configuration_);
   area.configuration_in(configuration_);
   pixel_store.configuration_in(configuration_);
   blender.configuration_in(configuration_);
@@ -147,10 +149,11 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       {reg::kMemoryErrors, &pixel_store.memory_errors}};
   for (const auto& [offset, counter] : shown) control.show(offset, *counter);
   // Both axes count for themselves; the register shows the sum.
-  control.show_sum(reg::kExtendedRuns, {&predictor_h.extended_runs, &predictor_v.extended_runs});
-  control.show_sum(reg::kSteps, {&predictor_h.steps, &predictor_v.steps});
-  control.show_sum(reg::kProbes, {&predictor_h.probes, &predictor_v.probes});
-  control.show_sum(reg::kDivides, {&divider_h.divides, &divider_v.divides});
+  control.show_sum(reg::kExtendedRuns,
+                   {&endpoint_predictor_h.extended_runs, &endpoint_predictor_v.extended_runs});
+  control.show_sum(reg::kSteps, {&endpoint_predictor_h.steps, &endpoint_predictor_v.steps});
+  control.show_sum(reg::kProbes, {&endpoint_predictor_h.probes, &endpoint_predictor_v.probes});
+  control.show_sum(reg::kDivides, {&line_unit_h.divides, &line_unit_v.divides});
 }
 
 bool MorphologicalEngine::idle() const {
@@ -165,10 +168,11 @@ spec::morphological::Work MorphologicalEngine::work() const {
   work.vertical_runs = extractor.vertical_runs.value();
   work.long_runs = extractor.long_runs.value();
   work.z_runs = extractor.z_runs.value();
-  work.extended_runs = predictor_h.extended_runs.value() + predictor_v.extended_runs.value();
-  work.steps = predictor_h.steps.value() + predictor_v.steps.value();
-  work.probes = predictor_h.probes.value() + predictor_v.probes.value();
-  work.divides = divider_h.divides.value() + divider_v.divides.value();
+  work.extended_runs =
+      endpoint_predictor_h.extended_runs.value() + endpoint_predictor_v.extended_runs.value();
+  work.steps = endpoint_predictor_h.steps.value() + endpoint_predictor_v.steps.value();
+  work.probes = endpoint_predictor_h.probes.value() + endpoint_predictor_v.probes.value();
+  work.divides = line_unit_h.divides.value() + line_unit_v.divides.value();
   work.blended_pixels = blender.blended_pixels.value();
   work.bypassed_pixels = blender.bypassed_pixels.value();
   if (diagonals) work.diagonal_pixels = diagonals->diagonal_pixels.value();

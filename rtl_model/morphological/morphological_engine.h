@@ -96,12 +96,12 @@ class MorphologicalEngine final : public Engine {
   LumaUnit luma;
   EdgeDetector edges;
   RunExtractor extractor;
-  EndpointPredictor predictor_h, predictor_v;
-  LineUnit divider_h, divider_v;
+  EndpointPredictor endpoint_predictor_h, endpoint_predictor_v;
+  LineUnit line_unit_h, line_unit_v;
   AreaUnit area;
   std::unique_ptr<WeightsLoader> weights_loader;  // only with learned weights
-  std::unique_ptr<DiagonalUnit> diagonals;      // only with diagonals
-  std::unique_ptr<TextGuard> text_guard;        // only with text_guard
+  std::unique_ptr<DiagonalUnit> diagonals;        // only with diagonals
+  std::unique_ptr<TextGuard> text_guard;          // only with text_guard
   PixelStore pixel_store;
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
@@ -123,7 +123,8 @@ class MorphologicalEngine final : public Engine {
 
  private:
   // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{}, configuration_shape(parameters_)};
+  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
+                                          configuration_shape(parameters_)};
   Pulse first_beat_{"first_beat"}, latch_{"latch"};
   CombinationalWire<bool> enabled_{"enabled"};
   CombinationalWire<Decoded> latched_{"latched", configuration_shape(parameters_, "rules.")};

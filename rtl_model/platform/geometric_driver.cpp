@@ -99,7 +99,8 @@ GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
 
 void GeometricDriver::set_configuration(const spec::geometric::Parameters& configuration) {
   require_idle("new rules");
-  registers_.write(spec::geometric::reg::kConfiguration, spec::geometric::configuration_word(configuration));
+  registers_.write(spec::geometric::reg::kConfiguration,
+                   spec::geometric::configuration_word(configuration));
   configuration_ = configuration;
 }
 
@@ -199,9 +200,10 @@ void GeometricDriver::require_accepted() {
   const spec::geometric::Rejection why = rejection();
   if (why == spec::geometric::Rejection::kNone) return;
   const auto code = static_cast<std::size_t>(why);
-  throw spec::SimulationError(fmt::format(
-      "the geometric engine rejected the start: {}",
-      code < spec::geometric::kRejectionNames.size() ? spec::geometric::kRejectionNames[code] : "?"));
+  throw spec::SimulationError(fmt::format("the geometric engine rejected the start: {}",
+                                          code < spec::geometric::kRejectionNames.size()
+                                              ? spec::geometric::kRejectionNames[code]
+                                              : "?"));
 }
 
 // ---- results ------------------------------------------------------------------------------------

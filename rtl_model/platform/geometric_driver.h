@@ -122,7 +122,8 @@ class GeometricDriver final : public EngineDriver {
   }
   // Of the last start, from the clock after it on.
   spec::geometric::Rejection rejection() {
-    return static_cast<spec::geometric::Rejection>(registers_.read(spec::geometric::reg::kRejection));
+    return static_cast<spec::geometric::Rejection>(
+        registers_.read(spec::geometric::reg::kRejection));
   }
   // SimulationError, with the reason, if it was rejected.
   void require_accepted();

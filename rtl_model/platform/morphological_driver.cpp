@@ -25,7 +25,8 @@ void MorphologicalDriver::set_configuration(const spec::morphological::Parameter
       {spec::morphological::reg::kAlpha, p.alpha},
       {spec::morphological::reg::kFloor, p.floor},
       {spec::morphological::reg::kDepthThreshold, p.depth_threshold}};
-  registers_.write(spec::morphological::reg::kConfiguration, spec::morphological::configuration_word(p));
+  registers_.write(spec::morphological::reg::kConfiguration,
+                   spec::morphological::configuration_word(p));
   for (const auto& [offset, value] : thresholds)
     registers_.write(offset, static_cast<std::uint32_t>(value));
   registers_.write(spec::morphological::reg::kSmaa, spec::morphological::smaa_word(p));

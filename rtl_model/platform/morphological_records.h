@@ -50,8 +50,8 @@ std::uint64_t frame_bytes(int width, int height);
 
 // All entries, in the order of WEIGHTS_ADDRESS: A, B, C.
 inline constexpr std::size_t kWeightEntries = spec::morphological::kWeightsOfCodes.size() +
-                                             spec::morphological::kWeightsOfNear.size() +
-                                             spec::morphological::kWeightsOfFar.size();
+                                              spec::morphological::kWeightsOfNear.size() +
+                                              spec::morphological::kWeightsOfFar.size();
 // What WEIGHTS_SUM says of them.
 std::uint32_t weights_sum(std::span<const std::int8_t> entries);
 

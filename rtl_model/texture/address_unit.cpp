@@ -7,17 +7,17 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const spec::texture::Parameters& p, ControlRegisters& registers,
                          const Descriptors& descriptors, LatencyProbe& probe)
     : sc_module(name),
-      derivative("derivative", clock, registers, descriptors.for_derivatives, probe),
+      derivative("derivative_unit", clock, registers, descriptors.for_derivatives, probe),
       footprint(p.axes == spec::texture::Axes::kTwo
-                    ? std::make_unique<FootprintUnit>("footprint", clock, p.footprint)
+                    ? std::make_unique<FootprintUnit>("footprint_unit", clock, p.footprint)
                     : nullptr),
-      axis(footprint
-               ? nullptr
-               : std::make_unique<AxisUnit>("axis", clock, p.axes, p.footprint, p.axis_cycles)),
-      log2("log2", clock, p.log2),
-      level("level", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
-      walker("walker", clock, p.count, p.kernel, p.spread),
-      addresser("addresser", clock, descriptors.for_texels),
+      axis(footprint ? nullptr
+                     : std::make_unique<AxisUnit>("axis_unit", clock, p.axes, p.footprint,
+                                                  p.axis_cycles)),
+      log2("log2_unit", clock, p.log2),
+      level("level_unit", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
+      walker("sample_walker", clock, p.count, p.kernel, p.spread),
+      addresser("texel_addresser", clock, descriptors.for_texels),
       footprints_("footprints", 2, footprint_shape(p)),
       logs_("logs", 2, axis_shape(p)),
       levels_("levels", 2, axis_shape(p)) {

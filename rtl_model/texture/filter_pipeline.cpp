@@ -42,7 +42,8 @@ constexpr unsigned kToByte = 20, kToLight = 16;
 }  // namespace
 
 FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::texture::Configuration& configuration, LatencyProbe& probe)
+                               const spec::texture::Configuration& configuration,
+                               LatencyProbe& probe)
     : Unit(name, clock),
       occupancy{Counter{"stage_1", "clk", "cycles in which stage 1, fields, had a request"},
                 Counter{"stage_2", "clk", "cycles in which stage 2, unpack, had a request"},

@@ -18,9 +18,9 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const StandIns& stand_ins)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
-      address("address", clock, parameters_, control, descriptors_, probe_),
-      cache("cache", clock, parameters_, control),
-      filter("filter", clock, parameters_, probe_) {
+      address("address_unit", clock, parameters_, control, descriptors_, probe_),
+      cache("texture_cache", clock, parameters_, control),
+      filter("filter_pipeline", clock, parameters_, probe_) {
   uses(cache.memory_port);
   address.quads_in(quads_in);
   address.texels_out(texels_);

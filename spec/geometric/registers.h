@@ -87,7 +87,7 @@ namespace status {
 inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame under way", {}, 1};
 inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
 inline constexpr Field kRejected{"refused", 2, 2, Access::kWriteOneToClear,
-                                "a start was rejected, see REJECTION"};
+                                 "a start was rejected, see REJECTION"};
 inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
                                     "memory answered with an error"};
 inline constexpr Field kWrittenWhileBusy{
@@ -124,7 +124,7 @@ inline constexpr Field kLinearLight{"linear_light", 23, 23, Access::kReadWrite,
 inline constexpr std::array kFields = {kSelect,    kCrease, kDepthTest,   kCombine,
                                        kDepthBias, kMark,   kLayout,      kFrameCopy,
                                        kCoverage,  kCull,   kCreaseDepth, kLinearLight};
-}  // namespace rules
+}  // namespace configuration
 namespace line_base {
 inline constexpr Field kAddress = kLineAddress;
 inline constexpr std::array kFields = {kAddress};
@@ -152,7 +152,8 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
-    {reg::kConfiguration, "RULES", "The rules of the frame, and where it lies.", reg::configuration::kFields},
+    {reg::kConfiguration, "CONFIG", "The rules of the frame, and where it lies.",
+     reg::configuration::kFields},
     {reg::kEdgeCount, "EDGE_COUNT", "Records of the edge table, 0..2^24.", kNumber},
     {reg::kVertexCount, "VERTEX_COUNT", "Vertices, 0..2^24.", kNumber},
     {reg::kFaceCount, "FACE_COUNT", "Facing bits, 0..face_limit.", kNumber},
@@ -209,16 +210,19 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
 }};
 static_assert(fields_are_in_order(kRegisters));
 
-// RULES of a build after a reset.
+// CONFIG of a build after a reset.
 constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace configuration = reg::configuration;
   return configuration::kSelect.in(code(p.select)) | configuration::kCrease.in(code(p.crease)) |
-         configuration::kDepthTest.in(code(p.depth_test)) | configuration::kCombine.in(code(p.combine)) |
-         configuration::kLinearLight.in(code(p.linear_light)) | configuration::kDepthBias.in(code(p.depth_bias)) |
-         configuration::kMark.in(code(p.mark)) | configuration::kLayout.in(code(p.layout)) |
-         configuration::kFrameCopy.in(code(p.frame_copy)) | configuration::kCoverage.in(code(p.coverage)) |
-         configuration::kCull.in(code(p.cull)) | configuration::kCreaseDepth.in(code(p.crease_depth));
+         configuration::kDepthTest.in(code(p.depth_test)) |
+         configuration::kCombine.in(code(p.combine)) |
+         configuration::kLinearLight.in(code(p.linear_light)) |
+         configuration::kDepthBias.in(code(p.depth_bias)) | configuration::kMark.in(code(p.mark)) |
+         configuration::kLayout.in(code(p.layout)) |
+         configuration::kFrameCopy.in(code(p.frame_copy)) |
+         configuration::kCoverage.in(code(p.coverage)) | configuration::kCull.in(code(p.cull)) |
+         configuration::kCreaseDepth.in(code(p.crease_depth));
 }
 // What a reset loads from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {

@@ -157,7 +157,8 @@ struct Work {
   std::uint64_t divides = 0;          // records that have a line and a side
   std::uint64_t blended_pixels = 0;   // pixels with a weight of a neighbour
   std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its weights from a diagonal
-  std::uint64_t bypassed_pixels = 0;  // would have taken a weight, took none by `leave` or `text_guard`
+  std::uint64_t bypassed_pixels =
+      0;  // would have taken a weight, took none by `leave` or `text_guard`
   friend bool operator==(const Work&, const Work&) = default;
 };
 

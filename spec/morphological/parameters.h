@@ -77,7 +77,7 @@ inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "
 // edge (a mask). A pixel is marked if bit 0 of its alpha is 0.
 enum class Bypass : std::uint8_t { kNone, kMarked, kBeside, kHalf, kMasked };
 inline constexpr std::array<std::string_view, 5> kBypassNames = {"none", "marked", "beside", "half",
-                                                                "masked"};
+                                                                 "masked"};
 
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
 inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
@@ -150,7 +150,7 @@ struct Configuration {
   bool round_corners = false;
   std::int32_t corner_rounding = 64;
   BlendRule blend = BlendRule::kLongest;
-  Bypass leave = Bypass::kNone;
+  Bypass bypass = Bypass::kNone;
   bool text_guard = false;
   bool linear_light = true;
   std::int32_t window_rows = 66;
@@ -159,14 +159,14 @@ struct Configuration {
 
 // What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
 // threshold: edges of luma, but only where depth has one, and none of what was blended. The preset
-// is the one that nothing else was named for: learned weights were not learned for what geometry has
-// left over.
+// is the one that nothing else was named for: learned weights were not learned for what geometry
+// has left over.
 struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
   std::int32_t threshold_on_depth_edge = 501330;  // U8.16: 0.03 of 255
   std::int32_t threshold_off_depth_edge = kMaxThreshold;
-  Bypass leave = Bypass::kMasked;
+  Bypass bypass = Bypass::kMasked;
 };
 
 // Build choices: what changes cycles and cost, and no pixel. Runs that differ in these alone weight
@@ -260,7 +260,7 @@ void describe(Configuration& p, Visitor& v) {
            "Axis of a pixel and its weights: the longer line's, or the stronger weight's with "
            "weights in proportion to their squares (SMAA).");
   v.choice(
-      "leave", p.leave, kBypassNames,
+      "bypass", p.bypass, kBypassNames,
       "Pixels that take no weight: none, those that the geometric engine marked (bit 0 of alpha "
       "is 0), or these and the four beside each; half: marked ones, and others take half of "
       "a marked one's weight; masked: marked ones, which make no edge either. Other than none, it "

@@ -102,7 +102,7 @@ inline constexpr Field kRoundCorners{"round_corners", 21, 21, Access::kReadWrite
 inline constexpr Field kStrongest{"blend", 22, 22, Access::kReadWrite, {}, kBlendRuleNames};
 inline constexpr Field kLearned{"area_learned", 23, 23, Access::kReadWrite,
                                 "1: areas are learned, where the ROMs are built"};
-inline constexpr Field kBypass{"leave", 26, 24, Access::kReadWrite, {}, kBypassNames};
+inline constexpr Field kBypass{"bypass", 26, 24, Access::kReadWrite, {}, kBypassNames};
 inline constexpr Field kBorder{
     "border", 27, 27, Access::kReadWrite, "end where clamp is not built", kBorderNames};
 inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
@@ -110,8 +110,8 @@ inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
 inline constexpr std::array kFields = {
     kSource,    kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,     kContiguous,
     kSafe,      kLinearLight,   kTrim,        kCrossings,     kTable,     kDiagonals, kRoundCorners,
-    kStrongest, kLearned,       kBypass,       kBorder,        kTextGuard};
-}  // namespace rules
+    kStrongest, kLearned,       kBypass,      kBorder,        kTextGuard};
+}  // namespace configuration
 namespace threshold {
 inline constexpr Field kValue{"value", kThresholdBits - 1, 0, Access::kReadWrite, "codes, U8.16"};
 inline constexpr std::array kFields = {kValue};
@@ -143,7 +143,7 @@ inline constexpr std::array kFields = {kEntry};
 }  // namespace weights_address
 namespace weights_data {
 inline constexpr Field kWeight{"weight", 7,           0, Access::kShared, "S3.4; a reset leaves it",
-                              {},      std::nullopt};
+                               {},       std::nullopt};
 inline constexpr std::array kFields = {kWeight};
 }  // namespace weights_data
 namespace weights_sum {
@@ -166,7 +166,8 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
-    {reg::kConfiguration, "RULES", "The rules of the frame. Blocks that are not built count as off.",
+    {reg::kConfiguration, "CONFIG",
+     "The rules of the frame. Blocks that are not built count as off.",
      reg::configuration::kFields},
     {reg::kThreshold, "THRESHOLD", "T.", reg::threshold::kFields},
     {reg::kThresholdOn, "THRESHOLD_ON", "T of predicated edges where depth has an edge.",
@@ -194,15 +195,16 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kFrameCycles, "FRAME_CYCLES",
      "Cycles from the first input beat to the last output beat of the last frame, both counted.",
      kCounter},
-    {reg::kDescriptorStalls, "DESCRIPTOR_STALLS", "Cycles in which the slot waited for records.", kCounter},
+    {reg::kDescriptorStalls, "DESCRIPTOR_STALLS", "Cycles in which the slot waited for records.",
+     kCounter},
     {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
     {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge took its weights from a diagonal.",
      kCounter},
     {reg::kBypassedPixels, "BYPASSED_PIXELS",
      "Pixels that would have taken a weight and took none, by the rules leave and text_guard.",
      kCounter},
-    {reg::kWeightsAddress, "WEIGHTS_ADDRESS", "Entry of the learned weights that WEIGHTS_DATA names.",
-     reg::weights_address::kFields},
+    {reg::kWeightsAddress, "WEIGHTS_ADDRESS",
+     "Entry of the learned weights that WEIGHTS_DATA names.", reg::weights_address::kFields},
     {reg::kWeightsData, "WEIGHTS_DATA", "The entry; a write moves WEIGHTS_ADDRESS on by one.",
      reg::weights_data::kFields},
     {reg::kWeightsSum, "WEIGHTS_SUM",
@@ -211,22 +213,25 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
 }};
 static_assert(fields_are_in_order(kRegisters));
 
-// RULES and SMAA of a build after a reset.
+// CONFIG and SMAA of a build after a reset.
 constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace configuration = reg::configuration;
   const bool learned = p.area == AreaSource::kLearned;
   const bool table = p.area != AreaSource::kAnalytic && !learned;
-  return configuration::kSource.in(code(p.edge_source)) | configuration::kThresholdMode.in(code(p.threshold_mode)) |
+  return configuration::kSource.in(code(p.edge_source)) |
+         configuration::kThresholdMode.in(code(p.threshold_mode)) |
          configuration::kDynamicLuma.in(code(p.dynamic_luma)) |
          configuration::kLocalContrast.in(code(p.local_contrast)) |
          configuration::kPredictor.in(code(p.predictor)) | configuration::kSteps.in(code(p.steps)) |
          configuration::kContiguous.in(code(p.contiguous)) | configuration::kSafe.in(code(p.safe)) |
-         configuration::kLinearLight.in(code(p.linear_light)) | configuration::kTrim.in(code(p.trim)) |
-         configuration::kCrossings.in(code(p.ends)) | configuration::kTable.in(code(table)) |
-         configuration::kLearned.in(code(learned)) | configuration::kDiagonals.in(code(p.diagonals)) |
-         configuration::kRoundCorners.in(code(p.round_corners)) | configuration::kStrongest.in(code(p.blend)) |
-         configuration::kBypass.in(code(p.leave)) | configuration::kBorder.in(code(p.border)) |
+         configuration::kLinearLight.in(code(p.linear_light)) |
+         configuration::kTrim.in(code(p.trim)) | configuration::kCrossings.in(code(p.ends)) |
+         configuration::kTable.in(code(table)) | configuration::kLearned.in(code(learned)) |
+         configuration::kDiagonals.in(code(p.diagonals)) |
+         configuration::kRoundCorners.in(code(p.round_corners)) |
+         configuration::kStrongest.in(code(p.blend)) | configuration::kBypass.in(code(p.bypass)) |
+         configuration::kBorder.in(code(p.border)) |
          configuration::kTextGuard.in(code(p.text_guard));
 }
 constexpr std::uint32_t smaa_word(const Parameters& p) {

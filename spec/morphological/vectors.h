@@ -581,7 +581,8 @@ inline constexpr std::array<RunVector, 6> kRunVectors = {{
     {{0, 5, 11, 16}, 4, 0, {4, 32, 776723, 22118, 2, 16}, "b100 b52 b9/a4 a43 a90"},
 }};
 
-// ---- SMAA: weights of every edge -----------------------------------------------------------------
+// ---- SMAA: weights of every edge
+// -----------------------------------------------------------------
 
 struct PatternResult {
   std::uint64_t hash = 0, diagonal_pixels = 0;
@@ -596,8 +597,9 @@ struct PatternResult {
 struct PatternVector {
   std::string_view name;
   Quality quality;
-  std::string_view rows;    // a digit a pixel, 0 black and 1 white; a space between two rows
-  std::string_view weights;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
+  std::string_view rows;  // a digit a pixel, 0 black and 1 white; a space between two rows
+  std::string_view
+      weights;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
   PatternResult result;
 };
 

@@ -67,7 +67,7 @@ inline constexpr Field kSrgbOutput{"srgb_output", 12, 12, Access::kConstant, {},
 inline constexpr Field kSpread{"spread", 23, 16, Access::kConstant, "U2.6 of the major axis"};
 inline constexpr std::array kFields = {kFootprint, kLog2,   kAxes,       kCount,
                                        kCountCap,  kKernel, kSrgbOutput, kSpread};
-}  // namespace rules
+}  // namespace configuration
 namespace size {
 inline constexpr Field kWidth{"width", 15, 0, Access::kReadWrite, "texels"};
 inline constexpr Field kHeight{"height", 31, 16, Access::kReadWrite, "texels"};
@@ -110,7 +110,7 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
-    {reg::kConfiguration, "RULES", "The variant built.", reg::configuration::kFields},
+    {reg::kConfiguration, "CONFIG", "The variant built.", reg::configuration::kFields},
     {reg::kFragments, "FRAGMENTS", "Colours delivered.", kCounter},
     {reg::kBilinears, "BILINEARS", "Bilinear requests sent to the cache.", kCounter},
     {reg::kLineFills, "LINE_FILLS", "Cache lines requested.", kCounter},
@@ -134,14 +134,16 @@ inline constexpr std::array<RegisterInfo, 4> kDescriptorRegisters = {{
 }};
 static_assert(fields_are_in_order(kDescriptorRegisters));
 
-// RULES of a build.
+// CONFIG of a build.
 constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace configuration = reg::configuration;
   return configuration::kFootprint.in(code(p.footprint)) | configuration::kLog2.in(code(p.log2)) |
          configuration::kAxes.in(code(p.axes)) | configuration::kCount.in(code(p.count)) |
-         configuration::kCountCap.in(code(p.count_cap)) | configuration::kKernel.in(code(p.kernel)) |
-         configuration::kSrgbOutput.in(code(p.srgb_output)) | configuration::kSpread.in(code(p.spread));
+         configuration::kCountCap.in(code(p.count_cap)) |
+         configuration::kKernel.in(code(p.kernel)) |
+         configuration::kSrgbOutput.in(code(p.srgb_output)) |
+         configuration::kSpread.in(code(p.spread));
 }
 // What a build has of its parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {

@@ -21,8 +21,8 @@
 #include "tb/run/progress.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/scenes.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/scenes.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/line_fans.h"
 
@@ -42,7 +42,7 @@ using tb::stimuli::FanFigures;
 using tb::stimuli::FanOptions;
 using tb::stimuli::FanRow;
 
-constexpr int kPaperLoops = 4;    // "all results use 4"
+constexpr int kPaperLoops = 4;        // "all results use 4"
 constexpr int kReferenceSamples = 8;  // each way, of a pixel
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
@@ -628,7 +628,8 @@ Compared rendered_scenes(const PaperOptions& options) {
     const std::vector<Method> list = methods(scene, lit.noaa, true);
     std::vector<Scores> scores;
     for (const Method& m : list) {
-      scores.push_back({psnr(m.image, lit.reference, edges), psnr(m.image, lit.reference, silhouettes)});
+      scores.push_back(
+          {psnr(m.image, lit.reference, edges), psnr(m.image, lit.reference, silhouettes)});
       waiting.update();
     }
     for (std::size_t i = 0; i < list.size(); ++i)
@@ -683,7 +684,8 @@ PaperTable held_out(const PaperOptions& options) {
     std::vector<Scores> scores;
     const auto add = [&](const Image& image) {
       waiting.update();
-      scores.push_back({psnr(image, frame.reference, edges), psnr(image, frame.reference, silhouettes)});
+      scores.push_back(
+          {psnr(image, frame.reference, edges), psnr(image, frame.reference, silhouettes)});
       cells.push_back(std::isnan(scores.back().silhouettes)
                           ? decimals(scores.back().edges, 2)
                           : fmt::format("{} / {}", decimals(scores.back().edges, 2),

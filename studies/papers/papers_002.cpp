@@ -450,7 +450,8 @@ Compared pictures(const PaperOptions& options) {
   Compared compared;
   compared.table = {
       "Figures 3 to 6: rendered models against supersampled reference",
-      "PSNR in dB on edge pixels (reference and frame differ by more than 2/255) and on silhouettes "
+      "PSNR in dB on edge pixels (reference and frame differ by more than 2/255) and on "
+      "silhouettes "
       "(with a step of depth of 5 %). The paper says that selection saves time; it improves "
       "quality, too, since an inner line blends pixels that belong to a silhouette. gpaa draws "
       "every edge, as the method's demonstration of 2011 does; prefiltered, boundaries and creases "
@@ -507,7 +508,8 @@ Compared pictures(const PaperOptions& options) {
       std::replace(file.begin(), file.end(), ' ', '_');
       figure.images.push_back({file, method.name, "", method.image, false});
     }
-    figure.images.push_back({name + "_reference", "reference", "supersampled", checker.reference, false});
+    figure.images.push_back(
+        {name + "_reference", "reference", "supersampled", checker.reference, false});
     compared.figures.push_back(std::move(figure));
     waiting.update();
   }

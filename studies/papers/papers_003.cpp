@@ -25,8 +25,8 @@
 #include "tb/engines/morphological/morphological_frames.h"
 #include "tb/run/progress.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/scenes.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/scenes.h"
 #include "tb/stimuli/discs.h"
 #include "tb/stimuli/frames.h"
 #include "tb/stimuli/line_fans.h"
@@ -319,7 +319,8 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
 PaperTable matrix_of_frames(const PaperOptions& options) {
   PaperTable table{
       "Quality matrix: frames",
-      "PSNR in dB against supersampled reference over edge pixels; last the means over all frames: on "
+      "PSNR in dB against supersampled reference over edge pixels; last the means over all frames: "
+      "on "
       "edges, on silhouettes (where a frame has any), edge pixels in %. Textured frames are "
       "tunnel and plane.",
       {"rules"},

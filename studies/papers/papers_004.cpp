@@ -454,12 +454,12 @@ PaperTable over_roll(const PaperOptions& options) {
     return p;
   };
   const Rule configuration[] = {{"trilinear", papers_configuration(), 0},
-                        {"the paper", papers_configuration()},
-                        {"two, ceil", own(Axes::kTwo, CountRule::kCeil)},
-                        {"four, floor", own(Axes::kFour, CountRule::kFloor)},
-                        {"four, ceil", own(Axes::kFour, CountRule::kCeil)},
-                        {"four, any (preset deburr)", own(Axes::kFour, CountRule::kAny)},
-                        {"eight, any", own(Axes::kEight, CountRule::kAny)}};
+                                {"the paper", papers_configuration()},
+                                {"two, ceil", own(Axes::kTwo, CountRule::kCeil)},
+                                {"four, floor", own(Axes::kFour, CountRule::kFloor)},
+                                {"four, ceil", own(Axes::kFour, CountRule::kCeil)},
+                                {"four, any (preset deburr)", own(Axes::kFour, CountRule::kAny)},
+                                {"eight, any", own(Axes::kEight, CountRule::kAny)}};
   // Rules were chosen by looking at the first of these alone.
   constexpr const char* kTextures[] = {"stones", "checker", "road", "brick"};
   const int size = std::min(options.size, 192);
@@ -506,8 +506,8 @@ PaperTable over_roll(const PaperOptions& options) {
           ideal::pixel_footprints(scene.stream().quads, texture.image.width, texture.image.height),
           24);
       for (std::size_t r = 0; r < std::size(configuration); ++r) {
-        gold::TextureGolden golden =
-            tb::make_golden(scene, configuration[r].parameters, gold::TextureGolden::Traffic::kPredict);
+        gold::TextureGolden golden = tb::make_golden(scene, configuration[r].parameters,
+                                                     gold::TextureGolden::Traffic::kPredict);
         spec::texture::Descriptor descriptor = golden.texture(0);
         descriptor.max_anisotropy_log2 = static_cast<std::uint8_t>(configuration[r].lb_n_max);
         golden.set_texture(0, descriptor);

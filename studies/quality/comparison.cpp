@@ -86,7 +86,8 @@ Image drawn(const Frame& frame, const GeometricConfiguration& configuration) {
   return tb::geometric::smoothed(frame, configuration).image;
 }
 
-Image smoothed(const Frame& frame, const Image& image, const MorphologicalConfiguration& configuration) {
+Image smoothed(const Frame& frame, const Image& image,
+               const MorphologicalConfiguration& configuration) {
   golden::morphological::MorphologicalGolden golden(
       configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image result = image;
@@ -138,7 +139,8 @@ ComparisonCost cost_of(const GeometricConfiguration& configuration, const Frame&
       });
 }
 
-ComparisonCost cost_of(const MorphologicalConfiguration& configuration, const tb::MorphologicalInput& input) {
+ComparisonCost cost_of(const MorphologicalConfiguration& configuration,
+                       const tb::MorphologicalInput& input) {
   const bool depth = configuration.edge_source == spec::morphological::EdgeSource::kDepth ||
                      configuration.edge_source == spec::morphological::EdgeSource::kPredicated;
   return cost_of(

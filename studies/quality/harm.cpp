@@ -20,8 +20,8 @@
 #include "tb/scene/flip.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/ssim.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/ssim.h"
 #include "tb/stimuli/reference_filters.h"
 
 namespace deburr::studies::harm {
@@ -174,7 +174,8 @@ std::string textured_table(std::span<const Filter> filters) {
   return text;
 }
 
-// ---- frames with reference --------------------------------------------------------------------------
+// ---- frames with reference
+// --------------------------------------------------------------------------
 
 struct Pair {
   Image frame, reference;
@@ -280,8 +281,8 @@ std::string difference(double decibels) {
   return text == "-0.00" ? "0.00" : text;
 }
 
-// Of frames with reference: PSNR over edges and over the frame with the guard less that without it, of
-// each preset that of the frame that loses most; and the largest share of guarded pixels.
+// Of frames with reference: PSNR over edges and over the frame with the guard less that without it,
+// of each preset that of the frame that loses most; and the largest share of guarded pixels.
 std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
                              std::span<const Filter> filters) {
   double guarded = 0;
@@ -292,8 +293,8 @@ std::string worst_with_guard(const std::string& name, std::span<const Pair> pair
     const std::vector<Image> smoothed = smoothed_by(filters, pair.frame);
     for (std::size_t i = 0; i < worst.size(); ++i) {
       const Image &without = smoothed[2 * i], &with = smoothed[2 * i + 1];
-      worst[i].first = std::min(worst[i].first,
-                                psnr(with, pair.reference, edges) - psnr(without, pair.reference, edges));
+      worst[i].first = std::min(
+          worst[i].first, psnr(with, pair.reference, edges) - psnr(without, pair.reference, edges));
       worst[i].second =
           std::min(worst[i].second, psnr(with, pair.reference) - psnr(without, pair.reference));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What smoothing does to what is right: tables of docs/measurements/morphological_harm.md. And what
-// FLIP and SSIM say of frames with reference: of docs/measurements/morphological_quality.md. One part
-// of each is of frames by formula, which every clone has; the other of frames that others made
+// FLIP and SSIM say of frames with reference: of docs/measurements/morphological_quality.md. One
+// part of each is of frames by formula, which every clone has; the other of frames that others made
 // (DEBURR_DATA).
 #pragma once
 

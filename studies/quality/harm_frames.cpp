@@ -20,8 +20,8 @@
 #include "tb/scene/convolution.h"
 #include "tb/scene/image_io.h"
 #include "tb/scene/label.h"
-#include "tb/scene/textures.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/textures.h"
 #include "tb/stimuli/frames.h"
 
 namespace deburr::studies::harm {

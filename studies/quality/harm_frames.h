@@ -37,8 +37,8 @@ tb::Image text_page(Text kind, int width, int height);
 // The aliased page's letters over the landscape.
 tb::Image text_over_scene(int width, int height);
 
-// Straight wires of two flat colours, 40 pixels apart, one sample a pixel; the reference is the mean of
-// 8 x 8 samples in linear light. `thickness` is in pixels across the wire.
+// Straight wires of two flat colours, 40 pixels apart, one sample a pixel; the reference is the
+// mean of 8 x 8 samples in linear light. `thickness` is in pixels across the wire.
 Textured wires(double thickness, double degrees, int width, int height);
 
 // Tiles and figures in sixteen colours, each pixel of it `size` pixels wide.

@@ -43,7 +43,8 @@ struct Turn {
 
 struct FilterFigures {
   double psnr = 0;  // dB against the supersampled parallelogram, R, G and B
-  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the reference.
+  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the
+  // reference.
   double detail = 0;
   double samples = 0;  // a fragment
   double bilinears = 0;

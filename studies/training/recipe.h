@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "golden/morphological/learned_weights.h"
-#include "studies/training/weight_trainer.h"
 #include "studies/training/training_frames.h"
+#include "studies/training/weight_trainer.h"
 
 namespace deburr::studies::training {
 

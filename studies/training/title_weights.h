@@ -45,7 +45,8 @@ struct TitleWeights {
 tb::Image smoothed(const tb::Image& frame, const golden::morphological::WeightTables& tables);
 
 // Of several pairs every second one is kept back, of one pair the right half. ConfigError for no
-// pair, sizes that differ or are too small, a frame without an edge, and a reference that is the frame.
+// pair, sizes that differ or are too small, a frame without an edge, and a reference that is the
+// frame.
 TitleWeights train_title(const std::vector<TitlePair>& pairs, const TitleOptions& options);
 
 }  // namespace deburr::studies::training

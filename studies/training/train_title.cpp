@@ -36,9 +36,9 @@ std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet)
   const std::vector<std::string> frames = tb::listed_files("--in", options.in),
                                  references = tb::listed_files("--truth", options.reference);
   if (frames.size() != references.size())
-    throw spec::ConfigError(
-        fmt::format("--in names {} frames and --truth {}: expected a reference a frame, in one order",
-                    frames.size(), references.size()));
+    throw spec::ConfigError(fmt::format(
+        "--in names {} frames and --truth {}: expected a reference a frame, in one order",
+        frames.size(), references.size()));
   std::vector<TitlePair> pairs;
   const auto read = [&](const std::string& file) {
     tb::ReadReport report;

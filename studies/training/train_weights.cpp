@@ -26,8 +26,8 @@
 #include "golden/morphological/morphological_golden.h"
 #include "spec/error.h"
 #include "studies/training/recipe.h"
-#include "studies/training/weight_trainer.h"
 #include "studies/training/training_frames.h"
+#include "studies/training/weight_trainer.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
 #include "tb/scene/quality.h"
@@ -84,7 +84,8 @@ std::string_view name_of(Preset preset) {
 
 // A table with a row a frame: the other methods, then deburr with these tables.
 void report(const std::string& title, const std::vector<const ReferenceFrame*>& frames,
-            const std::function<const WeightTables&(const ReferenceFrame&)>& tables_of, bool brief) {
+            const std::function<const WeightTables&(const ReferenceFrame&)>& tables_of,
+            bool brief) {
   std::string head = fmt::format("\n{}\n\n| frame | none |", title), line = "|---|---|";
   for (const Preset preset : kOthers) {
     head += fmt::format(" {} |", name_of(preset));
@@ -148,8 +149,9 @@ double changed_beside_text(const Overlaid& text, const Image& image) {
 }
 
 void report_text(const std::vector<const ReferenceFrame*>& frames, const WeightTables& tables) {
-  std::cout << "\nPixels beside text that is the same in frame and reference: changed by more than 2 "
-               "codes, %; PSNR over edges of all\n\n| frame |";
+  std::cout
+      << "\nPixels beside text that is the same in frame and reference: changed by more than 2 "
+         "codes, %; PSNR over edges of all\n\n| frame |";
   for (const Preset preset : kOthers) std::cout << ' ' << name_of(preset) << " |";
   std::cout << " deburr |\n|---|---|---|---|---|---|\n";
   for (const ReferenceFrame* frame : frames) {
@@ -169,7 +171,7 @@ void report_text(const std::vector<const ReferenceFrame*>& frames, const WeightT
 using Samples = std::map<std::string, std::vector<WeightSample>>;
 
 WeightTables trained(const std::vector<const ReferenceFrame*>& frames, const Samples& samples,
-                    const Recipe& recipe) {
+                     const Recipe& recipe) {
   std::vector<std::vector<WeightSample>> chosen;
   chosen.reserve(frames.size());
   for (const ReferenceFrame* frame : frames) chosen.push_back(samples.at(frame->name));
@@ -306,7 +308,8 @@ int run(int argc, char** argv) {
   report_text({others.begin(), others.begin() + std::min<std::ptrdiff_t>(8, std::ssize(others))},
               tables);
   report(
-      "Held out", others, [&](const ReferenceFrame&) -> const WeightTables& { return tables; }, false);
+      "Held out", others, [&](const ReferenceFrame&) -> const WeightTables& { return tables; },
+      false);
   if (folds < 2) return 0;
   // Every group is measured with tables that were trained on the groups of the other folds.
   const auto fold_of = [&](const ReferenceFrame& frame) {

@@ -46,7 +46,8 @@ class Renderer {
   enum class Reference : std::uint8_t { kAll, kEdges };
 
   FrameSource source(const std::string& name, const std::string& group,
-                     const std::function<tb::Scene()>& make, Reference reference = Reference::kAll) const {
+                     const std::function<tb::Scene()>& make,
+                     Reference reference = Reference::kAll) const {
     return {name, group,
             [options = options_, name, group, make, reference] {
               return rendered(options, name, group, make, reference);
@@ -71,19 +72,20 @@ class Renderer {
 
  private:
   static ReferenceFrame rendered(const FrameOptions& options, const std::string& name,
-                             const std::string& group, const std::function<tb::Scene()>& make,
-                             Reference reference) {
+                                 const std::string& group, const std::function<tb::Scene()>& make,
+                                 Reference reference) {
     const std::filesystem::path kept =
         options.cache / fmt::format("{}_{}.frames", name, options.samples);
     const int size = options.size;
     ReferenceFrame frame{name, group, tb::Image(size, size), tb::Image(size, size),
-                     tb::DepthImage(size, size)};
+                         tb::DepthImage(size, size)};
     if (read(options, kept, frame)) return frame;
     const tb::Scene scene = make();
-    tb::LitFrames lit =
-        tb::render_lit_frames(scene, size, size, reference == Reference::kAll ? options.samples : 1);
-    frame.reference = reference == Reference::kAll ? std::move(lit.reference)
-                                       : tb::render_covered(scene, size, size, options.samples);
+    tb::LitFrames lit = tb::render_lit_frames(scene, size, size,
+                                              reference == Reference::kAll ? options.samples : 1);
+    frame.reference = reference == Reference::kAll
+                          ? std::move(lit.reference)
+                          : tb::render_covered(scene, size, size, options.samples);
     frame.frame = std::move(lit.noaa);
     frame.depth = std::move(lit.depth);
     write(options, kept, frame);
@@ -167,8 +169,8 @@ void add_shapes(std::vector<FrameSource>& frames, const FrameOptions& options,
   }
 }
 
-// Of the kinds with textures some come with a reference, too, in which the textures stay as they are:
-// that teaches to leave them.
+// Of the kinds with textures some come with a reference, too, in which the textures stay as they
+// are: that teaches to leave them.
 void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& options,
                          std::uint64_t first_seed, int seeds, int views, int kept_textures) {
   const Renderer renderer(options);
@@ -181,7 +183,8 @@ void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& o
         const std::string name = fmt::format("{}_{}", group, view);
         frames.push_back(renderer.source(name, group, make));
         if (i < kept_textures && (kind == "room" || kind == "signs"))
-          frames.push_back(renderer.source(name + "_edges", group, make, Renderer::Reference::kEdges));
+          frames.push_back(
+              renderer.source(name + "_edges", group, make, Renderer::Reference::kEdges));
       }
     }
   }

@@ -657,8 +657,8 @@ tb::Image pattern(Random& random, int kind, int size) {
         }
         default:  // slabs
           weight = u < cell / 16 + 1 || v < cell / 16 + 1
-                      ? 1
-                      : 0.4 * board[static_cast<std::size_t>(i * 11 + j * 5) % 64];
+                       ? 1
+                       : 0.4 * board[static_cast<std::size_t>(i * 11 + j * 5) % 64];
       }
       const double noise = shade.uniform(-grain, grain);
       tb::Rgba8& pixel = image.at(x, y);

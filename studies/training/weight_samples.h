@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a frame teaches about learned weights: for each pixel beside an edge its colours, its reference,
-// and where its four weights come from.
+// What a frame teaches about learned weights: for each pixel beside an edge its colours, its
+// reference, and where its four weights come from.
 //
 // From the golden model's own records, so that the features are the engine's
 // (docs/reference/morphological/learned_weights.md, "Indices").
@@ -35,7 +35,7 @@ struct WeightSample {
   std::array<golden::morphological::WeightIndices, 4> indices{};
   std::array<Source, 4> source{};
   std::array<std::uint8_t, 4> weight{};  // U0.8, of kLine
-  std::int8_t longer = 0;               // 1: the pair up and down has the longer line, -1 the other
+  std::int8_t longer = 0;  // 1: the pair up and down has the longer line, -1 the other
   std::array<std::uint8_t, 3> own{}, reference{};
   std::array<std::array<std::uint8_t, 3>, 4> neighbour{};
 };

@@ -171,7 +171,7 @@ WeightTables first_guess() {
   for (int i = 0; i < static_cast<int>(kA); ++i) {
     const double weight =
         analytic_weight(i >> 8, i >> 6 & 3, kDistances[static_cast<std::size_t>(i >> 3 & 7)],
-                       kDistances[static_cast<std::size_t>(i & 7)]);
+                        kDistances[static_cast<std::size_t>(i & 7)]);
     tables.of_codes[static_cast<std::size_t>(i)] =
         static_cast<std::int8_t>(std::lround(kUnit * tb::logarithm(weight / (1 - weight))));
   }
@@ -179,7 +179,7 @@ WeightTables first_guess() {
 }
 
 WeightTables train(const std::vector<std::vector<WeightSample>>& frames, const Recipe& recipe,
-                  const WeightTables& start, const std::function<void(int)>& batch_done) {
+                   const WeightTables& start, const std::function<void(int)>& batch_done) {
   DEBURR_CHECK(!frames.empty(), "no frames to learn from");
   const Encoding encoding;
   const Pixel pixel(encoding, recipe);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Learns the contents of the ROMs of learned weights: stochastic descent (Adam) on the squared error
-// of the codes that the engine's blend gives.
+// Learns the contents of the ROMs of learned weights: stochastic descent (Adam) on the squared
+// error of the codes that the engine's blend gives.
 //
 // Differentiable stand-ins: weights and sums are real numbers; the axis is chosen by
-// sigmoid(20 x difference of the sums of weights); the error of a pixel is the mean of the errors of
-// both axes by that. Every frame counts the same: its pixels weigh one over its mean error before
-// training. The same frames, recipe and seed give the same tables, on every machine.
+// sigmoid(20 x difference of the sums of weights); the error of a pixel is the mean of the errors
+// of both axes by that. Every frame counts the same: its pixels weigh one over its mean error
+// before training. The same frames, recipe and seed give the same tables, on every machine.
 #pragma once
 
 #include <cstdint>

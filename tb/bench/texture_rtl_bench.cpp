@@ -162,7 +162,8 @@ struct System {
   platform::TextureDriver driver{host, memory};
 
   // The first call says by which rules.
-  static System& only(const spec::texture::Parameters& parameters = stimuli::paper_configuration()) {
+  static System& only(
+      const spec::texture::Parameters& parameters = stimuli::paper_configuration()) {
     static System system(parameters);
     return system;
   }
@@ -265,8 +266,8 @@ int main(int argc, char** argv) {
     std::string name = argv[2];
     const bool own_configuration = name.starts_with(kPreset);
     if (own_configuration) name.erase(0, kPreset.size());
-    System& system =
-        System::only(own_configuration ? deburr::spec::texture::Parameters{} : stimuli::paper_configuration());
+    System& system = System::only(own_configuration ? deburr::spec::texture::Parameters{}
+                                                    : stimuli::paper_configuration());
     for (std::size_t i = 0; i < kWorkloads.size(); ++i)
       if (name == kWorkloads[i]) system.start(static_cast<Workload>(i));
     const std::uint64_t before = system.bilinears();

@@ -45,7 +45,7 @@ void Environment::drain_memory() const {
 // ---- faults -------------------------------------------------------------------------------------
 
 void Environment::inject_in(platform::MemoryModel& memory,
-                           const MemoryParameters& parameters) const {
+                            const MemoryParameters& parameters) const {
   if (injected("lost-response")) memory.lose_request(kFaultyRequest);
   if (injected("memory-error")) memory.fail_request(kFaultyRequest);
   if (const auto range = error_range(parameters)) memory.fail_range(range->from, range->to);

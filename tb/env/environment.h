@@ -138,7 +138,9 @@ class Environment {
   void know(std::vector<InjectedFault> faults) {
     simulation_.faults().know(name_, std::move(faults));
   }
-  bool injected(std::string_view fault) const { return simulation_.faults().injected(name_, fault); }
+  bool injected(std::string_view fault) const {
+    return simulation_.faults().injected(name_, fault);
+  }
   // memory_faults(), and the range of `error_address`.
   void inject_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
   // `blind-NAME` for each scoreboard of this run: it compares nothing, which is no pass.

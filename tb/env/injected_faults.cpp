@@ -24,7 +24,8 @@ bool FaultPlan::names(std::string_view given, std::string_view environment, std:
 }
 
 void FaultPlan::know(std::string_view environment, std::vector<InjectedFault> faults) {
-  for (InjectedFault& fault : faults) known_.push_back({std::string(environment), std::move(fault)});
+  for (InjectedFault& fault : faults)
+    known_.push_back({std::string(environment), std::move(fault)});
 }
 
 bool FaultPlan::injected(std::string_view environment, std::string_view name) const {

@@ -120,10 +120,11 @@ void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame)
 }
 
 void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before) {
-  result.work.push_back({"flicker", after.mean(), "1/255",
-                         "Root mean square of what a pixel changes from frame to frame more or "
-                         "less than its reference (without a reference: than what went in), in runs of "
-                         "several frames (sequence.frames, lists)."});
+  result.work.push_back(
+      {"flicker", after.mean(), "1/255",
+       "Root mean square of what a pixel changes from frame to frame more or "
+       "less than its reference (without a reference: than what went in), in runs of "
+       "several frames (sequence.frames, lists)."});
   result.work.push_back(
       {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
   const bool flickers = after.worst() > 0;

@@ -21,8 +21,8 @@
 #include "rtl_model/fabric/clock_domain.h"
 #include "tb/env/injected_faults.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/timeline.h"
 #include "tb/harness/interval_recorder.h"
+#include "tb/harness/timeline.h"
 #include "tb/run/result.h"
 
 namespace deburr::tb {
@@ -49,8 +49,8 @@ struct SimulationOptions {
   std::string trace_file, trace_scope;  // empty: none
   rtl::Cycle trace_from = 0, trace_to = 2000;
   rtl::Cycle interval_cycles = 0;  // 0: no windows
-  bool maps = false;             // pixel by pixel, what was done
-  bool coverage = false;         // bins of functional coverage, with their hits
+  bool maps = false;               // pixel by pixel, what was done
+  bool coverage = false;           // bins of functional coverage, with their hits
   std::optional<TimelineOptions> timeline;
   std::optional<PixelAddress> pixel;  // whose history is kept
 };

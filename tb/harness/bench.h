@@ -45,8 +45,8 @@ class Bench {
   Bench(rtl::ClockDomain& clock, const BenchOptions& options = {});
 
   // Until `done`, at most `limit` cycles; OutOfCycles if it is not done by then. Then the links
-  // must be empty (unless `drained` is false), the accounts right, and every injected fault reached.
-  // Returns the cycles it took.
+  // must be empty (unless `drained` is false), the accounts right, and every injected fault
+  // reached. Returns the cycles it took.
   rtl::Cycle run(const std::function<bool()>& done, rtl::Cycle limit, bool drained = true);
 
   const LinkChecker* links() const { return checker_.get(); }

@@ -15,8 +15,9 @@
 
 namespace deburr::tb {
 
-// "units.filter.busy = 12", in an order that two engines share. `more_registers` are offsets beside
-// those of the engine's table. Reads over the bus, so it changes nothing that a driver could see.
+// "units.filter_pipeline.busy = 12", in an order that two engines share. `more_registers` are
+// offsets beside those of the engine's table. Reads over the bus, so it changes nothing that a
+// driver could see.
 std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers = {});
 

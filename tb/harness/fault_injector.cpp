@@ -113,9 +113,10 @@ std::size_t FaultInjector::fired() const {
 void FaultInjector::check_fired() const {
   for (const Injected& injected : injected_)
     if (!injected.fired)
-      throw spec::SimulationError(fmt::format(
-          "the fault injected on {} at {} was never reached: the run was too short to show anything",
-          injected.fault.link, injected.fault.at));
+      throw spec::SimulationError(
+          fmt::format("the fault injected on {} at {} was never reached: the run was too short to "
+                      "show anything",
+                      injected.fault.link, injected.fault.at));
 }
 
 }  // namespace deburr::tb

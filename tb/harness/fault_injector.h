@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Injected faults on named links, to show that the checks can fail. A fault acts between two cycles,
-// on a beat that has been pushed and that the consumer has not seen.
+// Injected faults on named links, to show that the checks can fail. A fault acts between two
+// cycles, on a beat that has been pushed and that the consumer has not seen.
 #pragma once
 
 #include <cstdint>

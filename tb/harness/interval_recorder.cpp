@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Puts a value where its dotted key says: "units.filter.busy".
+// Puts a value where its dotted key says: "units.filter_pipeline.busy".
 void put(Json& root, const std::string& key, Json value) {
   Json* node = &root;
   std::size_t from = 0;
@@ -38,7 +38,8 @@ IntervalRecorder::IntervalRecorder(rtl::ClockDomain& clock, const IntervalOption
 
 // ---- what is watched ----------------------------------------------------------------------------
 
-void IntervalRecorder::add(std::string key, std::string unit, std::function<std::uint64_t()> total) {
+void IntervalRecorder::add(std::string key, std::string unit,
+                           std::function<std::uint64_t()> total) {
   counted_.push_back({{std::move(key), std::move(unit), false, {}}, std::move(total)});
 }
 
@@ -47,7 +48,7 @@ void IntervalRecorder::add_largest(std::string key, std::string unit, std::uint6
 }
 
 void IntervalRecorder::see(const std::string& name, const rtl::Unit& unit,
-                         const std::vector<std::string>& activities) {
+                           const std::vector<std::string>& activities) {
   rtl::check_owned(clock_, unit);
   // Several codes may count as the same.
   std::vector<std::string> keys;

@@ -83,10 +83,13 @@ void append_requests(const spec::texture::Parameters& configuration, const Descr
     };
     const gold::Footprint footprint =
         gold::footprint(configuration.axes, configuration.footprint, texels(d_x), texels(d_y));
-    const gold::AxisLogarithms logs = gold::axis_logarithms(configuration.axes, configuration.log2, footprint);
+    const gold::AxisLogarithms logs =
+        gold::axis_logarithms(configuration.axes, configuration.log2, footprint);
     const gold::LevelOfDetail lod = gold::select_level(configuration, d, logs.d_max, logs.d_min);
-    const gold::Step axis = gold::candidate_in_coordinates(configuration.axes, footprint.major, d_x, d_y);
-    const std::int32_t spread = gold::spread_of(configuration.kernel, lod.samples, configuration.spread);
+    const gold::Step axis =
+        gold::candidate_in_coordinates(configuration.axes, footprint.major, d_x, d_y);
+    const std::int32_t spread =
+        gold::spread_of(configuration.kernel, lod.samples, configuration.spread);
     const auto place = lod.linear ? gold::linear_position : gold::nearest_position;
     for (int i = 0; i < lod.samples; ++i)
       for (int of_two = 0; of_two < lod.requests_per_sample(); ++of_two) {
@@ -132,7 +135,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   const spec::texture::Parameters parameters = hdl::parameters_of(settings);
   rtl::ClockDomain clock("clock", period());
   rtl::Link<Quad> quads_of_model("quads_of_model"), quads_of_counterpart("quads_of_counterpart");
-  rtl::Link<hw::TexelToken> texels_of_model("texels_of_model"), texels_of_counterpart("texels_of_counterpart");
+  rtl::Link<hw::TexelToken> texels_of_model("texels_of_model"),
+      texels_of_counterpart("texels_of_counterpart");
   Store store(clock);
   rtl::LatencyProbe probe;
   std::vector<Quad> quads;
@@ -148,8 +152,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   sink_of_model.keep(false);
   sink_of_counterpart.keep(false);
   hdl::LinkComparison<Quad> before_it("before_it", clock, quads_of_model, quads_of_counterpart);
-  hdl::LinkComparison<hw::TexelToken> behind_it("behind_it", clock, texels_of_model, texels_of_counterpart,
-                                                what_counts);
+  hdl::LinkComparison<hw::TexelToken> behind_it("behind_it", clock, texels_of_model,
+                                                texels_of_counterpart, what_counts);
   std::vector<const rtl::LinkBase*> links;
   for (const char* name : {"derivatives", "footprints", "logs", "levels", "samples"})
     rtl::for_each<rtl::LinkBase>(model, [&](rtl::LinkBase& link) {
@@ -157,7 +161,9 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     });
   EXPECT_EQ(links.size(), 5u);
   hdl::InnerLinks inside("inside", clock, links);
-  counterpart.on_clock = [&](Model& says) { inside.counterpart_does(says.link_push, says.link_pop); };
+  counterpart.on_clock = [&](Model& says) {
+    inside.counterpart_does(says.link_push, says.link_pop);
+  };
   source_of_model.beats_out(quads_of_model);
   model.quads_in(quads_of_model);
   model.texels_out(texels_of_model);
@@ -184,7 +190,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
         payload.difference(reinterpret_cast<const std::byte*>(&wanted[number]),
                            reinterpret_cast<const std::byte*>(&normal));
     if (!difference.empty() && result.golden_differ++ == 0)
-      result.first += "golden/counterpart request " + std::to_string(number) + ": " + difference + "; ";
+      result.first +=
+          "golden/counterpart request " + std::to_string(number) + ": " + difference + "; ";
   };
 
   Random random(seed);
@@ -260,7 +267,9 @@ TEST(CounterpartAddressUnit, Quarter) { expect_equal_unit<VAddressQuarter>(hdl::
 TEST(CounterpartAddressUnit, Capped) { expect_equal_unit<VAddressCapped>(hdl::kVAddressCapped); }
 TEST(CounterpartAddressUnit, Max) { expect_equal_unit<VAddressMax>(hdl::kVAddressMax); }
 TEST(CounterpartAddressUnit, Tent) { expect_equal_unit<VAddressTent>(hdl::kVAddressTent); }
-TEST(CounterpartAddressUnit, FourInTwo) { expect_equal_unit<VAddressFourInTwo>(hdl::kVAddressFourInTwo); }
+TEST(CounterpartAddressUnit, FourInTwo) {
+  expect_equal_unit<VAddressFourInTwo>(hdl::kVAddressFourInTwo);
+}
 TEST(CounterpartAddressUnit, Eight) { expect_equal_unit<VAddressEight>(hdl::kVAddressEight); }
 TEST(CounterpartAddressUnit, EightInTwo) {
   expect_equal_unit<VAddressEightInTwo>(hdl::kVAddressEightInTwo);

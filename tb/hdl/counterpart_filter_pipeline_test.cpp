@@ -51,7 +51,8 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   rtl::ClockDomain clock("clock", period());
   rtl::Link<hw::TexelQuadToken> texels_of_model("texels_of_model"),
       texels_of_counterpart("texels_of_counterpart");
-  rtl::Link<Colour> colours_of_model("colours_of_model"), colours_of_counterpart("colours_of_counterpart");
+  rtl::Link<Colour> colours_of_model("colours_of_model"),
+      colours_of_counterpart("colours_of_counterpart");
   rtl::LatencyProbe probe;
   const EndOptions before = hdl::stalled({permille, seed}),
                    after = hdl::stalled({permille, seed + 1000});
@@ -68,7 +69,8 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   sink_of_counterpart.keep(false);
   hdl::LinkComparison<hw::TexelQuadToken> before_it("before_it", clock, texels_of_model,
                                                     texels_of_counterpart);
-  hdl::LinkComparison<Colour> behind_it("behind_it", clock, colours_of_model, colours_of_counterpart);
+  hdl::LinkComparison<Colour> behind_it("behind_it", clock, colours_of_model,
+                                        colours_of_counterpart);
   source_of_model.beats_out(texels_of_model);
   model.texels_in(texels_of_model);
   model.colours_out(colours_of_model);
@@ -104,7 +106,9 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   sent = work.tokens;
   const std::uint64_t wanted = work.colours.size();
   result.finished = clock.run_until(
-      [&] { return sink_of_model.received() >= wanted && sink_of_counterpart.received() >= wanted; },
+      [&] {
+        return sink_of_model.received() >= wanted && sink_of_counterpart.received() >= wanted;
+      },
       20 * work.tokens.size() + 10'000);
   clock.run(100);  // none too many
   result.finished &= sink_of_counterpart.received() == wanted;
@@ -130,7 +134,9 @@ void expect_equal_unit(const char* settings, std::uint32_t permille = 300) {
 TEST(CounterpartFilterPipeline, Paper) { expect_equal_unit<VFilterPaper>(hdl::kVFilterPaper); }
 TEST(CounterpartFilterPipeline, Deburr) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr); }
 TEST(CounterpartFilterPipeline, Tent) { expect_equal_unit<VFilterTent>(hdl::kVFilterTent); }
-TEST(CounterpartFilterPipeline, Encoded) { expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded); }
+TEST(CounterpartFilterPipeline, Encoded) {
+  expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded);
+}
 TEST(CounterpartFilterPipeline, EncodedPaper) {
   expect_equal_unit<VFilterEncodedPaper>(hdl::kVFilterEncodedPaper);
 }

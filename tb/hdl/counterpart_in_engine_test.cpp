@@ -78,7 +78,8 @@ Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, 
             const std::vector<std::string>& units, std::uint32_t stall_permille) {
   return forked<Outcome>([&] {
     TextureRunOptions mine = options;
-    mine.stand_ins = texture_counterparts(units, as_built(mine.texture, memory_cycles(mine)), mine.seed);
+    mine.stand_ins =
+        texture_counterparts(units, as_built(mine.texture, memory_cycles(mine)), mine.seed);
     const TextureScene scene(picture("plane", side), sampler, 1);
     Simulation simulation(mine);
     TextureEnvironment environment(simulation, scene, mine);

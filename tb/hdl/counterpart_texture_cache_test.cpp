@@ -158,12 +158,14 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   parameters.cache_fifo_depth = hw::LatencyFifo::depth(parameters, {});
   rtl::ClockDomain clock("clock", period());
   Store store(clock);
-  rtl::Link<TexelToken> texels_of_model("texels_of_model"), texels_of_counterpart("texels_of_counterpart");
-  rtl::Link<TexelQuadToken> quads_of_model("quads_of_model"), quads_of_counterpart("quads_of_counterpart");
+  rtl::Link<TexelToken> texels_of_model("texels_of_model"),
+      texels_of_counterpart("texels_of_counterpart");
+  rtl::Link<TexelQuadToken> quads_of_model("quads_of_model"),
+      quads_of_counterpart("quads_of_counterpart");
   rtl::Link<rtl::MemoryRequest> requests_of_counterpart("requests_of_counterpart", 2,
-                                                 hdl::memory_request_shape(parameters));
+                                                        hdl::memory_request_shape(parameters));
   rtl::Link<rtl::MemoryResponse> responses_of_counterpart("responses_of_counterpart", 2,
-                                                   hdl::memory_response_shape(parameters));
+                                                          hdl::memory_response_shape(parameters));
   std::vector<TexelToken> requests;
   const EndOptions before = stalled({permille, seed}), after = stalled({permille, seed + 1000});
   Driver<TexelToken> source_of_model("source_of_model", clock, before),
@@ -172,7 +174,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     source->send(hdl::those_of(requests));
   hw::TextureCache model("model", clock, parameters, store.control);
   hdl::VerilatedCache<Model> counterpart("counterpart", clock, seed, parameters);
-  rtl::MemoryPort port_of_counterpart("port_of_counterpart", clock, hdl::memory_port_of(parameters));
+  rtl::MemoryPort port_of_counterpart("port_of_counterpart", clock,
+                                      hdl::memory_port_of(parameters));
   Sink<TexelQuadToken> sink_of_model("sink_of_model", clock, after),
       sink_of_counterpart("sink_of_counterpart", clock, after);
   sink_of_model.keep(false);
@@ -227,10 +230,13 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     return result;
   }
   hdl::InnerLinks inside("inside", clock, links);
-  counterpart.on_clock = [&](Model& says) { inside.counterpart_does(says.link_push, says.link_pop); };
-  hdl::LinkComparison<TexelToken> before_it("before_it", clock, texels_of_model, texels_of_counterpart);
-  hdl::LinkComparison<TexelQuadToken> behind_it("behind_it", clock, quads_of_model, quads_of_counterpart,
-                                                what_counts);
+  counterpart.on_clock = [&](Model& says) {
+    inside.counterpart_does(says.link_push, says.link_pop);
+  };
+  hdl::LinkComparison<TexelToken> before_it("before_it", clock, texels_of_model,
+                                            texels_of_counterpart);
+  hdl::LinkComparison<TexelQuadToken> behind_it("behind_it", clock, quads_of_model,
+                                                quads_of_counterpart, what_counts);
   hdl::LinkComparison<rtl::MemoryRequest> asked("asked", clock, *requests_of_model,
                                                 requests_of_counterpart);
   hdl::LinkComparison<rtl::MemoryResponse> answered("answered", clock, *responses_of_model,
@@ -250,7 +256,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     const std::string difference = payload.difference(reinterpret_cast<const std::byte*>(&wanted),
                                                       reinterpret_cast<const std::byte*>(&normal));
     if (!difference.empty() && result.memory_differs++ == 0)
-      result.first += "memory/counterpart request " + std::to_string(number) + ": " + difference + "; ";
+      result.first +=
+          "memory/counterpart request " + std::to_string(number) + ": " + difference + "; ";
   };
 
   Random random(seed);
@@ -281,7 +288,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     }
     const bool finished = clock.run_until(
         [&] {
-          return (sink_of_model.received() >= of_batch && sink_of_counterpart.received() >= of_batch) ||
+          return (sink_of_model.received() >= of_batch &&
+                  sink_of_counterpart.received() >= of_batch) ||
                  differing_cycles() != 0;
         },
         400 * of_batch);
@@ -343,11 +351,15 @@ TEST(CounterpartTextureCache, Small) { expect_equal_unit<VCacheSmall>(hdl::kVCac
 TEST(CounterpartTextureCache, SmallFree) {
   expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000, 0, {.latency = 1});
 }
-TEST(CounterpartTextureCache, Direct) { expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000); }
+TEST(CounterpartTextureCache, Direct) {
+  expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000);
+}
 TEST(CounterpartTextureCache, DirectFree) {
   expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000, 0, {.latency = 1});
 }
-TEST(CounterpartTextureCache, Random) { expect_equal_unit<VCacheRandom>(hdl::kVCacheRandom, 200'000); }
+TEST(CounterpartTextureCache, Random) {
+  expect_equal_unit<VCacheRandom>(hdl::kVCacheRandom, 200'000);
+}
 TEST(CounterpartTextureCache, Large) { expect_equal_unit<VCacheLarge>(hdl::kVCacheLarge, 200'000); }
 
 // ---- injected faults in the SystemVerilog, each seen

@@ -11,8 +11,8 @@
 
 #include "rtl_model/texture/texture_unit.h"
 #include "spec/texture/registers.h"
-#include "tb/engines/texture/texture_setup.h"
 #include "tb/engines/texture/texture_counterparts.h"
+#include "tb/engines/texture/texture_setup.h"
 #include "tb/hdl/adapter.h"
 #include "tb/hdl/settings.h"
 #include "tb/hdl/verilated_cache.h"
@@ -152,10 +152,10 @@ class FilterInEngine final
 template <class InEngine>
 void add_counterpart(const char* unit, const char* settings) {
   add_texture_counterpart({unit, as_built(parameters_of(settings), {}),
-                    [](rtl::texture::TextureUnit& around, rtl::LatencyProbe& probe,
-                       std::uint64_t seed) -> std::unique_ptr<sc_core::sc_module> {
-                      return std::make_unique<InEngine>(around, probe, seed);
-                    }});
+                           [](rtl::texture::TextureUnit& around, rtl::LatencyProbe& probe,
+                              std::uint64_t seed) -> std::unique_ptr<sc_core::sc_module> {
+                             return std::make_unique<InEngine>(around, probe, seed);
+                           }});
 }
 template <class Model>
 void add_address_unit(const char* settings) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A unit of the SystemC model and its counterpart of hdl/ beside each other: the same beats, the same
-// stalls at both ends, and in every clock the question whether both did the same.
+// A unit of the SystemC model and its counterpart of hdl/ beside each other: the same beats, the
+// same stalls at both ends, and in every clock the question whether both did the same.
 #pragma once
 
 #include <algorithm>
@@ -68,8 +68,8 @@ class LinkComparison final : public rtl::Unit {
     if (model_.pushes() != counterpart_.pushes() || model_.pops() != counterpart_.pops()) {
       if (cycles_++ == 0)
         note(cycle, "pushes " + std::to_string(model_.pushes()) + "/" +
-                        std::to_string(counterpart_.pushes()) + ", pops " + std::to_string(model_.pops()) +
-                        "/" + std::to_string(counterpart_.pops()));
+                        std::to_string(counterpart_.pushes()) + ", pops " +
+                        std::to_string(model_.pops()) + "/" + std::to_string(counterpart_.pops()));
     }
     // A beat stays where it is until its place is filled again, a clock after its pop at the
     // earliest.
@@ -85,7 +85,8 @@ class LinkComparison final : public rtl::Unit {
     std::memcpy(static_cast<void*>(&counterpart), counterpart_.beat(beats_), sizeof(T));
     if (normal_) model = normal_(model), counterpart = normal_(counterpart);
     const std::string difference = static_cast<const rtl::LinkBase&>(model_).payload().difference(
-        reinterpret_cast<const std::byte*>(&model), reinterpret_cast<const std::byte*>(&counterpart));
+        reinterpret_cast<const std::byte*>(&model),
+        reinterpret_cast<const std::byte*>(&counterpart));
     if (!difference.empty() && payloads_++ == 0)
       note(cycle, "beat " + std::to_string(beats_) + ": " + difference);
   }
@@ -100,8 +101,8 @@ class LinkComparison final : public rtl::Unit {
   std::string first_;
 };
 
-// The links inside of a unit and of its counterpart: the cycles in which one of them had a push or a pop
-// and its counterpart had not. The counterpart says what its links do by a bit each.
+// The links inside of a unit and of its counterpart: the cycles in which one of them had a push or
+// a pop and its counterpart had not. The counterpart says what its links do by a bit each.
 class InnerLinks final : public rtl::Unit {
  public:
   InnerLinks(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,

@@ -160,26 +160,28 @@ TEST_F(Mesa, MipModesAgree) {
   };
   // The goal is for the rules that compute the same level of detail. `half` is up to 0.16 above it,
   // which costs more than 35 dB allows on noise: a floor for these, the number is in the docs.
-  const std::array<Configuration, 3> configuration = {Configuration{"exact, exact", exact_configuration(), 0.05, 35.0},
-                                      Configuration{"half, segments", segments_configuration(), 0.2, 30.0},
-                                      Configuration{"half, mitchell", papers_configuration(), 0.2, 30.0}};
+  const std::array<Configuration, 3> configuration = {
+      Configuration{"exact, exact", exact_configuration(), 0.05, 35.0},
+      Configuration{"half, segments", segments_configuration(), 0.2, 30.0},
+      Configuration{"half, mitchell", papers_configuration(), 0.2, 30.0}};
   for (const MinFilter filter : {MinFilter::kNearestMipmapNearest, MinFilter::kLinearMipmapNearest,
                                  MinFilter::kNearestMipmapLinear, MinFilter::kLinearMipmapLinear}) {
     for (const bool with_quads : {true, false}) {
       std::array<Agreement, 3> all, kept;
-      draw_all(filter, Pattern::kPyramid, with_quads,
-               [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
-                   const spec::texture::Descriptor& state, const Pixels& mesa) {
-                 for (std::size_t r = 0; r < configuration.size(); ++r) {
-                   const Pixels ours =
-                       filter_image(image, golden_filter(configuration[r].parameters)(texture, state));
-                   for (std::size_t i = 0; i < ours.size(); ++i) {
-                     all[r].add(ours[i], mesa[i]);
-                     if (!at_threshold(fragment_at(image, i), size, filter, configuration[r].margin))
-                       kept[r].add(ours[i], mesa[i]);
-                   }
-                 }
-               });
+      draw_all(
+          filter, Pattern::kPyramid, with_quads,
+          [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
+              const spec::texture::Descriptor& state, const Pixels& mesa) {
+            for (std::size_t r = 0; r < configuration.size(); ++r) {
+              const Pixels ours =
+                  filter_image(image, golden_filter(configuration[r].parameters)(texture, state));
+              for (std::size_t i = 0; i < ours.size(); ++i) {
+                all[r].add(ours[i], mesa[i]);
+                if (!at_threshold(fragment_at(image, i), size, filter, configuration[r].margin))
+                  kept[r].add(ours[i], mesa[i]);
+              }
+            }
+          });
       for (std::size_t r = 0; r < configuration.size(); ++r) {
         std::printf(
             "%s, %s, %s: %.1f dB over %.0f pixels away from thresholds, %.1f dB over all\n",
@@ -248,7 +250,8 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
       state.max_anisotropy_log2 = lb_n;
       const Pixels mesa = device_->draw(image, texture, state);
       const Pixels ours = filter_image(image, golden_filter(ceil)(texture, state));
-      paper[lb_n] = rms(filter_image(image, golden_filter(papers_configuration())(texture, state)), reference);
+      paper[lb_n] = rms(filter_image(image, golden_filter(papers_configuration())(texture, state)),
+                        reference);
       ceiling[lb_n] = rms(ours, reference);
       theirs[lb_n] = rms(mesa, reference);
       Agreement agreement;
@@ -288,7 +291,8 @@ TEST_F(Mesa, PlantedFaultsAreSeen) {
            [&](const CoordinateImage& image, const EncodedTexture& texture, const Size& size,
                spec::texture::Descriptor state, const Pixels& mesa) {
              state.lod_bias = 128;  // half a level
-             const Pixels ours = filter_image(image, golden_filter(exact_configuration())(texture, state));
+             const Pixels ours =
+                 filter_image(image, golden_filter(exact_configuration())(texture, state));
              for (std::size_t i = 0; i < ours.size(); ++i)
                if (!at_threshold(fragment_at(image, i), size, state.min_filter, 0.05))
                  level.add(ours[i], mesa[i]);

@@ -34,7 +34,7 @@ constexpr double kBoundOfExtendedLines = 0.8;
 constexpr double kBoundOfTwoTriangles = 1.07;
 
 double weight_of(spec::morphological::Side side, const spec::morphological::LineDescriptor& line,
-                const CutAreas& areas) {
+                 const CutAreas& areas) {
   const double sum =
       (line.before == side ? areas.before : 0) + (line.after == side ? areas.after : 0);
   return 256 * std::min(0.5, sum);
@@ -103,9 +103,11 @@ TEST(MorphologicalArea, OfTheEndsOfLongRunsIsWithinTheBound) {
          {spec::morphological::RunPart::kHead, spec::morphological::RunPart::kTail}) {
       const bool tail = part == spec::morphological::RunPart::kTail;
       for (int code = 0; code < 4; ++code) {
-        spec::morphological::RunDescriptor run = whole_run(search_range / 2, tail ? 4 * code : code);
+        spec::morphological::RunDescriptor run =
+            whole_run(search_range / 2, tail ? 4 * code : code);
         run.part = part;
-        worst.look(line_through(p, run, {}), golden::ideal::long_end(search_range, tail, search_range / 2));
+        worst.look(line_through(p, run, {}),
+                   golden::ideal::long_end(search_range, tail, search_range / 2));
       }
     }
   }
@@ -151,8 +153,9 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
     const spec::morphological::RunDescriptor descriptor = whole_run(run.length, 9);  // Z
     fit.look(line_through(with(spec::morphological::Predictor::kFit), descriptor, run.prediction),
              golden::ideal::fitted(run.corners));
-    chord.look(line_through(with(spec::morphological::Predictor::kChord), descriptor, run.prediction),
-               golden::ideal::chord(run.corners));
+    chord.look(
+        line_through(with(spec::morphological::Predictor::kChord), descriptor, run.prediction),
+        golden::ideal::chord(run.corners));
   }
   std::cout << "worst error: fit " << fit.single << " / 256, chord " << chord.single << " / 256\n";
   EXPECT_LT(fit.single, kBoundOfExtendedLines);

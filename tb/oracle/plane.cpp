@@ -79,7 +79,7 @@ Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter) {
 }
 
 std::vector<golden::ideal::Rgba> plane_reference(const PlaneView& view,
-                                             const golden::ideal::Texture& texture, int n) {
+                                                 const golden::ideal::Texture& texture, int n) {
   golden::ideal::Sampler sampler;
   sampler.min_filter = spec::texture::MinFilter::kLinear;
   std::vector<golden::ideal::Rgba> reference;

@@ -42,7 +42,7 @@ Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);
 
 // What the plane's pixels show when n x n points of each are averaged over bilinear level 0.
 std::vector<golden::ideal::Rgba> plane_reference(const PlaneView& view,
-                                             const golden::ideal::Texture& texture, int n);
+                                                 const golden::ideal::Texture& texture, int n);
 // Root mean square difference over R, G and B, 8-bit steps.
 double rms(const Pixels& pixels, const std::vector<golden::ideal::Rgba>& reference);
 

@@ -226,7 +226,9 @@ double difference(const SmaaWeights& a, const SmaaWeights& b) {
   return 255 * std::max(std::abs(std::min(1.0, a.first) - std::min(1.0, b.first)),
                         std::abs(std::min(1.0, a.second) - std::min(1.0, b.second)));
 }
-SmaaWeights weights_of(EdgeWeights weights) { return {weights.first / 256.0, weights.second / 256.0}; }
+SmaaWeights weights_of(EdgeWeights weights) {
+  return {weights.first / 256.0, weights.second / 256.0};
+}
 SmaaWeights weights_of(const std::array<float, 4>& texel, bool top) {
   return top ? SmaaWeights{texel[1], texel[0]} : SmaaWeights{texel[3], texel[2]};
 }
@@ -382,7 +384,8 @@ TEST_F(PublishedShader, HasTheseWeightsAtOtherSizesByEveryQuality) {
   expect_weights_at_other_sizes(kSmaaQualities);
 }
 
-// ---- injected faults -----------------------------------------------------------------------------
+// ---- injected faults
+// -----------------------------------------------------------------------------
 
 TEST_F(PublishedShader, IsNotOfAnotherThreshold) {
   const std::vector<Image> frames = smaa_frames();

@@ -24,7 +24,7 @@ struct PictureMap {
 
   // What the values must come to by a count that the model made by itself.
   struct Account {
-    std::string of;  // "work.walker_samples", or what it is
+    std::string of;  // "work.sample_walker_samples", or what it is
     double counted = 0, mapped = 0;
   };
   std::optional<Account> account{};

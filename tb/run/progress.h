@@ -53,7 +53,8 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
-// Work of which nobody knows how much is left, such as a reference that is rendered: how long it takes.
+// Work of which nobody knows how much is left, such as a reference that is rendered: how long it
+// takes.
 class Waiting {
  public:
   explicit Waiting(std::string label, bool quiet = false);

@@ -201,8 +201,8 @@ namespace {
 constexpr std::string_view kDownstream = "downstream";
 // A unit that waits for records waits for one of those that finish them.
 constexpr std::string_view kRecords = "records";
-constexpr std::array<std::string_view, 5> kFinishRecords = {"predictor_h", "predictor_v",
-                                                            "divider_h", "divider_v", "area"};
+constexpr std::array<std::string_view, 5> kFinishRecords = {
+    "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area"};
 // Shares of a unit's cycles: below the first, a stall is no bottleneck; within the second, two
 // units are equally busy.
 constexpr double kNegligible = 0.01, kTie = 0.001;

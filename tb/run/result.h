@@ -75,8 +75,8 @@ struct Latency {
   std::vector<LatencyBin> histogram;
 };
 
-// Against a picture taken as reference, with the picture that went in beside it; a value that does not
-// exist (no edge pixels) is absent, and one of identical pictures is infinite.
+// Against a picture taken as reference, with the picture that went in beside it; a value that does
+// not exist (no edge pixels) is absent, and one of identical pictures is infinite.
 struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
@@ -108,7 +108,7 @@ struct MemoryFigures {
   // Logical bits for frames of the width that this run had, where the size goes with the width.
   std::uint64_t logical_bits_at_frame_width = 0;
   std::optional<std::uint64_t> high_water;  // most words in a clock, of a FIFO
-  std::string not_implementable;                    // why no technology offers it; empty: it can be built
+  std::string not_implementable;            // why no technology offers it; empty: it can be built
 };
 
 // A link or a FIFO: cycles by the number of beats inside, from 0 to its depth.

@@ -184,9 +184,10 @@ void describe(const Change& c, Visitor& v) {
   v.value("over_2_percent", c.small_percent, "%",
           "Pixels that differ from what went in by more than 2 codes in R, G or B.");
   v.value("over_16_percent", c.large_percent, "%", "The same by more than 16 codes.");
-  v.value("right_over_2_percent", c.right_small_percent, "%",
-          "Of the pixels that were right before, within 2 codes of the reference: those that differ "
-          "from what went in by more than 2 codes; null without a reference.");
+  v.value(
+      "right_over_2_percent", c.right_small_percent, "%",
+      "Of the pixels that were right before, within 2 codes of the reference: those that differ "
+      "from what went in by more than 2 codes; null without a reference.");
   v.value("right_over_16_percent", c.right_large_percent, "%", "The same by more than 16 codes.");
   const std::vector<PsnrFigure> figures = psnr_figures(c);
   for (const PsnrFigure& psnr : figures) v.value(psnr.name, psnr.finite(), "dB", psnr.meaning);
@@ -283,7 +284,8 @@ void describe(const Result& r, Visitor& v) {
             "Their logical bits for the width of this frame.");
   });
   std::vector<MemoryFigures> not_implementable = r.memories;
-  std::erase_if(not_implementable, [](const MemoryFigures& m) { return m.not_implementable.empty(); });
+  std::erase_if(not_implementable,
+                [](const MemoryFigures& m) { return m.not_implementable.empty(); });
   if (v.has(!not_implementable.empty()))
     v.each("idealised", not_implementable, &MemoryFigures::name, [&](const MemoryFigures& m) {
       v.item(m.not_implementable, "",

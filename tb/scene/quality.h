@@ -28,8 +28,8 @@ double psnr(const Image& a, const Image& b);
 double psnr(const Image& a, const Image& b, const Mask& mask);
 double psnr_from_mse(double mse);
 
-// Mean square over R, G and B of what two pictures in a row change more or less than their references
-// do, in units of 1/255; NaN: mask is empty.
+// Mean square over R, G and B of what two pictures in a row change more or less than their
+// references do, in units of 1/255; NaN: mask is empty.
 double flicker_square(const Image& before, const Image& after, const Image& reference_before,
                       const Image& reference_after, const Mask& mask);
 

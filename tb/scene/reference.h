@@ -62,7 +62,7 @@ Image light(const Scene& scene, const GBuffer& buffer);
 
 // The set that morphological anti-aliasing is measured on, as data/README.md describes it.
 struct LitFrames {
-  Image noaa;   // one sample at the pixel centre
+  Image noaa;       // one sample at the pixel centre
   Image reference;  // N x N samples, averaged in linear light
   DepthImage depth;
 };

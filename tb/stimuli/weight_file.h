@@ -22,7 +22,7 @@ std::uint32_t sum_of(const golden::morphological::WeightTables& tables);
 
 // Each note becomes a comment, a line each.
 std::string weight_file_text(const golden::morphological::WeightTables& tables,
-                            const std::vector<std::string>& notes);
+                             const std::vector<std::string>& notes);
 
 // FileError that names file, line and what was expected. `name` is what errors call it.
 golden::morphological::WeightTables parse_weight_file(std::string_view name, std::string_view text);

@@ -288,10 +288,10 @@ std::vector<MorphologicalInput> marked_frames() {
 TEST(BypassCoverage, EveryBinIsHit) {
   using spec::morphological::Bypass;
   Coverage all = declared();
-  for (const Bypass leave : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf}) {
+  for (const Bypass bypass : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf}) {
     spec::morphological::Parameters p = preset(Preset::kDeburrLine);
     p.line_pixels = 512;
-    p.leave = leave;
+    p.bypass = bypass;
     run(all, p, marked_frames());
   }
   const Coverage coverage = part_of(all, kBypass);
@@ -329,7 +329,7 @@ TEST(TextCoverage, EveryBinIsHit) {
   Coverage all = declared();
   spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.line_pixels = 512;
-  p.leave = spec::morphological::Bypass::kMarked;
+  p.bypass = spec::morphological::Bypass::kMarked;
   p.text_guard = true;
   run(all, p, frames);
   const Coverage coverage = part_of(all, kText);
@@ -344,7 +344,8 @@ TEST(TextCoverage, WithoutTheGuardNothingIsHit) {
   EXPECT_EQ(coverage.holes().size(), coverage.size());
 }
 
-// ---- learned weights -----------------------------------------------------------------------------
+// ---- learned weights
+// -----------------------------------------------------------------------------
 
 TEST(WeightsCoverage, EveryClassIsMet) {
   Coverage all = declared();

@@ -13,8 +13,8 @@
 #include "tb/base/random.h"
 #include "tb/engines/morphological/morphological_environment.h"
 #include "tb/engines/morphological/morphological_frames.h"
-#include "tb/scene/scenes.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/scenes.h"
 
 namespace deburr::tb::morphological_system {
 

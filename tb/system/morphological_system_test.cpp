@@ -305,7 +305,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   p.search_columns = 4 + below(80);
   p.line_pixels = 400;
   p.storage = static_cast<spec::morphological::Storage>(below(2));
-  p.leave = static_cast<spec::morphological::Bypass>(below(5));
+  p.bypass = static_cast<spec::morphological::Bypass>(below(5));
   if (p.edge_source == spec::morphological::EdgeSource::kColour)
     p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   if (p.area == spec::morphological::AreaSource::kLearned) p.diagonals = p.round_corners = false;
@@ -345,13 +345,13 @@ MorphologicalInput marked(MorphologicalInput frame, std::uint64_t seed) {
 }
 
 TEST_P(MarkedFrames, AreIdenticalToGolden) {
-  const auto [which, lanes, leave] = GetParam();
+  const auto [which, lanes, bypass] = GetParam();
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
   p = preset(which, lanes);
-  p.leave = leave;
+  p.bypass = bypass;
   p.line_pixels = 512;
-  if (leave == spec::morphological::Bypass::kBeside)
+  if (bypass == spec::morphological::Bypass::kBeside)
     p.storage = spec::morphological::Storage::kMemory;
   options.records = true;
   expect_identical({marked(blocks(133, 90, 5), 1), marked(fans(15, 2), 2), marked(noise(67, 50), 3),

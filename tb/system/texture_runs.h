@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "golden/texture/texture_golden.h"
+#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/engines/texture/texture_environment.h"
 #include "tb/engines/texture/texture_scene.h"
-#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/stimuli/texture_quads.h"
 
 namespace deburr::tb {

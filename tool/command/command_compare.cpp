@@ -292,8 +292,8 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   Outcome outcome;
   if (comparison.at("worse").get<bool>()) {
     outcome.code = static_cast<int>(spec::ExitCode::kMismatch);
-    outcome.text =
-        fmt::format("FAIL worse: {}{}", fmt::join(what_is_worse(comparison), ", "), not_implementable);
+    outcome.text = fmt::format("FAIL worse: {}{}", fmt::join(what_is_worse(comparison), ", "),
+                               not_implementable);
   } else {
     outcome.text = "PASS compare: nothing is worse by more than its tolerance" + not_implementable;
   }

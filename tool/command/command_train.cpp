@@ -17,7 +17,8 @@ void add_train(CLI::App& app, CommandLine& line, TrainAction action) {
       ->add_option("--in", options->in, "Frames without anti-aliasing: a file, a list, a pattern")
       ->required()
       ->type_name("FILE");
-  command->add_option("--truth", options->reference, "The same with supersampling, in the same order")
+  command
+      ->add_option("--truth", options->reference, "The same with supersampling, in the same order")
       ->required()
       ->type_name("FILE");
   command->add_option("--out", options->out, "File of the shares")->required()->type_name("FILE");

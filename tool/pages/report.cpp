@@ -343,7 +343,8 @@ class ReportBuilder {
     page_.set("has_change", change != result_.end());
     if (change == result_.end()) return;
     HtmlTable table(
-        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the reference before|Unit",
+        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the reference "
+        "before|Unit",
         "after");
     const auto text = [&](const char* key) { return two_digits(change->value(key, Json())); };
     table.row({"Changed by more than 2 codes", text("over_2_percent"), text("right_over_2_percent"),
@@ -453,7 +454,8 @@ class ReportBuilder {
     page_.set("memory_physical_note", megabits(total("physical")));
     page_.set("memory_width_note", megabits(at_width));
     mustache::data not_implementable{mustache::data::type::list};
-    for (const std::string& memory : tb::not_implementable_memories(result_)) not_implementable << memory;
+    for (const std::string& memory : tb::not_implementable_memories(result_))
+      not_implementable << memory;
     page_.set("idealised", not_implementable);
     page_.set("is_not_implementable", !tb::not_implementable_memories(result_).empty());
   }

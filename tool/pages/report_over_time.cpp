@@ -50,7 +50,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
                            : fmt::format("; {} were asked for, which would be too many windows",
                                          report_text(intervals["asked_cycles"]))));
   intervals["command"] = without_options(source.manifest.value("command", ""),
-                                       {"--trace", "--trace-from", "--trace-to"});
+                                         {"--trace", "--trace-from", "--trace-to"});
   page.set("intervals_command", intervals["command"].get<std::string>());
 
   // A rate is a series over cycles.

@@ -93,7 +93,8 @@ Json whole_of(const RegressionResult& result) {
   return json;
 }
 
-Json to_json(const FailureSignature& signature, const RegressionResult& result, const SweepPlace& place) {
+Json to_json(const FailureSignature& signature, const RegressionResult& result,
+             const SweepPlace& place) {
   const RegressionRun& example = result.runs[signature.runs.front()];
   Json json = {
       {"engine", signature.engine},

@@ -240,7 +240,8 @@ void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
     std::error_code error;
     if (!fs::exists(directory / "trace.vcd", error)) continue;
     for (FailureSignature& signature : result.signatures)
-      if (result.runs[signature.runs.front()].point.sample == run.sample) signature.directory = directory;
+      if (result.runs[signature.runs.front()].point.sample == run.sample)
+        signature.directory = directory;
   }
 }
 

@@ -185,15 +185,15 @@ class PictureDrawer : public CompositionRole {
   // To elaborate with.
   virtual std::shared_ptr<const tb::DrawnScene> smallest() const = 0;
 
-  // The supersampled reference, made once for all runs of a scene, and what results are compared with,
-  // as of compare_with_scene().
+  // The supersampled reference, made once for all runs of a scene, and what results are compared
+  // with, as of compare_with_scene().
   virtual std::string reference_caption() const = 0;
   virtual void prepare_reference(const tb::DrawnScene& scene, const tb::RenderOptions& options,
-                             const RunContext& context) const = 0;
+                                 const RunContext& context) const = 0;
   virtual tb::Image compare_with_reference(const tb::DrawnScene& scene,
-                                       const tb::RenderOptions& options, const tb::Image& before,
-                                       const tb::Image& after, tb::Result& result,
-                                       const RunContext& context) const = 0;
+                                           const tb::RenderOptions& options,
+                                           const tb::Image& before, const tb::Image& after,
+                                           tb::Result& result, const RunContext& context) const = 0;
 
   virtual std::unique_ptr<DrawingStage> build(tb::Simulation& simulation,
                                               const tb::DrawnScene& scene) const = 0;
@@ -207,7 +207,7 @@ class PictureDrawer : public CompositionRole {
   }
   virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/) const { return {}; }
   virtual tb::Image reference_of(const tb::DrawnScene& /*scene*/,
-                             const tb::RenderOptions& /*options*/) const {
+                                 const tb::RenderOptions& /*options*/) const {
     return {};
   }
 };

@@ -106,7 +106,8 @@ void describe(RunParameters& p, Visitor& v) {
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
          "Plants a fault that the checks must catch (docs/reference/injected_faults.md).");
-  v.boolean("reference", p.reference, "Compare the picture with the scene's supersampled reference.");
+  v.boolean("reference", p.reference,
+            "Compare the picture with the scene's supersampled reference.");
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");
 }
 

@@ -55,12 +55,13 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
   }
   add_flicker(result, after, before);
   result.terminal.push_back(
-      {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
-                              after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
-                                                              after.worst(), after.worst_frame())
-                                                : "",
-                              reference ? fmt::format("against {:.2f} of what went in", before.mean())
-                                    : "beyond what went in")});
+      {"flicker",
+       fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
+                   after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})", after.worst(),
+                                                   after.worst_frame())
+                                     : "",
+                   reference ? fmt::format("against {:.2f} of what went in", before.mean())
+                             : "beyond what went in")});
   result.figures.push_back({reference ? "Flicker over the frames" : "Flicker beyond what went in",
                             "work.flicker", "worst pair of frames", "work.flicker_worst"});
   if (reference)

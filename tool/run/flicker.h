@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flicker of a run's frames, by the golden model, whose frames are those of the hardware: how much
-// more or less a pixel changes from frame to frame than its reference does, or, where nobody knows the
-// reference, than what went in.
+// more or less a pixel changes from frame to frame than its reference does, or, where nobody knows
+// the reference, than what went in.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@ inline tb::CameraMove move_of(const tb::SequenceParameters& sequence, const tb::
 
 struct SequencePicture {
   tb::Image before, after;          // what goes in, and what the golden model makes of it
-  tb::Image reference;                  // empty: nobody knows it
+  tb::Image reference;              // empty: nobody knows it
   std::optional<tb::Mask> drawn{};  // pixels that are looked at; none: all
 };
 // Fills the result's work and figures. ConfigError where frames differ in size. Ctrl-C ends it: the

@@ -115,7 +115,9 @@ void add_frame_pictures(RunContext& context, const SmoothedFrame& frame) {
 }
 
 Image weights_picture(int width, int height, const std::vector<Weights>& weights) {
-  const auto bright = [](int weight) { return static_cast<std::uint8_t>(std::min(255, 2 * weight)); };
+  const auto bright = [](int weight) {
+    return static_cast<std::uint8_t>(std::min(255, 2 * weight));
+  };
   Image picture(width, height);
   for (std::size_t i = 0; i < weights.size(); ++i)
     picture.pixels[i] = {bright(weights[i].first), bright(weights[i].second),

@@ -15,26 +15,27 @@ namespace deburr::tool {
 
 inline constexpr int kDifferenceGain = 4;
 
-// `after` and what went in, `before`, against the reference: PSNR over the frame, over edge pixels and,
-// with a depth, over silhouettes; FLIP and SSIM over the frame.
+// `after` and what went in, `before`, against the reference: PSNR over the frame, over edge pixels
+// and, with a depth, over silhouettes; FLIP and SSIM over the frame.
 tb::Quality measure_quality(std::string reference, const tb::Image& before, const tb::Image& after,
                             const tb::Image& reference, const tb::DepthImage* depth);
 
 // What became of `before`; where there is a reference, of its right pixels too.
-tb::Change measure_change(const tb::Image& before, const tb::Image& after, const tb::Image* reference);
+tb::Change measure_change(const tb::Image& before, const tb::Image& after,
+                          const tb::Image* reference);
 
 // A frame that an engine smoothed, or as much of it as it delivered.
 struct SmoothedFrame {
   const tb::Image& before;
   const tb::Image& after;
-  std::size_t delivered;    // pixels of `after`, in raster order
-  const tb::Image* golden;  // nullptr: not checked
-  const tb::Image* reference;   // nullptr: none
+  std::size_t delivered;       // pixels of `after`, in raster order
+  const tb::Image* golden;     // nullptr: not checked
+  const tb::Image* reference;  // nullptr: none
   std::string before_caption, reference_caption;
 };
 
-// before, after, golden, difference, reference, error, change. Pixels that were not delivered are grey
-// in `after` and black where pictures are compared.
+// before, after, golden, difference, reference, error, change. Pixels that were not delivered are
+// grey in `after` and black where pictures are compared.
 void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
 
 // What stands for a pixel that did not come, and for one that could not be compared.

@@ -27,8 +27,8 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 // Of every engine.
 constexpr std::array<std::string_view, 16> kFixed = {
     // A run that is not compared, that ends by design, or that leaves pictures and waves.
-    "run.check", "run.max_cycles", "run.fault", "run.reference", "run.images", "run.pixel", "run.trace",
-    "run.trace_from", "run.trace_to", "run.timeline_from",
+    "run.check", "run.max_cycles", "run.fault", "run.reference", "run.images", "run.pixel",
+    "run.trace", "run.trace_from", "run.trace_to", "run.timeline_from",
     // Cameras that mostly see nothing.
     "scene.eye", "scene.target",
     // References are supersampled, and nothing of the hardware.

@@ -256,7 +256,7 @@ std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines) 
       "offsets, at the TLM-2.0 target\n"
       "socket `registers`. A register without fields is one number. Bits that no field has read as "
       "0 and are ignored. Reset\n"
-      "values are those of default parameters: RULES, SMAA and thresholds come from the "
+      "values are those of default parameters: CONFIG, SMAA and thresholds come from the "
       "parameters of a build. The same as\n"
       "macros of C: `deburr params --c-header`; as SystemRDL for other tools: `deburr params "
       "--systemrdl`.\n\n"

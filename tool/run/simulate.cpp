@@ -13,8 +13,8 @@
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
 #include "tb/base/json_text.h"
-#include "tb/run/progress.h"
 #include "tb/run/intervals.h"
+#include "tb/run/progress.h"
 #include "tb/traces/line_trace.h"
 
 namespace deburr::tool {
@@ -74,8 +74,8 @@ void reject_empty_trace(tb::Simulation& simulation) {
 
 // What was watched over time, whatever ended the run; only where no cycle was broken off does it
 // add up.
-void leave_intervals(const tb::Simulation& simulation, RunContext& context, const tb::Result& result,
-                   bool whole_cycles) {
+void leave_intervals(const tb::Simulation& simulation, RunContext& context,
+                     const tb::Result& result, bool whole_cycles) {
   if (simulation.timeline())
     context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
   if (!simulation.intervals()) return;

@@ -16,7 +16,8 @@ ControlLayout control_layout() {
 }
 
 FrameConfiguration decode(const ControlRegisters& registers) {
-  const std::uint32_t size = registers.value(reg::kSize), configuration = registers.value(reg::kConfiguration);
+  const std::uint32_t size = registers.value(reg::kSize),
+                      configuration = registers.value(reg::kConfiguration);
   FrameConfiguration f;
   const std::uint32_t width = reg::size::kWidth.of(size), height = reg::size::kHeight.of(size);
   f.width = width;
@@ -28,8 +29,8 @@ FrameConfiguration decode(const ControlRegisters& registers) {
   f.depth_test = choice_of<spec::geometric::DepthTest>(field::kDepthTest, configuration);
   f.combine = choice_of<spec::geometric::Combine>(field::kCombine, configuration);
   f.linear_light = field::kLinearLight.of(configuration) != 0;
-  f.depth_bias =
-      std::clamp(field::kDepthBias.of(configuration), 1U, std::uint32_t{spec::geometric::kDepthBits});
+  f.depth_bias = std::clamp(field::kDepthBias.of(configuration), 1U,
+                            std::uint32_t{spec::geometric::kDepthBits});
   f.crease_depth =
       std::min(field::kCreaseDepth.of(configuration), std::uint32_t{spec::geometric::kDepthBits});
   f.area = choice_of<spec::geometric::CoverageRule>(field::kCoverage, configuration) ==
@@ -59,7 +60,8 @@ FrameConfiguration decode(const ControlRegisters& registers) {
   return f;
 }
 
-Rejection rejection(const FrameConfiguration& f, bool enabled, const spec::geometric::Parameters& p) {
+Rejection rejection(const FrameConfiguration& f, bool enabled,
+                    const spec::geometric::Parameters& p) {
   const auto over = [](std::uint32_t value, std::int32_t limit) {
     return value > static_cast<std::uint32_t>(limit);
   };

@@ -7,8 +7,8 @@
 // `latch`, and gets `rejection`: the registers as they are then become the rules, which units read
 // from the next clock on, or the frame is rejected, which has an effect on REJECTION and STATUS
 // alone. A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a
-// sticky bit. Codes of RULES that no choice has count as code 0. A pulse of a sticky bit sets it in
-// its clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250
+// sticky bit. Codes of CONFIG that no choice has count as code 0. A pulse of a sticky bit sets it
+// in its clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250
 // MHz; longest path: 11 x 11 multiply (words of the TouchedMap).
 #pragma once
 
@@ -32,7 +32,7 @@ ControlLayout control_layout();
 FrameConfiguration decode(const ControlRegisters& registers);
 // Why it is not drawn.
 spec::geometric::Rejection rejection(const FrameConfiguration& configuration, bool enabled,
-                                 const spec::geometric::Parameters& parameters);
+                                     const spec::geometric::Parameters& parameters);
 inline PayloadShape rejection_shape() { return {.widths = {{"value", 4}}}; }
 
 class ParameterStore final : public sc_core::sc_module {

@@ -30,11 +30,12 @@ EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain&
 }
 
 // The number of an edge in the array of its pair, of every edge that is read.
-void EdgeClassifier::give_number(const FrameConfiguration& configuration, Beat& beat, std::size_t lane) {
+void EdgeClassifier::give_number(const FrameConfiguration& configuration, Beat& beat,
+                                 std::size_t lane) {
   const bool other = !(beat.edges.edge[lane].flags & flag::kBoundary);
   NextPair& next = next_[other];
-  const std::uint32_t there =
-      other ? configuration.edge_count - configuration.boundary_count : configuration.boundary_count;
+  const std::uint32_t there = other ? configuration.edge_count - configuration.boundary_count
+                                    : configuration.boundary_count;
   beat.number[lane] = {next.line, next.place, other, false, false, false};
   beat.unpaired |= static_cast<std::uint8_t>((next.count >= there) << lane);
   ++next.count;
@@ -53,8 +54,10 @@ void EdgeClassifier::look(Cycle cycle, Beat& beat) {
     const EdgeFields& edge = beat.edges.edge[lane];
     const bool boundary = edge.flags & flag::kBoundary;
     if (split_) give_number(configuration, beat, lane);
-    const bool vertices = split_ || (edge.v0 < configuration.vertex_count && edge.v1 < configuration.vertex_count);
-    const bool faces = edge.f0 < configuration.face_count && (boundary || edge.f1 < configuration.face_count);
+    const bool vertices =
+        split_ || (edge.v0 < configuration.vertex_count && edge.v1 < configuration.vertex_count);
+    const bool faces =
+        edge.f0 < configuration.face_count && (boundary || edge.f1 < configuration.face_count);
     if (!vertices || (selects && !faces)) continue;
     const auto bit = static_cast<std::uint8_t>(1u << lane);
     beat.valid |= bit;
@@ -80,8 +83,8 @@ void EdgeClassifier::choose_bits(Cycle cycle, Beat& beat) {
 }
 
 // Stage 3, of one lane.
-EdgeClass EdgeClassifier::class_of(const FrameConfiguration& configuration, const EdgeFields& edge, bool valid,
-                                   bool facing0, bool facing1) {
+EdgeClass EdgeClassifier::class_of(const FrameConfiguration& configuration, const EdgeFields& edge,
+                                   bool valid, bool facing0, bool facing1) {
   if (!valid) return EdgeClass::kInvalid;
   if (edge.flags & flag::kBoundary) return EdgeClass::kBoundary;
   if (configuration.select == Select::kAll) return EdgeClass::kUnclassified;

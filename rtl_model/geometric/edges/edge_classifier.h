@@ -80,8 +80,9 @@ class EdgeClassifier final : public Unit {
   void look(Cycle cycle, Beat& beat);
   void choose_bits(Cycle cycle, Beat& beat);
   void classify(Cycle cycle, const Beat& beat);
-  static spec::geometric::EdgeClass class_of(const FrameConfiguration& configuration, const EdgeFields& edge,
-                                             bool valid, bool facing0, bool facing1);
+  static spec::geometric::EdgeClass class_of(const FrameConfiguration& configuration,
+                                             const EdgeFields& edge, bool valid, bool facing0,
+                                             bool facing1);
   Counter* counter_of(spec::geometric::EdgeClass c);
   void leave(Cycle cycle);
 

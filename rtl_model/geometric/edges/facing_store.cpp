@@ -50,10 +50,10 @@ Activity FacingStore::work(Cycle cycle) {
     return did ? kBusy : kIdle;
   }
   const FrameConfiguration& configuration = configuration_in.read(cycle);
-  const std::uint32_t lines =
-      configuration.select != spec::geometric::Select::kEdges
-          ? 0
-          : (configuration.face_count + spec::geometric::kFacesInLine - 1) / spec::geometric::kFacesInLine;
+  const std::uint32_t lines = configuration.select != spec::geometric::Select::kEdges
+                                  ? 0
+                                  : (configuration.face_count + spec::geometric::kFacesInLine - 1) /
+                                        spec::geometric::kFacesInLine;
   if (asked_ < lines) {
     if (!memory.requests_out.can_push(cycle)) return did ? kBusy : kStalledDownstream;
     memory.read(cycle, configuration.face_base + asked_ * spec::geometric::kLineBytes, asked_);

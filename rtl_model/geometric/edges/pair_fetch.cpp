@@ -56,7 +56,8 @@ Activity PairFetch::deliver(Cycle cycle) {
   if (!fifo_.can_pop(cycle) && pipe_.empty()) return kIdle;
   const FrameConfiguration& configuration = configuration_in.read(cycle);
   const auto is_kept = [&](const Work& work) {
-    return !work.invalid && work.edge.v0 < configuration.vertex_count && work.edge.v1 < configuration.vertex_count;
+    return !work.invalid && work.edge.v0 < configuration.vertex_count &&
+           work.edge.v1 < configuration.vertex_count;
   };
   if (const Work* const next = pipe_.at(1))
     if ((next->edge.end || is_kept(*next)) && !edges_out.can_push(cycle)) return kStalledDownstream;

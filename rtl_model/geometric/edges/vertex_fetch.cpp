@@ -46,7 +46,8 @@ Activity VertexFetch::look_up(Cycle cycle) {
     if (!lookup_.end) {
       const Activity done = cache_.look_up(cycle, memory, [&](std::size_t which) {
         ++misses;
-        return configuration_in.read(cycle).vertex_base + line_[which] * spec::geometric::kLineBytes;
+        return configuration_in.read(cycle).vertex_base +
+               line_[which] * spec::geometric::kLineBytes;
       });
       lookups += cache_.decided(cycle);
       if (done != kIdle) return done;

@@ -63,7 +63,8 @@ void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const 
   beat.leaves = beat.half = 0;
   if (group.end) return;
   const FrameConfiguration& configuration = configuration_in.read(cycle);
-  const auto rows = static_cast<std::int32_t>(group.vertical ? configuration.width : configuration.height);
+  const auto rows =
+      static_cast<std::int32_t>(group.vertical ? configuration.width : configuration.height);
   out.vertical = group.vertical;
   out.crease = group.crease;
   const auto major = static_cast<std::uint16_t>(group.column >> 2);
@@ -84,7 +85,8 @@ void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const 
     const bool forward = distance > 0 || (distance == 0 && group.tie_forward);
     const std::int32_t neighbour = forward ? row + 1 : row - 1;
     const std::int32_t away = std::abs(distance), coverage = (kHalf - away + 128) >> 8;
-    const bool leaves = configuration.area && 2 * away + static_cast<std::int32_t>(slope) > 2 * kHalf;
+    const bool leaves =
+        configuration.area && 2 * away + static_cast<std::int32_t>(slope) > 2 * kHalf;
     if (row < 0 || row >= rows || neighbour < 0 || neighbour >= rows || (!leaves && coverage == 0))
       continue;
     const std::uint32_t column = (group.column + lane) & 3,

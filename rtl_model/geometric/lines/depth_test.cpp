@@ -141,7 +141,8 @@ Activity DepthTest::look_up(Cycle cycle) {
 
 void DepthTest::capture(Cycle cycle, Work& work, std::size_t which, const DepthLine& line) const {
   const Lookup& l = work.lookup;
-  const bool farther = configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther =
+      configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(not_dropped(l.group), [&](std::size_t lane) {
     if (l.own_line[lane] == which) work.own[lane] = line[l.own_word[lane]];
     if (farther && l.other_line[lane] == which) work.other[lane] = line[l.other_word[lane]];
@@ -162,7 +163,8 @@ void DepthTest::capture_words(Cycle cycle) {
 // Stage 6.
 void DepthTest::compare(Cycle cycle, Work& work) const {
   work.nearer = work.farther = 0;
-  const bool farther = configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
+  const bool farther =
+      configuration_in.read(cycle).depth_test == spec::geometric::DepthTest::kFarther;
   for_each_lane(not_dropped(work.lookup.group), [&](std::size_t lane) {
     const std::uint32_t own = work.own[lane], other = work.other[lane];
     work.far[lane] = farther ? std::min(own, other) : own;

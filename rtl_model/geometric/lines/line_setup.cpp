@@ -79,8 +79,10 @@ void LineSetup::find_axis(Cycle cycle, Beat& beat) {
   const bool horizontal = across > down;
   if ((horizontal ? dx : dy) < 0) std::swap(a, b);
   const FrameConfiguration& configuration = configuration_in.read(cycle);
-  const auto columns = static_cast<std::int32_t>(horizontal ? configuration.width : configuration.height),
-             rows = static_cast<std::int32_t>(horizontal ? configuration.height : configuration.width);
+  const auto columns =
+                 static_cast<std::int32_t>(horizontal ? configuration.width : configuration.height),
+             rows =
+                 static_cast<std::int32_t>(horizontal ? configuration.height : configuration.width);
   const std::int32_t major1 = horizontal ? b->x : b->y, minor1 = horizontal ? b->y : b->x;
   beat.major0 = horizontal ? a->x : a->y;
   beat.minor0 = horizontal ? a->y : a->x;

@@ -42,10 +42,11 @@ Activity BlockFetch::look_up(Cycle cycle) {
         if (!weights_.can_reserve(cycle)) return stalled_weights_;
         if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
         const FrameConfiguration& configuration = configuration_in.read(cycle);
-        memory.read(cycle,
-                    configuration.weight_base +
-                        spec::geometric::kLineBytes * (block_.y * configuration.blocks_across + block_.x),
-                    weights_.reserve());
+        memory.read(
+            cycle,
+            configuration.weight_base +
+                spec::geometric::kLineBytes * (block_.y * configuration.blocks_across + block_.x),
+            weights_.reserve());
         ++weights_read;
       }
     }
@@ -132,7 +133,8 @@ Activity BlockFetch::ask_for_line(Cycle cycle) {
     if (!memory.requests_out.can_push(cycle)) return kStalledDownstream;
     const ColourStore::Filler::Ordered ordered = colours_.order_read(cycle, tag);
     memory.read(cycle,
-                (configuration.frame_copy ? configuration.copy_base : configuration.colour_base) + configuration.line_offset(u, v),
+                (configuration.frame_copy ? configuration.copy_base : configuration.colour_base) +
+                    configuration.line_offset(u, v),
                 ordered.place | kColourPlace);
     ++lines_read;
     lines_replaced += ordered.replaces;

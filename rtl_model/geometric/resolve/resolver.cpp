@@ -234,7 +234,7 @@ void Resolver::encode(Cycle cycle, const Beat& beat) {
     Rgba& result = results_[o.pixel];
     for (std::size_t c = 0; c < 3; ++c)
       result[c] = configuration.linear_light ? (code++)->at(cycle, o.value[c])
-                                     : static_cast<std::uint8_t>(o.value[c]);
+                                             : static_cast<std::uint8_t>(o.value[c]);
     result[3] = static_cast<std::uint8_t>(configuration.mark ? o.code[0][3] & 0xFE : o.code[0][3]);
   }
   blended_pixels += beat.count;
@@ -274,10 +274,12 @@ bool Resolver::write(Cycle cycle) {
   const FrameConfiguration& configuration = configuration_in.read(cycle);
   const BlockToken& token = block(written_block_);
   const auto row = static_cast<std::uint32_t>(std::countr_zero(to_write_));
-  const std::uint32_t first_pixel = configuration.tiled ? 0 : 4 * row, pixels = configuration.tiled ? 16 : 4,
+  const std::uint32_t first_pixel = configuration.tiled ? 0 : 4 * row,
+                      pixels = configuration.tiled ? 16 : 4,
                       at = configuration.tiled ? 0 : 4u * (token.x & 3);  // in the line
-  const std::uint32_t offset = configuration.tiled ? configuration.line_offset(token.x, token.y)
-                                           : configuration.line_offset(token.x >> 2, token.y * 4u + row);
+  const std::uint32_t offset = configuration.tiled
+                                   ? configuration.line_offset(token.x, token.y)
+                                   : configuration.line_offset(token.x >> 2, token.y * 4u + row);
   std::uint64_t mask = 0;
   for (std::uint32_t k = 0; k < pixels; ++k)
     if (token.blended >> (first_pixel + k) & 1) mask |= std::uint64_t{0xF} << (4 * (at + k));

@@ -69,7 +69,8 @@ Activity WeightCombiner::clear(Cycle cycle) {
 
 std::uint32_t WeightCombiner::address_of(Cycle cycle, std::uint32_t x, std::uint32_t y) const {
   const FrameConfiguration& configuration = configuration_in.read(cycle);
-  return configuration.weight_base + spec::geometric::kLineBytes * (y * configuration.blocks_across + x);
+  return configuration.weight_base +
+         spec::geometric::kLineBytes * (y * configuration.blocks_across + x);
 }
 
 bool WeightCombiner::spilling(std::uint32_t tag) const {

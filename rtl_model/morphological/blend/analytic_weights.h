@@ -24,7 +24,8 @@ class AnalyticWeights final : public sc_core::sc_module {
 
   // Of pixel k of a record.
   static EdgeWeights of(const StoredDescriptor& descriptor, std::uint32_t k) {
-    const std::int64_t t0 = descriptor.t + std::int64_t{descriptor.growth} * k, t1 = t0 + descriptor.growth;
+    const std::int64_t t0 = descriptor.t + std::int64_t{descriptor.growth} * k,
+                       t1 = t0 + descriptor.growth;
     const std::uint32_t q0 = quantise(t0), q1 = quantise(t1);
     std::uint32_t before = 0, after = 0;
     if (t1 <= 0) {
@@ -37,8 +38,10 @@ class AnalyticWeights final : public sc_core::sc_module {
     }
     using spec::morphological::Side;
     std::uint32_t first = 0, second = 0;
-    (descriptor.before == Side::kFirst ? first : second) += descriptor.before == Side::kNone ? 0 : before;
-    (descriptor.after == Side::kFirst ? first : second) += descriptor.after == Side::kNone ? 0 : after;
+    (descriptor.before == Side::kFirst ? first : second) +=
+        descriptor.before == Side::kNone ? 0 : before;
+    (descriptor.after == Side::kFirst ? first : second) +=
+        descriptor.after == Side::kNone ? 0 : after;
     return {static_cast<std::uint8_t>(limit(first)), static_cast<std::uint8_t>(limit(second)),
             descriptor.span};
   }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// SMAA's table of areas: the weights of a pixel by its distances to both ends of its run, as ROMs of
-// the layout that is built.
+// SMAA's table of areas: the weights of a pixel by its distances to both ends of its run, as ROMs
+// of the layout that is built.
 //
-// Where: in the TableWeights (its datasheet has formats and cost), which ask in three of its stages:
-// the roots of both distances, the four entries about them, the weights between these. A reader is a
-// lane and axis. The four entries lie in four ROMs, by the parities of both roots, so each gives
-// one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles, patterns 0,
-// 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of one value, T,
-// read for both sides, and U. All give the same weights. Every word is computed from the formulas of
-// docs/reference/morphological/formats.md when the engine is built: the area, or with area_values =
-// published that of the published byte.
-// Source: SMAA (Jimenez et al. 2012); paper 003 (merged); minimal is ours.
+// Where: in the TableWeights (its datasheet has formats and cost), which ask in three of its
+// stages: the roots of both distances, the four entries about them, the weights between these. A
+// reader is a lane and axis. The four entries lie in four ROMs, by the parities of both roots, so
+// each gives one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles,
+// patterns 0, 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of
+// one value, T, read for both sides, and U. All give the same weights. Every word is computed from
+// the formulas of docs/reference/morphological/formats.md when the engine is built: the area, or
+// with area_values = published that of the published byte. Source: SMAA (Jimenez et al. 2012);
+// paper 003 (merged); minimal is ours.
 #pragma once
 
 #include <array>

@@ -28,7 +28,8 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
 
 // Stage 1.
 template <bool kSmaa>
-void AreaUnit::enter(Cycle cycle, const FrameConfiguration& configuration, const AreaSlotToken& token, Beat& beat) {
+void AreaUnit::enter(Cycle cycle, const FrameConfiguration& configuration,
+                     const AreaSlotToken& token, Beat& beat) {
   beat.slot = token.slot;
   beat.left = token.left;
   beat.top = token.top;
@@ -42,11 +43,12 @@ void AreaUnit::enter(Cycle cycle, const FrameConfiguration& configuration, const
 // Stage 3: the edges of the beat go to the units of their weights.
 template <bool kSmaa, bool kLearned>
 void AreaUnit::ask(Cycle cycle, const FrameConfiguration& configuration, Beat& beat) {
-  descriptor_walk_.visit_edges(
-      cycle, beat.walk,
-      [&](std::size_t number, const StoredDescriptor& descriptor, const DescriptorWalk::Edge& edge) {
-        ask_edge<kSmaa, kLearned>(configuration, beat, number, descriptor, edge);
-      });
+  descriptor_walk_.visit_edges(cycle, beat.walk,
+                               [&](std::size_t number, const StoredDescriptor& descriptor,
+                                   const DescriptorWalk::Edge& edge) {
+                                 ask_edge<kSmaa, kLearned>(configuration, beat, number, descriptor,
+                                                           edge);
+                               });
   if (kLearned && configuration.learned) ask_gaps(beat);
 }
 
@@ -85,7 +87,8 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
 }
 
 // Stage 9: weights of the row above go to the Blender, those of this row take their place.
-[[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle, const FrameConfiguration& configuration,
+[[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle,
+                                                  const FrameConfiguration& configuration,
                                                   const Beat& beat) {
   if (!beat.works()) return;
   if (beat.slot.row >= lag_) {
@@ -93,8 +96,8 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
     out.slot = beat.slot;
     out.left = beat.left;
     out.top = beat.top;
-    weight_rows_.join(cycle, configuration.width, beat.walk.x, beat.walk.count, beat.slot.beat, beat.weights,
-                     out);
+    weight_rows_.join(cycle, configuration.width, beat.walk.x, beat.walk.count, beat.slot.beat,
+                      beat.weights, out);
   }
   weight_rows_.write(cycle, beat.walk.x, beat.slot.beat, beat.weights);
 }
@@ -150,21 +153,22 @@ void AreaUnit::reset() {
 
 Datasheet AreaUnit::datasheet(const spec::morphological::Parameters& p) {
   const Datasheet line = has_table(p) ? TableWeights::datasheet() : AnalyticWeights::datasheet();
-  return {.unit = "AreaUnit",
-          .does = "Weights of the pixels across each edge, by its record's line.",
-          .latency = {DescriptorWalk::datasheet().latency.cycles + line.latency.cycles +
-                      WeightRows::datasheet().latency.cycles},
-          .stages = {{"1-3", "DescriptorWalk"},
-                     {"4-8",
-                      "side by side AnalyticWeights, with a table TableWeights, with learned weights "
-                      "LearnedWeights (4-7)"},
-                     {"8",
-                      "a learned weight in place of the line's; a beat of diagonals; address of "
-                      "WeightRows"},
-                     {"9", "corner factor; a diagonal in place of the weight; WeightRows",
-                      "10 x 8 multiply, choice"}},
-          .formats = "weights U0.8, corner factor U1.9.",
-          .cost = "that of its parts, in an axis and lane with corners two multipliers 10 x 8."};
+  return {
+      .unit = "AreaUnit",
+      .does = "Weights of the pixels across each edge, by its record's line.",
+      .latency = {DescriptorWalk::datasheet().latency.cycles + line.latency.cycles +
+                  WeightRows::datasheet().latency.cycles},
+      .stages = {{"1-3", "DescriptorWalk"},
+                 {"4-8",
+                  "side by side AnalyticWeights, with a table TableWeights, with learned weights "
+                  "LearnedWeights (4-7)"},
+                 {"8",
+                  "a learned weight in place of the line's; a beat of diagonals; address of "
+                  "WeightRows"},
+                 {"9", "corner factor; a diagonal in place of the weight; WeightRows",
+                  "10 x 8 multiply, choice"}},
+      .formats = "weights U0.8, corner factor U1.9.",
+      .cost = "that of its parts, in an axis and lane with corners two multipliers 10 x 8."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -10,13 +10,13 @@
 //                                   4 to 8 (7)    diagonals: 8
 //
 // Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
-// raster passes: of each axis one edge a lane and clock. To the Blender go the weights of row y - 1.
-// The parts inside are modules, and no units of the clock domain: all stages move together, theirs
-// too, by one enable, so no beat waits between them, and nothing inside needs a link. An edge of no
-// record (between head and tail of a long run) takes the learned weights of two ends out of sight:
-// so the slot brings the edges of row y. Stalls: `downstream`; `diagonals` (those of a beat have
-// not come: not in an engine whose rows begin as the RunExtractor lets them). Source: Reshetov
-// 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
+// raster passes: of each axis one edge a lane and clock. To the Blender go the weights of row y
+// - 1. The parts inside are modules, and no units of the clock domain: all stages move together,
+// theirs too, by one enable, so no beat waits between them, and nothing inside needs a link. An
+// edge of no record (between head and tail of a long run) takes the learned weights of two ends out
+// of sight: so the slot brings the edges of row y. Stalls: `downstream`; `diagonals` (those of a
+// beat have not come: not in an engine whose rows begin as the RunExtractor lets them). Source:
+// Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <cstddef>
@@ -32,12 +32,12 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/morphological/blend/analytic_weights.h"
-#include "rtl_model/morphological/blend/edge_weights.h"
-#include "rtl_model/morphological/blend/learned_weights.h"
 #include "rtl_model/morphological/blend/descriptor_store.h"
 #include "rtl_model/morphological/blend/descriptor_walk.h"
-#include "rtl_model/morphological/blend/weight_rows.h"
+#include "rtl_model/morphological/blend/edge_weights.h"
+#include "rtl_model/morphological/blend/learned_weights.h"
 #include "rtl_model/morphological/blend/table_weights.h"
+#include "rtl_model/morphological/blend/weight_rows.h"
 #include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
 
@@ -86,7 +86,9 @@ class AreaUnit final : public Unit {
     DescriptorWalk::Beat walk;
     BeatWeights weights;
 
-    bool works() const { return walk.row >= 0; }  // has weights of a row, or finds those of the next
+    bool works() const {
+      return walk.row >= 0;
+    }  // has weights of a row, or finds those of the next
   };
 
   // kSmaa, kLearned: as the DescriptorWalk's.
@@ -94,7 +96,8 @@ class AreaUnit final : public Unit {
   Activity work(Cycle cycle);
   // Once a clock each, from one place: inline.
   template <bool kSmaa>
-  inline void enter(Cycle cycle, const FrameConfiguration& configuration, const AreaSlotToken& token, Beat& beat);
+  inline void enter(Cycle cycle, const FrameConfiguration& configuration,
+                    const AreaSlotToken& token, Beat& beat);
   template <bool kSmaa, bool kLearned>
   [[gnu::noinline]] void ask(Cycle cycle, const FrameConfiguration& configuration, Beat& beat);
   void ask_gaps(const Beat& beat);

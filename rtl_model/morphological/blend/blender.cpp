@@ -105,10 +105,10 @@ void Blender::choose(Cycle cycle, const FrameConfiguration& configuration, const
 }
 
 // By its own mark, or with `beside` those of its neighbours in the frame.
-bool Blender::is_left(const FrameConfiguration& configuration, const Slot& slot, const PixelToken& around,
-                      std::size_t lane, std::size_t count) const {
+bool Blender::is_left(const FrameConfiguration& configuration, const Slot& slot,
+                      const PixelToken& around, std::size_t lane, std::size_t count) const {
   if (is_marked(around.centre[lane])) return true;
-  if (configuration.leave != Bypass::kBeside) return false;
+  if (configuration.bypass != Bypass::kBeside) return false;
   const bool first_row = slot.row == first_row_, last_row = slot.row + 1u == configuration.rows,
              first_column = slot.beat == 0 && lane == 0, last_lane = lane + 1 == count,
              last_column = last_lane && slot.beat + 1u == configuration.beats;
@@ -122,16 +122,16 @@ void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToke
                           std::uint32_t guarded, Beat& beat) {
   const FrameConfiguration& configuration = configuration_in.read(cycle);
   const bool strongest = configuration.strongest;
-  const Bypass leave = configuration.leave;
-  const bool by_marks = leave != Bypass::kNone && leave != Bypass::kMasked,
+  const Bypass bypass = configuration.bypass;
+  const bool by_marks = bypass != Bypass::kNone && bypass != Bypass::kMasked,
              leaves = by_marks || guarded != 0;
   const std::size_t count = beat.result.count;
   for (std::size_t i = 0; i < count; ++i) {
     const Weights& s = token.weights[i];
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
-    if (leaves &&
-        ((guarded >> i & 1) != 0 || (by_marks && is_left(configuration, token.slot, around, i, count)))) {
+    if (leaves && ((guarded >> i & 1) != 0 ||
+                   (by_marks && is_left(configuration, token.slot, around, i, count)))) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }
@@ -153,7 +153,7 @@ void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToke
                                                                 : around.centre[i + 1];
     std::uint8_t first_weight = horizontal ? s.left : s.up,
                  second_weight = horizontal ? s.right : s.down;
-    if (leave == Bypass::kHalf) {
+    if (bypass == Bypass::kHalf) {
       first_weight = static_cast<std::uint8_t>(first_weight >> is_marked(first));
       second_weight = static_cast<std::uint8_t>(second_weight >> is_marked(second));
       if (first_weight + second_weight == 0) {
@@ -168,7 +168,7 @@ void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToke
     Operands& operands = beat.operands[i];
     operands.code = {around.centre[i], first, second};
     operands.weight = {static_cast<std::uint16_t>(first_weight << kMoreBits),
-                      static_cast<std::uint16_t>(second_weight << kMoreBits)};
+                       static_cast<std::uint16_t>(second_weight << kMoreBits)};
     beat.blend = static_cast<std::uint8_t>(beat.blend | 1u << i);
     if (strongest) mix_[i].read(cycle, std::uint64_t{probe.first} + probe.second);
   }
@@ -245,7 +245,7 @@ void Blender::deliver(Cycle cycle, const FrameConfiguration& configuration, cons
     encode(cycle, beat, out);
     bypassed_pixels += static_cast<std::uint64_t>(std::popcount(beat.left));
   }
-  if (configuration.leave != Bypass::kNone)
+  if (configuration.bypass != Bypass::kNone)
     for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   pixels += out.count;
   beat_latency.descriptor(probe_.leaves(cycle));
@@ -289,7 +289,8 @@ Activity Blender::tick(Cycle cycle) {
   pipe_.move();
   if (const Beat* beat = pipe_.at(6)) deliver(cycle, configuration, *beat);
   if (blending_ != 0) blend(cycle);
-  if (arrives) choose(cycle, configuration, weights_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
+  if (arrives)
+    choose(cycle, configuration, weights_in.take(cycle), pixels_in.take(cycle), pipe_.enter());
   return kBusy;
 }
 

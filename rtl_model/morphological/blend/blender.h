@@ -4,11 +4,11 @@
 // Where: last block. Stalls: `downstream`. Rule `longest`: the axis that has weights at all; else
 // the longer line; else the larger sum, ties to up and down. Rule `strongest`: the axis of the
 // largest weight, ties to up and down; each weight w of the pair becomes w^2 / (w1 + w2). Rule
-// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no weight;
-// or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here. Rule
-// `text_guard`: a pixel that is guarded takes no weight; its bit is there before its weights are.
-// Results are rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x (strongest); the
-// tie rules are ours.
+// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no
+// weight; or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here.
+// Rule `text_guard`: a pixel that is guarded takes no weight; its bit is there before its weights
+// are. Results are rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x
+// (strongest); the tie rules are ours.
 #pragma once
 
 #include <array>
@@ -59,7 +59,7 @@ class Blender final : public Unit {
   struct Operands {
     std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
     std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
-    std::array<std::uint16_t, 2> weight;                 // U0.12, first, second
+    std::array<std::uint16_t, 2> weight;                // U0.12, first, second
     std::array<std::int32_t, 3> sum;                    // S25
     std::array<std::uint16_t, 3> value;                 // U0.12
   };
@@ -73,8 +73,8 @@ class Blender final : public Unit {
   };
 
   // Once a clock each, from one place: inline.
-  inline void choose(Cycle cycle, const FrameConfiguration& configuration, const WeightToken& weights,
-                     const PixelToken& around, Beat& beat);
+  inline void choose(Cycle cycle, const FrameConfiguration& configuration,
+                     const WeightToken& weights, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const FrameConfiguration& configuration, const Beat& beat);
   bool is_left(const FrameConfiguration& configuration, const Slot& slot, const PixelToken& around,
                std::size_t lane, std::size_t count) const;

@@ -58,8 +58,8 @@ MemoryShape descriptors_shape(MemoryShape shape, std::uint32_t bits) {
 
 }  // namespace
 
-AxisDescriptors::AxisDescriptors(const std::string& axis, const MemoryShape& shape, std::uint32_t mark_bits,
-                         std::uint32_t descriptor_bits)
+AxisDescriptors::AxisDescriptors(const std::string& axis, const MemoryShape& shape,
+                                 std::uint32_t mark_bits, std::uint32_t descriptor_bits)
     : banks_(shape.banks),
       marks_((axis + "_marks").c_str(), marks_shape(shape, mark_bits)),
       descriptors_((axis + "_descriptors").c_str(), descriptors_shape(shape, descriptor_bits)),
@@ -73,7 +73,7 @@ AxisDescriptors::AxisDescriptors(const std::string& axis, const MemoryShape& sha
 }
 
 void AxisDescriptors::write(Cycle cycle, std::size_t place, const Mark& mark,
-                        const StoredDescriptor& descriptor) {
+                            const StoredDescriptor& descriptor) {
   const std::size_t bank = bank_of(place);
   write_marks_[bank].write(cycle, place);
   mark_[place] = mark;
@@ -88,8 +88,8 @@ void AxisDescriptors::clear_marks(Cycle cycle, std::size_t place) {
 }
 
 DescriptorStore::DescriptorStore(const sc_core::sc_module_name& name,
-                         const spec::morphological::Parameters& p, std::size_t columns,
-                         Counters counters)
+                                 const spec::morphological::Parameters& p, std::size_t columns,
+                                 Counters counters)
     : sc_module(name),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
       ends_(has_table(p)),
@@ -119,7 +119,7 @@ std::size_t DescriptorStore::place(const AxisDescriptors& axis, const LineToken&
 
 // At the entrance: behind their slots, one a bank.
 bool DescriptorStore::enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisDescriptors& axis,
-                        Lines& under_way) {
+                            Lines& under_way) {
   std::uint32_t taken = 0;  // banks
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     In<LineToken>& in = lines[lane];
@@ -149,7 +149,8 @@ void DescriptorStore::measure_lines() {
 }
 
 // The last of their stages.
-bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configuration, Out<FinishToken>& finished) {
+bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configuration,
+                                  Out<FinishToken>& finished) {
   if (!finished.can_push(cycle)) return false;
   FinishToken token{};
   const auto store_all = [&](AxisDescriptors& axis, Lines& under_way) {
@@ -168,14 +169,14 @@ bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configu
   return true;
 }
 
-void DescriptorStore::store(Cycle cycle, const FrameConfiguration& configuration, AxisDescriptors& axis,
-                        const LineToken& token) {
+void DescriptorStore::store(Cycle cycle, const FrameConfiguration& configuration,
+                            AxisDescriptors& axis, const LineToken& token) {
   const spec::morphological::LineDescriptor& line = token.line;
   if (observer) observer(line);
   ++counters_.descriptors;
   StoredDescriptor descriptor;
   descriptor.t = (std::int64_t{line.shift} << (spec::morphological::kRecipFractionBits - 1)) -
-             std::int64_t{line.offset} * line.slope;
+                 std::int64_t{line.offset} * line.slope;
   descriptor.growth = static_cast<std::uint32_t>(line.scale) * line.slope;
   descriptor.inverse = line.inverse;
   if (configuration.table) TableWeights::set_ends(descriptor, line.run.endless);
@@ -190,7 +191,8 @@ void DescriptorStore::store(Cycle cycle, const FrameConfiguration& configuration
   descriptor.span = line.span;
   descriptor.before = line.before;
   descriptor.after = line.after;
-  axis.write(cycle, place(axis, token), {line.run.start, line.run.length, line.run.line}, descriptor);
+  axis.write(cycle, place(axis, token), {line.run.start, line.run.length, line.run.line},
+             descriptor);
 }
 
 void DescriptorStore::clear_marks(Cycle cycle, const Slot& slot) {
@@ -217,8 +219,10 @@ Datasheet DescriptorStore::datasheet(const spec::morphological::Parameters& p) {
       .formats = "t S4.24, growth U2.24, inverse U12.12; with a table a, b S13 in place of both.",
       .cost =
           "an axis and lane: two multipliers 24 x 24, with a table two 18 x 24 more. row_marks and "
-          "row_descriptors, two rows of pairs of columns (with crossings of columns); column_marks and "
-          "column_descriptors, a word a column (with crossings two). Each bank 1R1W: marks are read a "
+          "row_descriptors, two rows of pairs of columns (with crossings of columns); column_marks "
+          "and "
+          "column_descriptors, a word a column (with crossings two). Each bank 1R1W: marks are "
+          "read a "
           "beat at a time, records one a bank."};
   if (!has_table(p)) return sheet;
   sheet.variant = "with a table";

@@ -44,7 +44,7 @@ class AxisDescriptors {
   };
 
   AxisDescriptors(const std::string& axis, const MemoryShape& shape, std::uint32_t mark_bits,
-              std::uint32_t descriptor_bits);
+                  std::uint32_t descriptor_bits);
 
   std::size_t banks() const { return banks_; }
   // A power of two.
@@ -89,12 +89,13 @@ class DescriptorStore final : public sc_core::sc_module {
 
   // `columns`: of the longest row, in whole beats, of a pair at least.
   DescriptorStore(const sc_core::sc_module_name& name,
-              const spec::morphological::Parameters& parameters, std::size_t columns,
-              Counters counters);
+                  const spec::morphological::Parameters& parameters, std::size_t columns,
+                  Counters counters);
 
   // --- Lines: what their stages do in a clock. False: nothing, or `finished` has no room ---
-  bool take_lines(Cycle cycle, const FrameConfiguration& configuration, LanePorts<In<LineToken>>& horizontal,
-                  LanePorts<In<LineToken>>& vertical, Out<FinishToken>& finished) {
+  bool take_lines(Cycle cycle, const FrameConfiguration& configuration,
+                  LanePorts<In<LineToken>>& horizontal, LanePorts<In<LineToken>>& vertical,
+                  Out<FinishToken>& finished) {
     bool did = false;
     if ((ends_ ? row_lines_.measured_count + column_lines_.measured_count
                : row_lines_.entered_count + column_lines_.entered_count) != 0) {
@@ -150,8 +151,10 @@ class DescriptorStore final : public sc_core::sc_module {
 
   bool enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisDescriptors& axis, Lines& under_way);
   void measure_lines();
-  bool store_lines(Cycle cycle, const FrameConfiguration& configuration, Out<FinishToken>& finished);
-  void store(Cycle cycle, const FrameConfiguration& configuration, AxisDescriptors& axis, const LineToken& token);
+  bool store_lines(Cycle cycle, const FrameConfiguration& configuration,
+                   Out<FinishToken>& finished);
+  void store(Cycle cycle, const FrameConfiguration& configuration, AxisDescriptors& axis,
+             const LineToken& token);
   std::size_t place(const AxisDescriptors& axis, const LineToken& token) const;
   void clear_marks(Cycle cycle, const Slot& slot);
 

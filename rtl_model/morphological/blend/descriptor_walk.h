@@ -2,10 +2,10 @@
 // Walks along the records with the raster: finds of each edge of a beat the record that it lies in,
 // and its pixel there.
 //
-// Where: stages 1 to 3 of the AreaUnit, on the memories of its DescriptorStore; in slot row s it works
-// on row y = s - R - 4. Horizontal marks are read at their start, and the record stays in hand from
-// there on; vertical ones are read in every row. The model compares the marks in stage 2, to read
-// those records only that matter. Source: Reshetov 2009; paper 000, section 2.
+// Where: stages 1 to 3 of the AreaUnit, on the memories of its DescriptorStore; in slot row s it
+// works on row y = s - R - 4. Horizontal marks are read at their start, and the record stays in
+// hand from there on; vertical ones are read in every row. The model compares the marks in stage 2,
+// to read those records only that matter. Source: Reshetov 2009; paper 000, section 2.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 #include "rtl_model/fabric/counters.h"
 #include "rtl_model/fabric/datasheet.h"
-#include "rtl_model/morphological/blend/edge_weights.h"
 #include "rtl_model/morphological/blend/descriptor_store.h"
+#include "rtl_model/morphological/blend/edge_weights.h"
 #include "rtl_model/morphological/blend/stored_descriptor.h"
 #include "rtl_model/morphological/common/frame_configuration.h"
 #include "rtl_model/morphological/common/tokens.h"
@@ -42,8 +42,9 @@ class DescriptorWalk final : public sc_core::sc_module {
     bool any;                      // one of the edges below lies in a record
     std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
     // The output registers of the marks, as they were in the clock of the address.
-    std::array<AxisDescriptors::Mark, kLanes> row_mark;         // a pair of columns, with crossings one
-    std::array<AxisDescriptors::Mark, 2 * kLanes> column_mark;  // a column, with crossings two a column
+    std::array<AxisDescriptors::Mark, kLanes> row_mark;  // a pair of columns, with crossings one
+    std::array<AxisDescriptors::Mark, 2 * kLanes>
+        column_mark;  // a column, with crossings two a column
     std::array<Edge, kLanes> horizontal, vertical;
 
     // By the number of the edge in its beat (kBeatEdges).
@@ -57,7 +58,7 @@ class DescriptorWalk final : public sc_core::sc_module {
   };
 
   DescriptorWalk(const sc_core::sc_module_name& name, const spec::morphological::Parameters& p,
-             DescriptorStore& descriptors, Counters counters)
+                 DescriptorStore& descriptors, Counters counters)
       : sc_module(name),
         lanes_(static_cast<std::size_t>(built_lanes(p))),
         first_row_(search_range_rows_of(p) + spec::morphological::kRowLag - 1),
@@ -72,14 +73,15 @@ class DescriptorWalk final : public sc_core::sc_module {
   // weights. Others do not pay for them.
   // Stage 1: the addresses of the marks. Once a clock, from one place.
   template <bool kSmaa>
-  inline void address(Cycle cycle, const FrameConfiguration& configuration, const Slot& slot, Beat& beat) {
+  inline void address(Cycle cycle, const FrameConfiguration& configuration, const Slot& slot,
+                      Beat& beat) {
     const std::int32_t row = slot.row - first_row_;
     const std::size_t x = slot.beat * lanes_;
     beat.any = false;
     beat.row = row;
     beat.x = static_cast<std::uint32_t>(x);
-    beat.count =
-        static_cast<std::uint32_t>(std::min(lanes_, static_cast<std::size_t>(configuration.width) - x));
+    beat.count = static_cast<std::uint32_t>(
+        std::min(lanes_, static_cast<std::size_t>(configuration.width) - x));
     beat.evaluates = row >= 0 && row < configuration.height;
     if (!beat.evaluates) return;
     const std::size_t pair = descriptors_.row_place<!kSmaa>(row, x);
@@ -102,7 +104,8 @@ class DescriptorWalk final : public sc_core::sc_module {
       const Edge &along = beat.horizontal[i], &down = beat.vertical[i];
       if (along.from) {
         if (along.from >= 2 && along.k == 0)
-          hand_descriptor_ = row_.descriptor(cycle, descriptors_.row_place<false>(beat.row, beat.x + i));
+          hand_descriptor_ =
+              row_.descriptor(cycle, descriptors_.row_place<false>(beat.row, beat.x + i));
         visit(2 * i, hand_descriptor_, along);
         ++counters_.horizontal_edges;
       }
@@ -126,12 +129,13 @@ class DescriptorWalk final : public sc_core::sc_module {
   DescriptorStore& descriptors_;
   AxisDescriptors &row_, &column_;
   Counters counters_;
-  AxisDescriptors::Mark hand_;    // the horizontal record in hand, stage 2
+  AxisDescriptors::Mark hand_;        // the horizontal record in hand, stage 2
   StoredDescriptor hand_descriptor_;  // stage 3
 };
 
 template <bool kSmaa, bool kLearned>
-[[gnu::always_inline]] inline void DescriptorWalk::match(Cycle cycle, const Slot& slot, Beat& beat) {
+[[gnu::always_inline]] inline void DescriptorWalk::match(Cycle cycle, const Slot& slot,
+                                                         Beat& beat) {
   if (slot.beat == 0) hand_.length = 0;
   descriptors_.pass(cycle, slot);
   if (!beat.evaluates) return;

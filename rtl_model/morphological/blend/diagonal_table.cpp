@@ -67,7 +67,7 @@ double published_area(unsigned ends, int n, int x, int y) {
 
 // Entry of the published byte v of both lines, which is v / 255: of what lies above them, or below.
 unsigned published_weight(const std::array<std::uint8_t, 2>& lines, int n, int x, int y,
-                         bool above) {
+                          bool above) {
   double sum = 0;
   for (const std::uint8_t line : lines) {
     const double area = published_area(line, n, x, y);

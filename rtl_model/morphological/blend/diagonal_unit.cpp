@@ -40,9 +40,9 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
             .content = "areas of diagonals, by crossing codes and distances of both ends"},
            diagonal_words(p.area_values)),
       weights_("diagonal_weights",
-              static_cast<std::uint32_t>(
-                  (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
-              PayloadShape{.lanes = static_cast<std::uint32_t>(lanes_)}) {
+               static_cast<std::uint32_t>(
+                   (static_cast<std::size_t>(p.line_pixels) + lanes_ - 1) / lanes_ + 16),
+               PayloadShape{.lanes = static_cast<std::uint32_t>(lanes_)}) {
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     read_.emplace_back(rom_, std::to_string(lane) + " rising");
     read_.emplace_back(rom_, std::to_string(lane) + " falling");
@@ -72,7 +72,8 @@ void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
     column.left = repeat_rows(column.left, token->slot.row);
     column.top = repeat_rows(column.top, token->slot.row);
     if (first + lane == 0) first_[column.row & 1] = column;
-    if (first + lane + 1 == static_cast<std::size_t>(configuration_->width)) last_[column.row & 1] = column;
+    if (first + lane + 1 == static_cast<std::size_t>(configuration_->width))
+      last_[column.row & 1] = column;
   }
 }
 
@@ -149,8 +150,8 @@ void DiagonalUnit::address(Cycle cycle, const Beat& beat) {
 
 // Stage 5.
 void DiagonalUnit::deliver(Cycle cycle, const Beat& beat) {
-  const std::uint32_t most =
-      configuration_->strongest ? spec::morphological::kMaxDiagonalWeight : spec::morphological::kMaxWeight;
+  const std::uint32_t most = configuration_->strongest ? spec::morphological::kMaxDiagonalWeight
+                                                       : spec::morphological::kMaxWeight;
   DiagonalWeightsToken token{};
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     if (!(beat.searched >> lane & 1)) continue;

@@ -35,8 +35,8 @@ constexpr std::uint8_t nearer_end(std::int32_t before, std::int32_t behind) {
 
 // Weights at sharp corners, U0.8; the factor is U1.9. `near`: nearer_end(). In the stage after the
 // weights, of every line's.
-inline EdgeWeights at_corners(const FrameConfiguration& configuration, EdgeWeights weights, std::uint8_t far,
-                             std::uint8_t near) {
+inline EdgeWeights at_corners(const FrameConfiguration& configuration, EdgeWeights weights,
+                              std::uint8_t far, std::uint8_t near) {
   if (!configuration.corners) return weights;
   const auto side = [&](std::uint32_t weight, int bit) {
     const int start = far >> bit & 1, end = far >> (bit + 2) & 1;

@@ -13,8 +13,8 @@
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/morphological/blend/edge_weights.h"
-#include "rtl_model/morphological/blend/weights_rom.h"
 #include "rtl_model/morphological/blend/stored_descriptor.h"
+#include "rtl_model/morphological/blend/weights_rom.h"
 
 namespace deburr::rtl::morphological {
 
@@ -27,9 +27,11 @@ class LearnedWeights final : public sc_core::sc_module {
   void move(Cycle cycle, BeatWeights* beat);
   // The walk's last stage: the edge of a beat that is pixel `before` of this record, with `after`
   // pixels behind it.
-  void ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t before, std::int32_t after) {
-    newest(edge) = WeightsRom::ask({descriptor.shape, descriptor.start_class, descriptor.end_class, descriptor.part},
-                                  before, after);
+  void ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t before,
+           std::int32_t after) {
+    newest(edge) = WeightsRom::ask(
+        {descriptor.shape, descriptor.start_class, descriptor.end_class, descriptor.part}, before,
+        after);
   }
   // An edge of no record.
   void ask_gap(std::size_t edge) { newest(edge) = WeightsRom::ask_gap(); }

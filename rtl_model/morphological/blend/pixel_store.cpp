@@ -181,15 +181,16 @@ void PixelStore::begin_frame(const FrameConfiguration& configuration) {
   around_row_ = -1;
   asked_row_ = 0;
   if (!memory_) return;
-  memory_->row_lines = static_cast<std::uint32_t>((configuration.width + kLinePixels - 1) / kLinePixels);
+  memory_->row_lines =
+      static_cast<std::uint32_t>((configuration.width + kLinePixels - 1) / kLinePixels);
   memory_->sent = memory_->answered = memory_->asked = memory_->loaded = {};
   memory_->writes.reset();
   memory_->reads.reset();
 }
 
 // Puts a beat into the line in hand and sends the line if it is complete; false if it could not.
-bool PixelStore::gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat, std::int32_t x,
-                        std::int32_t count) {
+bool PixelStore::gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat,
+                        std::int32_t x, std::int32_t count) {
   InMemory& m = *memory_;
   const bool completes = (x + count) % kLinePixels == 0 || x + count == configuration.width;
   if (completes && (!m.requests->can_push(cycle) || m.writes.full())) return false;
@@ -259,9 +260,9 @@ bool PixelStore::settle(Cycle cycle) {
 bool PixelStore::request(Cycle cycle, const FrameConfiguration& configuration) {
   InMemory& m = *memory_;
   if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
-  const std::uint32_t last_beat =
-      std::min(configuration.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
-                                    static_cast<std::uint32_t>(lanes_));
+  const std::uint32_t last_beat = std::min(
+      configuration.beats - 1, ((m.asked.line + 1) * static_cast<std::uint32_t>(kLinePixels) - 1) /
+                                   static_cast<std::uint32_t>(lanes_));
   if (!is_free(m.asked.row, last_beat)) return false;
   MemoryRequest& request = m.requests->emplace(cycle);
   request.address = configuration.pixel_base + m.asked.address;

@@ -170,8 +170,8 @@ class PixelStore final : public Unit {
   inline Did store(Cycle cycle, const FrameConfiguration& configuration);
   bool is_loaded(const FrameConfiguration& configuration, const Slot& slot) const;
   void look_around(const FrameConfiguration& configuration, std::int32_t slot_row);
-  bool gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat, std::int32_t x,
-              std::int32_t count);
+  bool gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat,
+              std::int32_t x, std::int32_t count);
   bool receive(Cycle cycle);
   bool load(Cycle cycle, const MemoryResponse& response);
   bool settle(Cycle cycle);

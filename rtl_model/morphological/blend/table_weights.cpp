@@ -6,7 +6,7 @@
 namespace deburr::rtl::morphological {
 
 TableWeights::TableWeights(const sc_core::sc_module_name& name,
-                         const spec::morphological::Parameters& p)
+                           const spec::morphological::Parameters& p)
     : sc_module(name), table_(p.area, p.area_values, built_lanes(p)) {}
 
 void TableWeights::set_ends(StoredDescriptor& descriptor, std::uint8_t endless) {
@@ -19,7 +19,7 @@ void TableWeights::set_ends(StoredDescriptor& descriptor, std::uint8_t endless) 
   };
   const std::int64_t inverse = descriptor.inverse;
   descriptor.set_ends(endless & 1 ? kFirst : limited(-((height * inverse + kHalf) >> 24)),
-                  endless & 2 ? kLast : limited(((4096 - height) * inverse + kHalf) >> 24));
+                      endless & 2 ? kLast : limited(((4096 - height) * inverse + kHalf) >> 24));
 }
 
 void TableWeights::ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t k) {
@@ -58,13 +58,14 @@ void TableWeights::cut(Cycle cycle, std::int32_t search_steps, Beat& beat) {
 }
 
 // Stages 3 to 1, and the arithmetic behind them.
-void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration, BeatWeights* weights) {
+void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration,
+                           BeatWeights* weights) {
   pipe_.move();
   if (Beat* beat = pipe_.at(4))
     for_each(*beat, [&](std::size_t edge, const Search& search) {
       const AreaTable::Weights found = table_.weights(cycle, edge, search.query);
-      weights_of(*weights, edge) =
-          at_corners(configuration, {found.first, found.second, search.span}, search.far, search.near);
+      weights_of(*weights, edge) = at_corners(
+          configuration, {found.first, found.second, search.span}, search.far, search.near);
     });
   if (Beat* beat = pipe_.at(3))
     for_each(*beat, [&](std::size_t edge, Search& search) {

@@ -3,8 +3,8 @@
 //
 // Where: in the AreaUnit, behind its DescriptorWalk, with whose stages it moves; the tables are the
 // AreaTable's. The model does the arithmetic of its stages 4 and 5, and the corner factor behind
-// them, in stage 3. Where the ends of a line lie is found as it is stored (DescriptorStore), in a clock
-// of its own. Source: SMAA (Jimenez et al. 2012); paper 003.
+// them, in stage 3. Where the ends of a line lie is found as it is stored (DescriptorStore), in a
+// clock of its own. Source: SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ namespace deburr::rtl::morphological {
 class TableWeights final : public sc_core::sc_module {
  public:
   TableWeights(const sc_core::sc_module_name& name,
-              const spec::morphological::Parameters& parameters);
+               const spec::morphological::Parameters& parameters);
 
   // As a line is stored: where its ends lie, as if a step were its whole length, rounded to whole
   // pixels; an endless one as far away as there is. `endless`: bit 0 the start, bit 1 the end.

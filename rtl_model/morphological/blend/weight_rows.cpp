@@ -10,8 +10,8 @@ constexpr std::uint32_t kWordBits = 3 * kWeightBits + 2 * kWeightSpanBits;
 
 }  // namespace
 
-WeightRows::WeightRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& p,
-                     std::size_t columns)
+WeightRows::WeightRows(const sc_core::sc_module_name& name,
+                       const spec::morphological::Parameters& p, std::size_t columns)
     : sc_module(name),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
       columns_(columns),

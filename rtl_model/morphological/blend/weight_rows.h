@@ -3,9 +3,9 @@
 //
 // Where: the end of the AreaUnit: a beat's columns are addressed in its stage 8 and written in 9,
 // in which the weights of the row above leave with those of the top edges as they come from the
-// units of weights. So a pixel gets the weights of the edges about it, of row y - 1. A read sees what
-// is written in its clock, so that rows of any length, of one beat as well, need no stall. Of top
-// edges only what the row below takes is kept. Source: Reshetov 2009.
+// units of weights. So a pixel gets the weights of the edges about it, of row y - 1. A read sees
+// what is written in its clock, so that rows of any length, of one beat as well, need no stall. Of
+// top edges only what the row below takes is kept. Source: Reshetov 2009.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class WeightRows final : public sc_core::sc_module {
  public:
   // `columns`: as the DescriptorStore's.
   WeightRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& parameters,
-            std::size_t columns);
+             std::size_t columns);
 
   // The columns of a beat, which begins at x, and the one beside it.
   void read(Cycle cycle, std::size_t x) {
@@ -52,7 +52,7 @@ class WeightRows final : public sc_core::sc_module {
 };
 
 void WeightRows::join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,
-                     std::size_t beat, const BeatWeights& below, WeightToken& out) const {
+                      std::size_t beat, const BeatWeights& below, WeightToken& out) const {
   read_.check(cycle, x);
   const BeatWeights* const above = &words_[beat];
   const auto right_of = [&](std::size_t i) {
@@ -69,7 +69,7 @@ void WeightRows::join(Cycle cycle, std::size_t width, std::size_t x, std::size_t
     const EdgeWeights up = above[0][i].top, down = below[i].top;
     const EdgeWeights left = above[0][i].left, right = right_of(i);
     out.weights[i] = {up.second, down.first, left.second, right.first,
-                     up.span,   down.span,  left.span,   right.span};
+                      up.span,   down.span,  left.span,   right.span};
   }
 }
 

@@ -73,13 +73,13 @@ WeightsRom::WeightsRom(int lanes)
                             "learned weights, by class and distance of the farther end"),
                 std::span<const std::int8_t>(spec::morphological::kWeightsOfFar)}}},
       weight_rom_("weight_rom",
-                 {.words = spec::morphological::kWeightOfSum.size(),
-                  .word_bits = 8,
-                  .kind = MemoryKind::kRom,
-                  .read_ports = static_cast<std::uint32_t>(4 * lanes),
-                  .write_ports = 0,
-                  .content = "weight of a sum of learned words"},
-                 spec::morphological::kWeightOfSum) {
+                  {.words = spec::morphological::kWeightOfSum.size(),
+                   .word_bits = 8,
+                   .kind = MemoryKind::kRom,
+                   .read_ports = static_cast<std::uint32_t>(4 * lanes),
+                   .write_ports = 0,
+                   .content = "weight of a sum of learned words"},
+                  spec::morphological::kWeightOfSum) {
   for (int port = 0; port < 4 * lanes; ++port) {
     const std::string user = "lane " + std::to_string(port / 4) +
                              (port & 2 ? " vertical" : " horizontal") +
@@ -91,7 +91,8 @@ WeightsRom::WeightsRom(int lanes)
   for (std::size_t i = 0; i < kEntries; ++i) sum_ += static_cast<std::uint32_t>(i + 1) * entry(i);
 }
 
-WeightsRom::Query WeightsRom::ask(const Descriptor& descriptor, std::int32_t before, std::int32_t after) {
+WeightsRom::Query WeightsRom::ask(const Descriptor& descriptor, std::int32_t before,
+                                  std::int32_t after) {
   const bool whole = descriptor.part == RunPart::kWhole;
   const std::int32_t length = before + after + 1;
   const unsigned length_class = !whole || length >= 8 ? kLongest

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Learned weights: those of an edge whose line no staircase tells, by what both ends of its run look
-// like, from three tables whose words add up.
+// Learned weights: those of an edge whose line no staircase tells, by what both ends of its run
+// look like, from three tables whose words add up.
 //
 // Where: in the LearnedWeights, a stage of which each call is one (its datasheet has formats and
 // cost). A reader is a lane and axis; each has two sides, the pixels across its edge.

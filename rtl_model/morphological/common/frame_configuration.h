@@ -36,7 +36,7 @@ struct FrameConfiguration {
   bool corners = false;                 // are rounded
   std::uint16_t corner_loss = 0;        // 256 - corner_rounding
   bool strongest = false;               // blend
-  spec::morphological::Bypass leave{};
+  spec::morphological::Bypass bypass{};
   bool text_guard = false;
   std::uint32_t pixel_base = 0;  // bytes
 
@@ -73,7 +73,7 @@ struct FrameConfiguration {
     visit("corners", self.corners);
     visit("corner_loss", self.corner_loss, 9, "U9");
     visit("strongest", self.strongest);
-    visit("leave", self.leave, 3, "U3");
+    visit("bypass", self.bypass, 3, "U3");
     visit("text_guard", self.text_guard);
     visit("pixel_base", self.pixel_base, 32, "U32");
   }
@@ -105,7 +105,7 @@ inline bool has_table(const spec::morphological::Parameters& p) {
 
 // What of them is built. `within`: what they are in.
 inline PayloadShape configuration_shape(const spec::morphological::Parameters& p,
-                                const std::string& within = "") {
+                                        const std::string& within = "") {
   const bool crossings = p.ends == spec::morphological::Ends::kCrossings;
   const std::pair<const char*, bool> built[] = {
       {"contiguous", p.contiguous},

@@ -16,7 +16,8 @@ ControlLayout control_layout() {
 }
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p) {
-  const std::uint32_t size = registers.value(reg::kSize), configuration = registers.value(reg::kConfiguration);
+  const std::uint32_t size = registers.value(reg::kSize),
+                      configuration = registers.value(reg::kConfiguration);
   const std::int32_t lanes = built_lanes(p), search_rows = search_range_rows_of(p);
   const auto u16 = [](std::int32_t value) { return static_cast<std::uint16_t>(value); };
   Decoded decoded;
@@ -34,7 +35,8 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.source = choice_of<spec::morphological::EdgeSource>(field::kSource, configuration);
   f.dynamic = is_set(field::kThresholdMode) && f.source == spec::morphological::EdgeSource::kLuma;
   f.dynamic_luma = choice_of<spec::morphological::DynamicLuma>(field::kDynamicLuma, configuration);
-  f.local_contrast = choice_of<spec::morphological::LocalContrast>(field::kLocalContrast, configuration);
+  f.local_contrast =
+      choice_of<spec::morphological::LocalContrast>(field::kLocalContrast, configuration);
   if (f.source == spec::morphological::EdgeSource::kDepth)
     f.local_contrast = spec::morphological::LocalContrast::kOff;
   f.predictor = choice_of<spec::morphological::Predictor>(field::kPredictor, configuration);
@@ -64,7 +66,7 @@ Decoded decode(const ControlRegisters& registers, const spec::morphological::Par
   f.corner_loss = u16(
       std::max(spec::morphological::kMaxCornerRounding - number(reg::smaa::kCornerRounding), 0));
   f.strongest = is_set(field::kStrongest);
-  f.leave = choice_of<spec::morphological::Bypass>(field::kBypass, configuration);
+  f.bypass = choice_of<spec::morphological::Bypass>(field::kBypass, configuration);
   f.text_guard = is_set(field::kTextGuard) && p.text_guard;
 
   f.threshold = registers.value(reg::kThreshold);

@@ -7,12 +7,12 @@
 // the next clock on; `latched` shows them to the SlotSequencer at once, or that SIZE is out of
 // range, which sets the framing bit and nothing else. A write while a frame is inside is ignored
 // (CONTROL and STATUS excepted) and sets a sticky bit. A pulse of a sticky bit sets it in its
-// clock. Codes of RULES that no choice has count as code 0; steps are limited to
+// clock. Codes of CONFIG that no choice has count as code 0; steps are limited to
 // window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
 // with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals, corners
 // and the text guard count as off in an engine that was built without them, and so do learned
-// weights, whose registers read 0 then (else: WeightsLoader). A reset gives every register its reset
-// value; SIZE is 0 then and must be written again. Nothing in here is ticked. Cost: 15 x 32
+// weights, whose registers read 0 then (else: WeightsLoader). A reset gives every register its
+// reset value; SIZE is 0 then and must be written again. Nothing in here is ticked. Cost: 15 x 32
 // flip-flops. Made for 300 MHz; longest path: the least of three 5-bit numbers.
 #pragma once
 

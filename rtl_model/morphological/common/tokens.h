@@ -225,8 +225,8 @@ inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
 // Fields of a record that not every engine has, by where in its token the RunToken is ("run.") and
 // the RunDescriptor in that.
-inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p, const std::string& token,
-                                 const std::string& run) {
+inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p,
+                                     const std::string& token, const std::string& run) {
   PayloadShape shape;
   if (!p.round_corners) shape.widths.emplace_back(run + "far", 0);
   if (p.border != spec::morphological::Border::kClamp)
@@ -238,7 +238,7 @@ inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p, c
 
 // Fields of learned weights, by where in its token they are.
 inline void leave_out_weights(PayloadShape& shape, const spec::morphological::Parameters& p,
-                             const std::string& line) {
+                              const std::string& line) {
   if (p.area != spec::morphological::AreaSource::kLearned)
     for (const char* const field : {"learned", "start_class", "end_class"})
       shape.widths.emplace_back(line + field, 0);

@@ -89,7 +89,7 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   const FrameConfiguration& configuration = *configuration_;
   const bool colour = configuration.source == spec::morphological::EdgeSource::kColour;
   const bool plain = (configuration.source == spec::morphological::EdgeSource::kLuma || colour) &&
-                     configuration.leave != spec::morphological::Bypass::kMasked;
+                     configuration.bypass != spec::morphological::Bypass::kMasked;
   const auto lanes = static_cast<std::int32_t>(lanes_);
   const std::int32_t y = out.slot.row - 1, first = out.slot.beat * lanes;
   const std::int32_t count = std::min(lanes, configuration.width - first);
@@ -102,10 +102,10 @@ inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::in
   const auto dynamic = [&](std::uint32_t a, std::uint32_t b) {
     return is_dynamic_edge(distance(a, b), a, b);
   };
-  Edges edges = !plain          ? steps(first, count, y)
-                : colour        ? plain_steps(first, count, y, fixed_colour)
+  Edges edges = !plain                  ? steps(first, count, y)
+                : colour                ? plain_steps(first, count, y, fixed_colour)
                 : configuration.dynamic ? plain_steps(first, count, y, dynamic)
-                                : plain_steps(first, count, y, fixed);
+                                        : plain_steps(first, count, y, fixed);
   if (first == 0) edges.left &= ~1u;
   if (y == 0) edges.top = 0;
   if ((edges.left | edges.top) == 0) return;
@@ -213,7 +213,7 @@ std::uint32_t EdgeDetector::contrast(Position p, Position q) const {
   const std::uint32_t a = luma_[p], b = luma_[q];
   if ((a | b) & kMarkedLuma) return 0;
   return configuration_->source == spec::morphological::EdgeSource::kColour ? colour_distance(a, b)
-                                                                    : distance(a, b);
+                                                                            : distance(a, b);
 }
 
 std::uint32_t EdgeDetector::step(Position p, Position q) const {

@@ -16,7 +16,7 @@ Activity LumaUnit::tick(Cycle cycle) {
   const FrameConfiguration& configuration = configuration_in.read(cycle);
   if (token.slot.row < configuration.height) {
     const bool colour = configuration.source == spec::morphological::EdgeSource::kColour;
-    const bool masked = configuration.leave == spec::morphological::Bypass::kMasked;
+    const bool masked = configuration.bypass == spec::morphological::Bypass::kMasked;
     for (std::size_t i = 0; i < lanes_; ++i) {
       const spec::morphological::Rgba8& p = token.pixel[i];
       out.luma[i] = colour ? p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16

@@ -12,7 +12,8 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
   if (p.text_guard) guard_slots_out.emplace("guard_slots_out");
 }
 
-[[gnu::always_inline]] inline void SlotSequencer::take_beat(Cycle cycle, const FrameConfiguration& configuration) {
+[[gnu::always_inline]] inline void SlotSequencer::take_beat(
+    Cycle cycle, const FrameConfiguration& configuration) {
   const spec::morphological::PixelBeat& beat = pixels_in.take(cycle);
   const bool end = next_.beat + 1u == configuration.beats;
   const int count = end ? configuration.last_count : lanes_;

@@ -20,12 +20,13 @@ class EdgeMemory {
   virtual ~EdgeMemory() = default;
 
   // The edges that the trial asks for; it keeps which those are.
-  virtual void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) = 0;
+  virtual void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+                    Trial& trial) = 0;
   // In the clock after.
   virtual std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                             const Trial& trial) const = 0;
-  virtual std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                                      const Trial& trial) const = 0;
+  virtual std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                                      std::size_t port, const Trial& trial) const = 0;
 };
 
 class EdgePort {
@@ -35,10 +36,12 @@ class EdgePort {
   void read(Cycle cycle, const FrameConfiguration& configuration, Trial& trial) {
     memory_.read(cycle, configuration, port_, trial);
   }
-  std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, const Trial& trial) const {
+  std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration,
+                    const Trial& trial) const {
     return memory_.hits(cycle, configuration, port_, trial);
   }
-  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, const Trial& trial) const {
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                              const Trial& trial) const {
     return memory_.crossing_class(cycle, configuration, port_, trial);
   }
 

@@ -110,13 +110,15 @@ inline void EdgeRows::find_columns(const FrameConfiguration& configuration, Tria
   trial.last = std::min(last, configuration.width - 1);
 }
 
-void EdgeRows::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) {
+void EdgeRows::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+                    Trial& trial) {
   find_columns(configuration, trial);
   if (trial.first > trial.last) return;  // beyond the frame's border
   const auto words =
       static_cast<std::uint32_t>(trial.last / kWordColumns - trial.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})
-    if (in_frame(configuration, y)) steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
+    if (in_frame(configuration, y))
+      steps_of_[parity(y)][port].read(cycle, address(y, trial.first), words);
 }
 
 template <class Ask>
@@ -124,8 +126,9 @@ std::uint8_t EdgeRows::ask(Cycle cycle, const FrameConfiguration& configuration,
                            const Trial& trial, Ask&& ask) const {
   if (trial.first > trial.last) return 0;
   const auto words_of = [&](std::int32_t y) {
-    return in_frame(configuration, y) ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first))
-                              : nullptr;
+    return in_frame(configuration, y)
+               ? &steps_of_[parity(y)][port].at(cycle, address(y, trial.first))
+               : nullptr;
   };
   return ask(StepEdges{words_of(trial.line), words_of(trial.line - 1), trial.first, trial.last,
                        configuration.width});
@@ -133,12 +136,13 @@ std::uint8_t EdgeRows::ask(Cycle cycle, const FrameConfiguration& configuration,
 
 std::uint8_t EdgeRows::hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                             const Trial& trial) const {
-  return ask(cycle, configuration, port, trial,
-             [&](const StepEdges& edges) { return hits_of(trial, edges, configuration.contiguous); });
+  return ask(cycle, configuration, port, trial, [&](const StepEdges& edges) {
+    return hits_of(trial, edges, configuration.contiguous);
+  });
 }
 
-std::uint8_t EdgeRows::crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                                      const Trial& trial) const {
+std::uint8_t EdgeRows::crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                                      std::size_t port, const Trial& trial) const {
   return ask(cycle, configuration, port, trial,
              [&](const StepEdges& edges) { return class_of(trial, edges); });
 }

@@ -41,8 +41,8 @@ class EdgeRows final : public EdgeMemory {
   // While the runs of row y are found, row y + ahead() is written.
   std::int32_t ahead() const { return steps_ + 1; }
   // A beat of row y, from left to right; bit k: lane k.
-  void write(Cycle cycle, const FrameConfiguration& configuration, std::int32_t y, std::int32_t column,
-             std::uint32_t left, std::uint32_t top) {
+  void write(Cycle cycle, const FrameConfiguration& configuration, std::int32_t y,
+             std::int32_t column, std::uint32_t left, std::uint32_t top) {
     const auto place = static_cast<std::uint32_t>(column) % kWordColumns;
     if (place == 0) gathered_ = {};
     if ((left | top) != 0) {
@@ -54,11 +54,12 @@ class EdgeRows final : public EdgeMemory {
   }
 
   // --- A predictor of horizontal runs: the columns of a step, of its row and of the one above ---
-  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) override;
+  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+            Trial& trial) override;
   std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                              const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                              std::size_t port, const Trial& trial) const override;
 
   std::array<Memory<EdgeWord>, 2> memory;  // even and odd rows
 
@@ -67,8 +68,8 @@ class EdgeRows final : public EdgeMemory {
   void find_columns(const FrameConfiguration& configuration, Trial& trial) const;
   // `ask` gets what has been read.
   template <class Ask>
-  std::uint8_t ask(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, const Trial& trial,
-                   Ask&& ask) const;
+  std::uint8_t ask(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+                   const Trial& trial, Ask&& ask) const;
   static bool in_frame(const FrameConfiguration& configuration, std::int32_t y) {
     return y >= 0 && y < configuration.height;
   }

@@ -92,25 +92,27 @@ void EdgeWindow::clear(std::int32_t beat) {
   }
 }
 
-void EdgeWindow::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) {
+void EdgeWindow::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+                      Trial& trial) {
   const std::int32_t first = std::max(trial.line - 1, 0);
   const std::int32_t last = std::min(trial.line, configuration.width - 1);
   lines_[port].read(cycle, at(first), static_cast<std::uint32_t>(last - first + 1));
 }
 
-std::uint8_t EdgeWindow::hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                              const Trial& trial) const {
+std::uint8_t EdgeWindow::hits(Cycle cycle, const FrameConfiguration& configuration,
+                              std::size_t port, const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
   const BesideLine edges{*this, line, line == configuration.width, newest_row(line), rows_};
   return hits_of(trial, edges, configuration.contiguous);
 }
 
-std::uint8_t EdgeWindow::crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                                        const Trial& trial) const {
+std::uint8_t EdgeWindow::crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                                        std::size_t port, const Trial& trial) const {
   const std::int32_t line = trial.line;
   lines_[port].check(cycle, at(std::max(line - 1, 0)));
-  return class_of(trial, BesideLine{*this, line, line == configuration.width, newest_row(line), rows_});
+  return class_of(trial,
+                  BesideLine{*this, line, line == configuration.width, newest_row(line), rows_});
 }
 
 }  // namespace deburr::rtl::morphological

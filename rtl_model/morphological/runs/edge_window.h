@@ -44,8 +44,8 @@ class EdgeWindow final : public EdgeMemory {
     beat_.read(cycle, at(column), columns(configuration, column));
   }
   // In a clock after: the words of that beat go back in slot row `row`, moved on by the row above.
-  void write_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column, std::int32_t row,
-                  EdgeBits newest) {
+  void write_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column,
+                  std::int32_t row, EdgeBits newest) {
     beat_.check(cycle, at(column));
     update_.write(cycle, at(column), columns(configuration, column));
     progress_ = {row, column + lanes_};
@@ -72,11 +72,12 @@ class EdgeWindow final : public EdgeMemory {
   void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
 
   // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
-  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port, Trial& trial) override;
+  void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
+            Trial& trial) override;
   std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     const Trial& trial) const override;
-  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
-                              const Trial& trial) const override;
+  std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration,
+                              std::size_t port, const Trial& trial) const override;
 
   Memory<void> memory;
 

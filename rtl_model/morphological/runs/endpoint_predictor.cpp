@@ -22,9 +22,9 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
   for (int lane = 0; lane < lanes; ++lane)
     for (int unit = 0; unit < p.predictor_units; ++unit) {
       const int number = unit * lanes + lane;
-      places_.push_back(
-          {Predictor(schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
-                     EdgePort(edges, schedule_.port(number, 1)), search_range, vertical, counters)});
+      places_.push_back({Predictor(schedule_, number, EdgePort(edges, schedule_.port(number, 0)),
+                                   EdgePort(edges, schedule_.port(number, 1)), search_range,
+                                   vertical, counters)});
     }
 }
 
@@ -88,7 +88,8 @@ Activity EndpointPredictor::work(Cycle cycle) {
       const bool takes = predictor.free() && !taken;
       if (takes) {
         taken = did = true;
-        predictor.take(cycle, configuration_in.read(cycle), clock().cycles_since_reset(), in.take(cycle));
+        predictor.take(cycle, configuration_in.read(cycle), clock().cycles_since_reset(),
+                       in.take(cycle));
         ++held_;
         join();
       }

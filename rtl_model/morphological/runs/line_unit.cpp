@@ -49,7 +49,8 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       sums_in("sums_in", built_lanes(p)),
       lines_out("lines_out", built_lanes(p)),
       lanes_(static_cast<std::size_t>(built_lanes(p))),
-      search_range_(axis == spec::morphological::Axis::kVertical ? search_range_rows_of(p) : p.search_columns),
+      search_range_(axis == spec::morphological::Axis::kVertical ? search_range_rows_of(p)
+                                                                 : p.search_columns),
       latency_(static_cast<Cycle>(p.divider_latency)),
       interval_(static_cast<Cycle>(p.divider_interval)),
       interval_stall_(declare_stall("interval", "the divider cannot start again yet")),
@@ -155,10 +156,11 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   if (run.part != spec::morphological::RunPart::kWhole) {
     // One end of a run of `reach` pixels.
     line.scale = 2;
-    line.offset =
-        run.part == spec::morphological::RunPart::kHead ? search_range_ : 2 * run.length - search_range_;
+    line.offset = run.part == spec::morphological::RunPart::kHead ? search_range_
+                                                                  : 2 * run.length - search_range_;
     line.slope = divide(1, std::int64_t{2} * search_range_);
-    line.inverse = static_cast<std::uint32_t>(search_range_) << spec::morphological::kInverseFractionBits;
+    line.inverse = static_cast<std::uint32_t>(search_range_)
+                   << spec::morphological::kInverseFractionBits;
     line.span = static_cast<std::uint16_t>(search_range_ + 1);
     return;
   }

@@ -153,7 +153,8 @@ void Predictor::read(Cycle cycle, End& end) {
   end.hits = 0;
   if (!end.reads) return;
   if (end.trial.tries) end.hits = end.port.hits(cycle, *configuration_, end.trial);
-  if (end.trial.classes) end.crossing_class = end.port.crossing_class(cycle, *configuration_, end.trial);
+  if (end.trial.classes)
+    end.crossing_class = end.port.crossing_class(cycle, *configuration_, end.trial);
 }
 
 bool Predictor::decide() {

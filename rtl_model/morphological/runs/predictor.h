@@ -56,7 +56,8 @@ class Predictor {
   bool free() const { return state_ == State::kFree; }
   // Takes a record in this clock; `since_reset`: from the first one after the reset, where the
   // schedule begins.
-  void take(Cycle cycle, const FrameConfiguration& configuration, Cycle since_reset, const RunToken& run);
+  void take(Cycle cycle, const FrameConfiguration& configuration, Cycle since_reset,
+            const RunToken& run);
   // The cycles of the record's trials.
   void tick(Cycle cycle) {
     if (state_ == State::kTrials && cycle >= trial_at_) run_trial(cycle);

@@ -9,8 +9,8 @@ namespace deburr::rtl::morphological {
 namespace {
 
 using spec::morphological::Axis;
-using spec::morphological::RunPart;
 using spec::morphological::RunDescriptor;
+using spec::morphological::RunPart;
 
 constexpr std::uint8_t code(bool first, bool second) {
   return static_cast<std::uint8_t>(int{first} | int{second} << 1);
@@ -36,9 +36,10 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       smaa_(crossings_ || corners_ || p.diagonals),
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
-      descriptors_(declare_stall("records",
-                             "a record FIFO is full, or records of two slot rows before are not "
-                             "finished")),
+      descriptors_(
+          declare_stall("records",
+                        "a record FIFO is full, or records of two slot rows before are not "
+                        "finished")),
       about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {
   if (p.diagonals) {
     columns_out.emplace("columns_out");
@@ -137,7 +138,8 @@ void RunExtractor::begin_row(const FrameConfiguration& configuration) {
 
 // The words of the slot's columns are here.
 template <bool kSmaa>
-[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle, const FrameConfiguration& configuration) {
+[[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle,
+                                                      const FrameConfiguration& configuration) {
   const Slot& slot = token_.slot;
   const std::int32_t first = slot.beat * lanes_,
                      end = std::min<std::int32_t>(first + lanes_, configuration.width);
@@ -254,7 +256,8 @@ RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
   if (configuration.corners) {
     corner.far = code(window_.left(x, row_ - 2), window_.left(x, row_ + 1));
     if (configuration.clamp)
-      corner.far = either(corner.far, corner.code & code(row_ == 1, row_ + 1 == configuration.height));
+      corner.far =
+          either(corner.far, corner.code & code(row_ == 1, row_ + 1 == configuration.height));
   }
   return corner;
 }
@@ -437,7 +440,8 @@ Datasheet RunExtractor::descriptor_datasheet() {
           "counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, "
           "and a circuit more); registers of 12 records that are being looked for and of 4 "
           "that wait for their FIFOs; with border = clamp a register of R + 1 bits that says "
-          "where the frame ends, and a gate of each code below it. Memory: descriptor_fifo entries an "
+          "where the frame ends, and a gate of each code below it. Memory: descriptor_fifo entries "
+          "an "
           "axis and lane."};
 }
 

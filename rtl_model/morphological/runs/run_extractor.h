@@ -71,7 +71,8 @@ class RunExtractor final : public Unit {
   Counter descriptors_sent{"records", "records", "records put into the FIFOs"};
   Counter interlock_stalls{"interlock_stalls", "clk",
                            "slot waited for records of two slot rows before"};
-  Counter descriptor_stalls{"descriptor_stalls", "clk", "slot waited for records, FIFO or interlock"};
+  Counter descriptor_stalls{"descriptor_stalls", "clk",
+                            "slot waited for records, FIFO or interlock"};
 
   std::function<void(const spec::morphological::RunDescriptor&)> observer;
 
@@ -112,7 +113,8 @@ class RunExtractor final : public Unit {
   template <bool kSmaa>
   Activity work(Cycle cycle);
   bool waits_for_diagonals(Cycle cycle, const FrameConfiguration& configuration) const;
-  bool take_slot(Cycle cycle, const FrameConfiguration& configuration);  // false: it waits for records
+  bool take_slot(Cycle cycle,
+                 const FrameConfiguration& configuration);  // false: it waits for records
   void begin_row(const FrameConfiguration& configuration);
   template <bool kSmaa>
   void pass(Cycle cycle, const FrameConfiguration& configuration);
@@ -156,7 +158,7 @@ class RunExtractor final : public Unit {
   std::size_t oldest_ = 0, found_ = 0;
   std::uint64_t step_ = 0;  // cycles in which cycles 2 to 4 went on
 
-  std::int32_t row_ = 0;               // y
+  std::int32_t row_ = 0;                               // y
   const FrameConfiguration* configuration_ = nullptr;  // that it began with
   // Of the words of the window: the row that is blended, the one below, the one for EdgeRows and
   // row y; the latter two nullptr outside the frame.

@@ -229,8 +229,9 @@ Presets measure_presets(const tb::Scene& scene, const std::string& name) {
   frame.table = tb::build_edge_table(scene.mesh);
   frame.screen = tb::project_edges(frame.table, scene.camera, kWidth, kHeight);
   m.before = figures(tb::geometric::smoothed(frame, plain()).image);
-  for (const auto& [p, lines] :
-       {std::pair{plain(), &m.lines_before}, {configuration, &m.lines_of_configuration}, {after, &m.lines_after}}) {
+  for (const auto& [p, lines] : {std::pair{plain(), &m.lines_before},
+                                 {configuration, &m.lines_of_configuration},
+                                 {after, &m.lines_after}}) {
     GeometricGolden golden(p);
     golden.process(frame.input());
     *lines = lines_of_memory(golden.traffic());
@@ -241,7 +242,8 @@ Presets measure_presets(const tb::Scene& scene, const std::string& name) {
       name, checker.edge_psnr(checker.frame.image), checker.silhouette_psnr(checker.frame.image),
       m.before.edges, m.before.silhouettes, m.after.edges, m.after.silhouettes,
       m.after.edges - m.before.edges, m.after.silhouettes - m.before.silhouettes, m.crossing,
-      100.0 * static_cast<double>(m.lines_of_configuration) / static_cast<double>(m.lines_before) - 100.0,
+      100.0 * static_cast<double>(m.lines_of_configuration) / static_cast<double>(m.lines_before) -
+          100.0,
       100.0 * static_cast<double>(m.lines_after) / static_cast<double>(m.lines_before) - 100.0);
   std::fflush(stdout);
   return m;
@@ -259,7 +261,8 @@ void check_presets(const char* which, const std::vector<Presets>& all, double si
     mean.silhouettes += s / n;
     worst.edges = std::min(worst.edges, e);
     worst.silhouettes = std::min(worst.silhouettes, s);
-    configuration += static_cast<double>(m.lines_of_configuration) / static_cast<double>(m.lines_before) / n;
+    configuration +=
+        static_cast<double>(m.lines_of_configuration) / static_cast<double>(m.lines_before) / n;
     after += static_cast<double>(m.lines_after) / static_cast<double>(m.lines_before) / n;
     EXPECT_GT(e, -0.2) << m.name;
     for (const char* kind : {"chain", "crossing", "floor", "field"}) {

@@ -39,15 +39,15 @@ using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-Parameters configuration(Preset preset, Bypass leave = Bypass::kNone) {
+Parameters configuration(Preset preset, Bypass bypass = Bypass::kNone) {
   Parameters p = golden::morphological::preset_parameters(preset);
-  p.leave = leave;
+  p.bypass = bypass;
   return p;
 }
 
 // Edges of luma where depth has one, by the fitted line.
-Parameters at_depth(Bypass leave) {
-  Parameters p = configuration(Preset::kDeburrLine, leave);
+Parameters at_depth(Bypass bypass) {
+  Parameters p = configuration(Preset::kDeburrLine, bypass);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   const spec::morphological::FollowingRules following;
   p.threshold_on_depth_edge = following.threshold_on_depth_edge;
@@ -132,7 +132,8 @@ EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int he
 
 // Luma's edges where one of the two pixels has a channel.
 EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image& frame) {
-  MorphologicalGolden golden(configuration(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
+  MorphologicalGolden golden(configuration(Preset::kDeburrLine),
+                             MorphologicalGolden::Detail::kPixels);
   golden.process({frame.pixels, frame.width, frame.height});
   EdgePlanes result;
   for (auto* plane : {&result.left, &result.top}) plane->resize(frame.width, frame.height);
@@ -162,10 +163,10 @@ double better_by(double a, double than) { return 20 * std::log10(than / a); }  /
 
 // By learned weights and their own edges.
 constexpr std::pair<const char*, Bypass> kFollowers[] = {{"nothing left", Bypass::kNone},
-                                                        {"marked", Bypass::kMarked},
-                                                        {"beside", Bypass::kBeside},
-                                                        {"half", Bypass::kHalf},
-                                                        {"masked", Bypass::kMasked}};
+                                                         {"marked", Bypass::kMarked},
+                                                         {"beside", Bypass::kBeside},
+                                                         {"half", Bypass::kHalf},
+                                                         {"masked", Bypass::kMasked}};
 
 Table measure(const tb::Scene& scene, const std::string& name, int width, int height, int samples) {
   const Checker checker(scene, width, height, samples);
@@ -177,7 +178,8 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
                table[way].silhouettes);
   };
   const auto with_edges = [&](const EdgePlanes& edges) {
-    MorphologicalGolden golden(configuration(Preset::kDeburrLine), MorphologicalGolden::Detail::kPixels);
+    MorphologicalGolden golden(configuration(Preset::kDeburrLine),
+                               MorphologicalGolden::Detail::kPixels);
     Image result = frame;
     result.pixels = golden.process({frame.pixels, width, height}, edges);
     return result;
@@ -192,8 +194,8 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
   add("msaa4", checker.msaa);
   add("morphological", smoothed(frame, checker.frame, configuration(Preset::kDeburr)));
   add("geometric", geometric);
-  for (const auto& [way, leave] : kFollowers)
-    add(way, smoothed(geometric, checker.frame, configuration(Preset::kDeburr, leave)));
+  for (const auto& [way, bypass] : kFollowers)
+    add(way, smoothed(geometric, checker.frame, configuration(Preset::kDeburr, bypass)));
   add("depth, half", smoothed(geometric, checker.frame, at_depth(Bypass::kHalf)));
   add("as built", smoothed(geometric, checker.frame,
                            golden::morphological::following_geometric(
@@ -268,8 +270,8 @@ std::vector<Way> followers() {
   const Parameters following = golden::morphological::following_geometric(
       configuration(spec::morphological::FollowingRules().preset));
   std::vector<Way> ways;
-  for (const auto& [name, leave] : kFollowers)
-    ways.push_back({name, configuration(Preset::kDeburr, leave)});
+  for (const auto& [name, bypass] : kFollowers)
+    ways.push_back({name, configuration(Preset::kDeburr, bypass)});
   Parameters luma = configuration(Preset::kDeburr, Bypass::kMasked);
   luma.edge_source = spec::morphological::EdgeSource::kLuma;
   luma.threshold = configuration(Preset::kDeburrLine).threshold;
@@ -310,8 +312,8 @@ std::map<std::string, Gains> gains_of_followers(Half half, const std::filesystem
     p.face_limit = 1 << 17;
     const Image drawn = tb::geometric::smoothed(checker.frame, p).image;
     const auto geometric = figures(drawn),
-               morphological =
-                   figures(smoothed(checker.frame.image, checker.frame, configuration(Preset::kDeburr)));
+               morphological = figures(
+                   smoothed(checker.frame.image, checker.frame, configuration(Preset::kDeburr)));
     std::string row = fmt::format("| {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |", view.name,
                                   geometric[0], geometric[1], morphological[0], morphological[1]);
     for (const Way& way : followers()) {

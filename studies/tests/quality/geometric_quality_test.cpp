@@ -32,10 +32,10 @@ constexpr int kWidth = 640, kHeight = 480;
 
 // The morphological engine behind the geometric one. More ways of joining the two:
 // geometric_morphological_test.cpp.
-Image morphological_after(const Image& geometric, Bypass leave) {
+Image morphological_after(const Image& geometric, Bypass bypass) {
   spec::morphological::Parameters configuration =
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
-  configuration.leave = leave;
+  configuration.bypass = bypass;
   golden::morphological::MorphologicalGolden golden(
       configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image result = geometric;
@@ -246,7 +246,7 @@ TEST(WeakSpot, EdgesOfATexture) {
   const Image geometric = smoothed(checker.frame, marked).image;
   spec::morphological::Parameters configuration =
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
-  configuration.leave = Bypass::kMasked;
+  configuration.bypass = Bypass::kMasked;
   golden::morphological::MorphologicalGolden golden(
       configuration, golden::morphological::MorphologicalGolden::Detail::kPixels);
   Image both = geometric;

@@ -140,8 +140,8 @@ TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
   EXPECT_GT(letters, 1000);
 }
 
-// Both have two colours, and the reference between them what a wire covers of a pixel: its mean is that
-// of the wires' area.
+// Both have two colours, and the reference between them what a wire covers of a pixel: its mean is
+// that of the wires' area.
 TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
   const Image upright = harm::wires(2, 90, 80, 40).frame;
   // Wires at multiples of 40 pixels take the pixel on either side.
@@ -178,7 +178,8 @@ TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
 TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
   for (int view = 0; view < 3; ++view) {
     const harm::Textured t = harm::textured_frame(view, 240, 180);
-    const double edges = static_cast<double>(count(tb::edge_mask(t.reference, t.frame))) / (240 * 180);
+    const double edges =
+        static_cast<double>(count(tb::edge_mask(t.reference, t.frame))) / (240 * 180);
     EXPECT_GT(edges, 0.01) << view;
     EXPECT_LT(edges, 0.2) << view;
   }

@@ -55,7 +55,10 @@ class Checker {
  public:
   Checker(std::string name, const Image& frame, const Image& reference,
           const std::optional<tb::DepthImage>& depth)
-      : name_(std::move(name)), frame_(frame), reference_(reference), edges_(tb::edge_mask(reference, frame)) {
+      : name_(std::move(name)),
+        frame_(frame),
+        reference_(reference),
+        edges_(tb::edge_mask(reference, frame)) {
     if (depth) silhouettes_ = tb::silhouette_mask(edges_, *depth);
   }
   Figures check(const std::string& method, const Image& image) const {
@@ -69,7 +72,8 @@ class Checker {
     return check(std::string(spec::morphological::kPresetNames[static_cast<std::size_t>(preset)]),
                  preset_parameters(preset));
   }
-  Figures check(const std::string& method, const spec::morphological::Parameters& configuration) const {
+  Figures check(const std::string& method,
+                const spec::morphological::Parameters& configuration) const {
     return check(method, smoothed(frame_, configuration));
   }
   const std::string& name() const { return name_; }
@@ -164,10 +168,12 @@ void expect_deburr_best(const Checker& checker, double margin) {
   ahead("mlaa", mlaa);
   ahead("mlaa-slope", checker.check(Preset::kMlaaSlope));
   ahead("deburr-line", checker.check(Preset::kDeburrLine));
-  for (const auto& [name, configuration] : smaa_configuration()) ahead(name, checker.check(name, configuration));
+  for (const auto& [name, configuration] : smaa_configuration())
+    ahead(name, checker.check(name, configuration));
   for (const tb::stimuli::ReferenceFilter& reference : tb::stimuli::kReferenceFilters)
     ahead(reference.name, checker.check(reference));
-  for (const auto& [name, configuration] : mixed_configuration()) checker.check(name, configuration);
+  for (const auto& [name, configuration] : mixed_configuration())
+    checker.check(name, configuration);
 }
 
 std::filesystem::path data(const char* name) { return tb::data_folder() / name; }
@@ -179,7 +185,8 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt720p) {
   const Image frame = read_image(data("frames/track_720p_noaa.png")),
               reference = read_image(data("frames/track_720p_ssaa256.png"));
   expect_deburr_best(
-      {"track 720p", frame, reference, tb::read_depth(data("frames/track_720p_depth24.png"))}, 0.75);
+      {"track 720p", frame, reference, tb::read_depth(data("frames/track_720p_depth24.png"))},
+      0.75);
 }
 
 TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
@@ -318,8 +325,8 @@ TEST_P(StandIns, DeburrIsBestToo) {
       tb::import_scene(write_stand_in(folder, GetParam().kind, GetParam().seed));
   std::filesystem::remove_all(folder);
   const tb::LitFrames lit = tb::render_lit_frames(scene, 512, 512, 8);
-  const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa, lit.reference,
-                        lit.depth);
+  const Checker checker(fmt::format("{} {}", GetParam().kind, GetParam().seed), lit.noaa,
+                        lit.reference, lit.depth);
   expect_deburr_best(checker, 0.2);
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -350,8 +357,9 @@ TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
   EXPECT_GT(figures.silhouettes, 27.95);
   const Image large = read_image(data("frames/track_1080p_noaa.png")),
               large_reference = read_image(data("frames/track_1080p_ssaa64.png"));
-  EXPECT_GT(Checker("track 1080p", large, large_reference, std::nullopt).check(Preset::kDeburr).edges,
-            31.5);
+  EXPECT_GT(
+      Checker("track 1080p", large, large_reference, std::nullopt).check(Preset::kDeburr).edges,
+      31.5);
 }
 
 // The check can fail: without the line fit and its edges there is nothing to be better by.

@@ -171,7 +171,8 @@ TEST_P(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
   EXPECT_FALSE(paper_falls) << name;
 }
 
-// ---- injected faults -----------------------------------------------------------------------------
+// ---- injected faults
+// -----------------------------------------------------------------------------
 
 // The samples along P_x cos - P_y sin instead of P_x cos + P_y sin, in real arithmetic: what a sine
 // of the wrong sign, or the partner taken for the major axis, does at 45 degrees.

@@ -70,7 +70,7 @@ TEST(TitleWeights, KeepEverySecondPairBack) {
 // What is kept back changes no entry.
 TEST(TitleWeights, AreNotTrainedOnWhatIsKeptBack) {
   const TitleWeights one = train_title({shapes(1), shapes(2)}, quick()),
-                    other = train_title({shapes(1), shapes(5)}, quick());
+                     other = train_title({shapes(1), shapes(5)}, quick());
   EXPECT_EQ(entries_of(one.tables), entries_of(other.tables));
   TitlePair pair = shapes(7, 128);
   const TitleWeights half = train_title({pair}, quick());

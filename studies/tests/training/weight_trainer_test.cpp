@@ -42,7 +42,8 @@ Recipe small_recipe() {
 }
 
 double quality(const ReferenceFrame& frame, const WeightTables& tables) {
-  return psnr(smoothed(frame.frame, tables), frame.reference, tb::edge_mask(frame.reference, frame.frame));
+  return psnr(smoothed(frame.frame, tables), frame.reference,
+              tb::edge_mask(frame.reference, frame.frame));
 }
 
 bool same(const WeightTables& a, const WeightTables& b) {

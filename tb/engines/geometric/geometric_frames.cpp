@@ -60,7 +60,7 @@ GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLis
 }
 
 Image geometric_reference(const Scene& scene, int width, int height, int samples,
-                      const std::function<bool()>& interrupted) {
+                          const std::function<bool()>& interrupted) {
   RenderOptions options;
   options.width = width;
   options.height = height;
@@ -94,8 +94,10 @@ LoadedGeometricFrame load_geometric_frame(const GeometricSceneParameters& p, std
   for (std::string& note : notes_of(loaded.frame.table)) loaded.notes.push_back(std::move(note));
   loaded.inputs = loaded.scene.mesh.files;
   if (reference) {
-    loaded.reference = geometric_reference(loaded.scene, p.width, p.height, p.reference_samples, interrupted);
-    loaded.reference_name = fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
+    loaded.reference =
+        geometric_reference(loaded.scene, p.width, p.height, p.reference_samples, interrupted);
+    loaded.reference_name =
+        fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
   }
   return loaded;
 }

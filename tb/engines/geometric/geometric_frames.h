@@ -65,7 +65,7 @@ struct LoadedGeometricFrame {
   Scene scene;
   geometric::Frame frame;
   std::optional<Image> reference;
-  std::string reference_name;                     // "supersampled-256"
+  std::string reference_name;                 // "supersampled-256"
   std::vector<std::string> notes;             // what had to be decided about the mesh
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
 };
@@ -84,7 +84,7 @@ std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& p
 // The picture that a frame of the scene is compared with: as it is lit, N x N samples a pixel,
 // averaged in linear light.
 Image geometric_reference(const Scene& scene, int width, int height, int samples,
-                      const std::function<bool()>& interrupted = nullptr);
+                          const std::function<bool()>& interrupted = nullptr);
 
 // The records of the edge table in another order.
 void shuffle_edges(geometric::Frame& frame, std::uint64_t seed);

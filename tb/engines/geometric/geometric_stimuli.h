@@ -12,8 +12,8 @@
 #include "tb/engines/geometric/edge_table.h"
 #include "tb/scene/image.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/scenes.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/scenes.h"
 
 namespace deburr::tb::geometric {
 

@@ -25,8 +25,8 @@ std::string describe_pixel(const spec::morphological::Rgba8& p) {
   return fmt::format("RGBA ({}, {}, {}, {})", p[0], p[1], p[2], p[3]);
 }
 std::string describe_probe(const spec::morphological::BlendProbe& t) {
-  return fmt::format("{} weights {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down", t.first,
-                     t.second, t.edges & 1 ? " left" : "", t.edges & 2 ? " top" : "");
+  return fmt::format("{} weights {} {}, edges{}{}", t.horizontal ? "left/right" : "up/down",
+                     t.first, t.second, t.edges & 1 ? " left" : "", t.edges & 2 ? " top" : "");
 }
 std::string describe_run(const RunDescriptor& r) {
   constexpr std::array<std::string_view, 3> kParts = {"", " head", " tail"};
@@ -222,8 +222,8 @@ void MorphologicalChecks::check_figures(std::span<const MorphologicalInput> fram
              static_cast<std::uint64_t>(frame.image.height);
   figures.check(engine, engine.sequencer.frames, frames.size());
   figures.check(engine, engine.sequencer.beats, beats);
-  figures.check(engine, engine.predictor_h.iterations, iterations_[0]);
-  figures.check(engine, engine.predictor_v.iterations, iterations_[1]);
+  figures.check(engine, engine.endpoint_predictor_h.iterations, iterations_[0]);
+  figures.check(engine, engine.endpoint_predictor_v.iterations, iterations_[1]);
   if (!memory) return;
   figures.check(engine, *engine.memory_port, *memory);
   figures.check(engine, engine.pixel_store.lines_read, memory->reads());

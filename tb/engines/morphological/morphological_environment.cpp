@@ -58,13 +58,15 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
       checks_(setup_, golden()) {
   know(faults_.list());
   faults_.inject(engine_);
-  let_misdecode(engine_.control,
-                std::array{reg::kConfiguration, reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
-                           reg::kAlpha, reg::kFloor, reg::kDepthThreshold, reg::kSmaa},
-                programs() ? "" : "run.program = registers");
+  let_misdecode(
+      engine_.control,
+      std::array{reg::kConfiguration, reg::kThreshold, reg::kThresholdOn, reg::kThresholdOff,
+                 reg::kAlpha, reg::kFloor, reg::kDepthThreshold, reg::kSmaa},
+      programs() ? "" : "run.program = registers");
   progress_.source = source_.get();
   progress_.memory = memory_.get();
-  let_blind({&checks_.pixels, &checks_.probes, &checks_.registers.board(), &checks_.figures.board()});
+  let_blind(
+      {&checks_.pixels, &checks_.probes, &checks_.registers.board(), &checks_.figures.board()});
   let_miscount(checks_.figures);
   std::vector<std::uint32_t> checked;
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
@@ -100,11 +102,12 @@ MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
     if (maps_) maps_->see(run);
     if (history_) history_->see(run, cycle());
   });
-  engine_.observe_lines([this, descriptors, cycle](const spec::morphological::LineDescriptor& line) {
-    if (descriptors) checks_.got(line);
-    if (maps_) maps_->see(line);
-    if (history_) history_->see(line, cycle());
-  });
+  engine_.observe_lines(
+      [this, descriptors, cycle](const spec::morphological::LineDescriptor& line) {
+        if (descriptors) checks_.got(line);
+        if (maps_) maps_->see(line);
+        if (history_) history_->see(line, cycle());
+      });
 }
 
 std::unique_ptr<platform::MemoryModel> MorphologicalEnvironment::memory_for(

@@ -15,8 +15,8 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/motion.h"
-#include "tb/scene/scenes.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/scenes.h"
 #include "tb/stimuli/weight_file.h"
 
 namespace deburr::tb {
@@ -38,14 +38,16 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
   LoadedFrame frame;
   frame.conversions = scene.mesh.notes;
   const auto make = [&] {
-    return render_lit_frames(scene, p.width, p.height, std::max(1, p.reference_samples), interrupted);
+    return render_lit_frames(scene, p.width, p.height, std::max(1, p.reference_samples),
+                             interrupted);
   };
   const LitFrames lit = kept ? kept(make) : make();
   frame.input.image = lit.noaa;
   frame.depth = lit.depth;
   if (p.reference_samples > 0) {
     frame.reference = lit.reference;
-    frame.reference_name = fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
+    frame.reference_name =
+        fmt::format("supersampled-{}", p.reference_samples * p.reference_samples);
   }
   frame.inputs = scene.mesh.files;
   return frame;
@@ -152,7 +154,8 @@ LoadedFrame load_frame(const FrameParameters& p, std::uint32_t seed,
     if (!p.reference.empty()) {
       frame.reference = read_image(p.reference, &report);
       note(p.reference);
-      require_size("reference", p.reference, frame.reference->width, frame.reference->height, image);
+      require_size("reference", p.reference, frame.reference->width, frame.reference->height,
+                   image);
       frame.reference_name = std::filesystem::path(p.reference).filename().string();
       add_once(frame.inputs, p.reference);
     }

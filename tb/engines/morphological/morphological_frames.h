@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine is given: an image file with depth and reference beside it, or a scene
-// rendered without anti-aliasing, with its depth and its supersampled reference. Files become codes by
-// the rules of docs/reference/morphological/formats.md, "Conversion of images".
+// What the morphological engine is given: an image file with depth and reference beside it, or a
+// scene rendered without anti-aliasing, with its depth and its supersampled reference. Files become
+// codes by the rules of docs/reference/morphological/formats.md, "Conversion of images".
 #pragma once
 
 #include <array>
@@ -40,7 +40,8 @@ void describe(FrameParameters& p, Visitor& v) {
          "Depth of an image: 24 bits in R, G, B, 16 bits of grey, or one float channel; grows "
          "towards the "
          "eye.");
-  v.text("reference", p.reference, "file or list", "Anti-aliased picture that an image is compared with.");
+  v.text("reference", p.reference, "file or list",
+         "Anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file or list",
          "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
          "that of "
@@ -70,7 +71,7 @@ struct LoadedFrame {
   MorphologicalInput input;
   std::optional<Image> reference;
   std::optional<DepthImage> depth;
-  std::string reference_name;                // "supersampled-64", or the file's name
+  std::string reference_name;            // "supersampled-64", or the file's name
   std::vector<std::string> conversions;  // what the reader of images or meshes changed
   std::optional<golden::morphological::WeightTables> weights;  // else those of the ROMs
   std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain

@@ -72,9 +72,9 @@ const RunDescriptor& run_of(const LineDescriptor& line) { return line.run; }
 // Those of one side, one a record of its runs, in the order of the runs.
 template <class Descriptor, class Wanted>
 void add_descriptors(const std::string& step, const std::string& item,
-                 const std::vector<std::pair<Descriptor, rtl::Cycle>>& seen,
-                 std::vector<Descriptor> expected, const Wanted& wanted, const PixelSides& came,
-                 PixelHistory& all) {
+                     const std::vector<std::pair<Descriptor, rtl::Cycle>>& seen,
+                     std::vector<Descriptor> expected, const Wanted& wanted, const PixelSides& came,
+                     PixelHistory& all) {
   std::vector<std::pair<Descriptor, rtl::Cycle>> here;
   for (const auto& one : seen)
     if (wanted(run_of(one.first))) here.push_back(one);

@@ -70,16 +70,16 @@ std::vector<PictureMap> MorphologicalMaps::maps(
   std::vector<PictureMap> all = maps_;
   if (all.empty() || !only_frame) return all;
   const auto edge_pixels = static_cast<double>(engine.work().edge_pixels);
-  all[kEdges].account = {"work.edges_edge_pixels", edge_pixels,
+  all[kEdges].account = {"work.edge_detector_edge_pixels", edge_pixels,
                          static_cast<double>(all[kEdges].pixels_above_zero())};
   // In the middle of a run beyond the reach there is no record.
   if (engine.extractor.long_runs.value() == 0)
     all[kRunLength].account = {"the number of pixels with an edge", edge_pixels,
                                static_cast<double>(all[kRunLength].pixels_above_zero())};
-  all[kSteps].account = {
-      "the sum of steps of both predictors",
-      static_cast<double>(engine.predictor_h.steps.value() + engine.predictor_v.steps.value()),
-      all[kSteps].sum()};
+  all[kSteps].account = {"the sum of steps of both predictors",
+                         static_cast<double>(engine.endpoint_predictor_h.steps.value() +
+                                             engine.endpoint_predictor_v.steps.value()),
+                         all[kSteps].sum()};
   return all;
 }
 

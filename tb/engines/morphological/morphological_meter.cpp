@@ -38,7 +38,7 @@ void MorphologicalMeter::collect(Result& result) const {
       "Pixels with a left or a top edge.");
   add(result, "blended_pixels_percent", 100 * ratio(work.blended_pixels, work.pixels), "%",
       "Pixels that took a weight of a neighbour.");
-  for (const auto* divider : {&engine.divider_h, &engine.divider_v}) {
+  for (const auto* divider : {&engine.line_unit_h, &engine.line_unit_v}) {
     const double cycles =
         number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
     add(result, name_within(engine, *divider) + "_occupancy_percent",
@@ -61,8 +61,8 @@ void MorphologicalMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
 
 std::vector<Figure> MorphologicalMeter::work_figures() const {
   constexpr const char* kOccupancy = "divisions x interval, of cycles x lanes";
-  return {{"Divider occupancy, horizontal runs", key("divider_h_occupancy_percent"), kOccupancy},
-          {"Divider occupancy, vertical runs", key("divider_v_occupancy_percent"), kOccupancy},
+  return {{"Divider occupancy, horizontal runs", key("line_unit_h_occupancy_percent"), kOccupancy},
+          {"Divider occupancy, vertical runs", key("line_unit_v_occupancy_percent"), kOccupancy},
           {"Pixels on edges", key("edge_pixels_percent")},
           {"Pixels blended", key("blended_pixels_percent")}};
 }

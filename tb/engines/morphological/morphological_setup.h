@@ -17,8 +17,8 @@ inline constexpr std::string_view kMorphologicalMemory = "frame_memory";
 
 struct MorphologicalSetup {
   spec::morphological::Parameters morphological;
-  MemoryParameters memory;  // storage = memory only
-  bool descriptors = false;     // runs and lines inside the engine are compared too
+  MemoryParameters memory;   // storage = memory only
+  bool descriptors = false;  // runs and lines inside the engine are compared too
   std::uint32_t pixel_base = 0;
   // Loaded before the first frame; else the engine has those that it was built with.
   std::optional<golden::morphological::WeightTables> weights = std::nullopt;

@@ -14,8 +14,8 @@ namespace deburr::tb {
 inline spec::morphological::Parameters unprogrammed(spec::morphological::Parameters p) {
   using spec::morphological::EdgeSource, spec::morphological::ThresholdMode;
   constexpr std::array<std::string_view, 13> kBuilt = {
-      "edges.source", "edges.threshold_mode", "ends",         "border",         "contiguous",
-      "area",         "area_values",          "diagonals",    "diagonal_steps", "round_corners",
+      "edges.source", "edges.threshold_mode", "ends",          "border",         "contiguous",
+      "area",         "area_values",          "diagonals",     "diagonal_steps", "round_corners",
       "text_guard",   "window_rows",          "search_columns"};
   OtherConfiguration other(kBuilt);
   describe(static_cast<spec::morphological::Configuration&>(p), other);

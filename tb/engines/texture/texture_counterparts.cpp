@@ -38,7 +38,8 @@ std::vector<TextureCounterpart>& counterparts() {
 }
 
 // "axes=two footprint=half ..."
-std::string configuration(const CounterpartUnit& unit, const spec::texture::Parameters& parameters) {
+std::string configuration(const CounterpartUnit& unit,
+                          const spec::texture::Parameters& parameters) {
   std::string text;
   for (const std::string_view name : unit.parameters)
     text +=
@@ -46,10 +47,12 @@ std::string configuration(const CounterpartUnit& unit, const spec::texture::Para
   return text;
 }
 
-const TextureCounterpart* find(const CounterpartUnit& unit, const spec::texture::Parameters& as_built) {
+const TextureCounterpart* find(const CounterpartUnit& unit,
+                               const spec::texture::Parameters& as_built) {
   const std::string wanted = configuration(unit, as_built);
   for (const TextureCounterpart& counterpart : counterparts())
-    if (counterpart.unit == unit.name && configuration(unit, counterpart.parameters) == wanted) return &counterpart;
+    if (counterpart.unit == unit.name && configuration(unit, counterpart.parameters) == wanted)
+      return &counterpart;
   return nullptr;
 }
 
@@ -67,14 +70,17 @@ StandIns makers(std::vector<const TextureCounterpart*> chosen, std::uint64_t see
   return [chosen = std::move(chosen), seed](rtl::texture::TextureUnit& unit,
                                             rtl::LatencyProbe& probe) {
     std::vector<std::unique_ptr<sc_core::sc_module>> made;
-    for (const TextureCounterpart* counterpart : chosen) made.push_back(counterpart->make(unit, probe, seed));
+    for (const TextureCounterpart* counterpart : chosen)
+      made.push_back(counterpart->make(unit, probe, seed));
     return made;
   };
 }
 
 }  // namespace
 
-void add_texture_counterpart(TextureCounterpart counterpart) { counterparts().push_back(std::move(counterpart)); }
+void add_texture_counterpart(TextureCounterpart counterpart) {
+  counterparts().push_back(std::move(counterpart));
+}
 
 std::vector<std::string> counterpart_units(const std::string& text) {
   std::set<std::string_view> named;
@@ -98,7 +104,7 @@ std::vector<std::string> counterpart_units(const std::string& text) {
 }
 
 StandIns texture_counterparts(const std::vector<std::string>& units,
-                       const spec::texture::Parameters& as_built, std::uint64_t seed) {
+                              const spec::texture::Parameters& as_built, std::uint64_t seed) {
   std::vector<const TextureCounterpart*> chosen;
   for (const std::string& name : units) {
     const CounterpartUnit& unit = unit_named(name);
@@ -118,10 +124,12 @@ StandIns texture_counterparts(const std::vector<std::string>& units,
   return makers(std::move(chosen), seed);
 }
 
-StandIns texture_counterparts_there_are(const spec::texture::Parameters& as_built, std::uint64_t seed) {
+StandIns texture_counterparts_there_are(const spec::texture::Parameters& as_built,
+                                        std::uint64_t seed) {
   std::vector<const TextureCounterpart*> chosen;
   for (const CounterpartUnit& unit : known_units())
-    if (const TextureCounterpart* const counterpart = find(unit, as_built)) chosen.push_back(counterpart);
+    if (const TextureCounterpart* const counterpart = find(unit, as_built))
+      chosen.push_back(counterpart);
   return makers(std::move(chosen), seed);
 }
 

@@ -50,8 +50,8 @@ std::vector<std::string> counterpart_units(const std::string& text);
 // Models of these units with parameters as built, the depth of the FIFO among them. ConfigError if
 // there is none of a unit; it says which there are.
 rtl::texture::TextureUnit::StandIns texture_counterparts(const std::vector<std::string>& units,
-                                                  const spec::texture::Parameters& as_built,
-                                                  std::uint64_t seed);
+                                                         const spec::texture::Parameters& as_built,
+                                                         std::uint64_t seed);
 // Those of all units of which there is one, for suites that run with many configurations.
 rtl::texture::TextureUnit::StandIns texture_counterparts_there_are(
     const spec::texture::Parameters& as_built, std::uint64_t seed);

@@ -95,9 +95,9 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
   for (std::size_t filter = 0; filter < magnified_.size(); ++filter)
     coverage.hit(fmt::format("texture/magnified/{}", spec::texture::kMagFilterNames[filter]),
                  magnified_[filter]);
-  coverage.hit(
-      fmt::format("texture/output/{}", spec::texture::kSrgbOutputNames[index(configuration_.srgb_output)]),
-      formats_[index(spec::texture::Format::kSrgb8A8)]);
+  coverage.hit(fmt::format("texture/output/{}",
+                           spec::texture::kSrgbOutputNames[index(configuration_.srgb_output)]),
+               formats_[index(spec::texture::Format::kSrgb8A8)]);
   for (std::size_t n = 1; n < samples_.size(); ++n) {
     coverage.hit(fmt::format("texture/samples/{}", n), samples_[n]);
     if (configuration_.kernel == Kernel::kTent)

@@ -18,7 +18,8 @@ namespace deburr::tb {
 
 class TextureCoverage {
  public:
-  explicit TextureCoverage(const spec::texture::Configuration& configuration) : configuration_(configuration) {}
+  explicit TextureCoverage(const spec::texture::Configuration& configuration)
+      : configuration_(configuration) {}
 
   // A quad that the unit is given.
   void see(const golden::texture::TextureGolden& golden, const spec::texture::Quad& quad);

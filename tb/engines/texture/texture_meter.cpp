@@ -61,7 +61,7 @@ void TextureMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
   show(observer, "quads_in", in);
   show(observer, unit_);
   show(observer, "colours_out", out);
-  observer.see({"Bilinear requests", figure("addresser_bilinears"), "bilinear/clk", 1});
+  observer.see({"Bilinear requests", figure("texel_addresser_bilinears"), "bilinear/clk", 1});
 }
 
 void TextureMeter::collect_headline(Result& result) const {

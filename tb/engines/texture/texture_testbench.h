@@ -3,9 +3,9 @@
 #pragma once
 
 #include "spec/texture/parameters.h"
+#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/engines/texture/texture_scene.h"
 #include "tb/engines/texture/texture_traces.h"
-#include "tb/engines/texture/texture_counterparts.h"
 #include "tb/env/engine_testbench.h"
 #include "tb/env/memory_parameters.h"
 #include "tb/env/sequence.h"

@@ -288,17 +288,18 @@ TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
     const std::uint32_t reads = 1 + random.below(3), writes = 1 + random.below(3),
                         shared = random.below(3);
     const bool new_word = latency > 0 && random.chance(500);
-    Memory<int> memory("memory", {.words = kWords,
-                                  .word_bits = 32,
-                                  .read_ports = reads,
-                                  .write_ports = writes,
-                                  .shared_ports = shared,
-                                  .latency = latency,
-                                  .read_during_write = new_word ? ReadDuringWrite::kNewWord
-                                                                : ReadDuringWrite::kOldWord,
-                                  .banks = span,
-                                  .span = span,
-                                  .not_implementable = "any ports, so that their numbers are compared"});
+    Memory<int> memory(
+        "memory",
+        {.words = kWords,
+         .word_bits = 32,
+         .read_ports = reads,
+         .write_ports = writes,
+         .shared_ports = shared,
+         .latency = latency,
+         .read_during_write = new_word ? ReadDuringWrite::kNewWord : ReadDuringWrite::kOldWord,
+         .banks = span,
+         .span = span,
+         .not_implementable = "any ports, so that their numbers are compared"});
     std::deque<ReadPort<int>> read_ports;
     std::deque<WritePort<int>> write_ports;
     std::deque<SharedPort<int>> shared_ports;

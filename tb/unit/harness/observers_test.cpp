@@ -14,8 +14,8 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/platform/memory_model.h"
 #include "tb/harness/bench.h"
-#include "tb/harness/timeline.h"
 #include "tb/harness/interval_recorder.h"
+#include "tb/harness/timeline.h"
 #include "tb/unit/fabric/support.h"
 
 namespace deburr::tb::observers_test {

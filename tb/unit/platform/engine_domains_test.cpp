@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tb/harness/in_child.h"
-#include "tb/harness/statistics.h"
 #include "tb/harness/interval_recorder.h"
+#include "tb/harness/statistics.h"
 #include "tb/unit/rtl/geometric/kit.h"
 #include "tb/unit/rtl/morphological/kit.h"
 #include "tb/unit/rtl/texture/kit.h"

@@ -71,7 +71,7 @@ Parameters nothing() {
   p.ends = {};
   p.area = spec::morphological::AreaSource::kAnalytic;
   p.blend = {};
-  p.leave = {};
+  p.bypass = {};
   p.search_steps = p.diagonal_steps = p.corner_rounding = 0;
   return p;
 }
@@ -116,8 +116,8 @@ TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   EXPECT_EQ(with([](Parameters& p) { p.diagonals = true; }), 1u << 20);
   EXPECT_EQ(with([](Parameters& p) { p.round_corners = true; }), 1u << 21);
   EXPECT_EQ(with([](Parameters& p) { p.blend = BlendRule::kStrongest; }), 1u << 22);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Bypass>(3); }), 3u << 24);
-  EXPECT_EQ(with([](Parameters& p) { p.leave = static_cast<Bypass>(4); }), 4u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.bypass = static_cast<Bypass>(3); }), 3u << 24);
+  EXPECT_EQ(with([](Parameters& p) { p.bypass = static_cast<Bypass>(4); }), 4u << 24);
   EXPECT_EQ(with([](Parameters& p) { p.area = AreaSource::kLearned; }), 1u << 23);
   EXPECT_EQ(with([](Parameters& p) { p.text_guard = true; }), 1u << 28);
 }
@@ -201,7 +201,8 @@ TEST(MorphologicalDriver, NothingIsWrittenToABusyEngine) {
             "driver of the morphological engine: SIZE while it is busy: wait until STATUS says "
             "idle");
   EXPECT_THAT(busy([&] { b.driver.place(0); }), HasSubstr("PIXEL_BASE while it is busy"));
-  EXPECT_THAT(busy([&] { b.driver.set_configuration(p); }), HasSubstr("new rules while it is busy"));
+  EXPECT_THAT(busy([&] { b.driver.set_configuration(p); }),
+              HasSubstr("new rules while it is busy"));
   EXPECT_THAT(busy([&] { b.driver.load_weights(std::vector<std::int8_t>(2304)); }),
               HasSubstr("learned weights while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());

@@ -43,13 +43,13 @@ TEST(Intervals, ThatAddUpPass) { EXPECT_EQ(complaint(intervals(), result()), "")
 
 TEST(Intervals, ALostCycleIsNoticed) {
   Json wrong = intervals();
-  wrong["series"]["units"]["filter"]["idle"][1] = 1;
+  wrong["series"]["units"]["filter_pipeline"]["idle"][1] = 1;
   EXPECT_THAT(complaint(wrong, result()),
-              HasSubstr("units.filter accounts for 11 of the 10 cycles of window 1"));
+              HasSubstr("units.filter_pipeline accounts for 11 of the 10 cycles of window 1"));
   Json last = intervals();
   last["cycles"][2] = 6;
   EXPECT_THAT(complaint(last, result()),
-              HasSubstr("units.filter accounts for 5 of the 6 cycles of window 2"));
+              HasSubstr("units.filter_pipeline accounts for 5 of the 6 cycles of window 2"));
 }
 
 TEST(Intervals, ASumThatIsNotTheRunsIsNoticed) {
@@ -61,9 +61,9 @@ TEST(Intervals, ASumThatIsNotTheRunsIsNoticed) {
   }
   // From one cause to another: each window is still whole.
   Json wrong = intervals();
-  wrong["series"]["units"]["filter"]["busy"] = {4, 10, 5};
-  wrong["series"]["units"]["filter"]["stalls"]["full"] = {0, 0, 0};
-  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter.busy sums up to 19"));
+  wrong["series"]["units"]["filter_pipeline"]["busy"] = {4, 10, 5};
+  wrong["series"]["units"]["filter_pipeline"]["stalls"]["full"] = {0, 0, 0};
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy sums up to 19"));
 }
 
 // Whichever series, window and unit it is in: every value counts, but for those of windows alone.

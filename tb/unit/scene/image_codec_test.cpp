@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tb/scene/image_io.h"
-#include "tb/scene/textures.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/textures.h"
 #include "tb/unit/scene/fixtures.h"
 
 namespace deburr::tb::image_codec_test {

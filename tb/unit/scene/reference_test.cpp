@@ -324,10 +324,10 @@ TEST(Reference, DeferredLightIsThatOfTheFrame) {
   EXPECT_EQ(render_covered(scene, 97, 61, 1, Shading::kPhong), image);
   const LitFrames frames = render_lit_frames(scene, 33, 31, 3, {}, Shading::kPhong);
   EXPECT_EQ(frames.reference, render(scene, {.width = 33,
-                                         .height = 31,
-                                         .samples = 3,
-                                         .shading = Shading::kPhong,
-                                         .averaging = Averaging::kLinear}));
+                                             .height = 31,
+                                             .samples = 3,
+                                             .shading = Shading::kPhong,
+                                             .averaging = Averaging::kLinear}));
   EXPECT_EQ(frames.noaa, render_covered(scene, 33, 31, 1, Shading::kPhong));
 }
 

@@ -94,8 +94,8 @@ class FrameCommand final : public Engine {
     return names;
   }
   std::vector<std::string_view> pictures() const override {
-    std::vector<std::string_view> all = {"before", "after", "golden", "difference",
-                                         "reference",  "error", "change"};
+    std::vector<std::string_view> all = {"before",    "after", "golden", "difference",
+                                         "reference", "error", "change"};
     for (const CompositionRole* role : roles().all())
       for (const std::string_view picture : role->pictures())
         if (std::find(all.begin(), all.end(), picture) == all.end()) all.push_back(picture);
@@ -179,8 +179,10 @@ class FrameCommand final : public Engine {
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.expected_frame();
     if (run.reference && whole)
-      reference = drawer().compare_with_reference(scene, reference_options(), before, after, result, context);
-    if (whole) result.change = measure_change(before, after, reference.empty() ? nullptr : &reference);
+      reference = drawer().compare_with_reference(scene, reference_options(), before, after, result,
+                                                  context);
+    if (whole)
+      result.change = measure_change(before, after, reference.empty() ? nullptr : &reference);
     const SmoothedFrame smoothed{before,
                                  after,
                                  frame.delivered(),

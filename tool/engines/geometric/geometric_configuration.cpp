@@ -44,7 +44,8 @@ std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Par
   return with_changes(source_of(values), set, kGeometricPrefix);
 }
 
-void reject_unused_configuration(const tb::ParameterSet& set, const spec::geometric::Parameters& p) {
+void reject_unused_configuration(const tb::ParameterSet& set,
+                                 const spec::geometric::Parameters& p) {
   const auto reject = [&](std::string_view name, std::string_view why) {
     set.reject(fmt::format("{}{}", kGeometricPrefix, name), why);
   };

@@ -27,7 +27,8 @@ void imply_crossings(tb::ParameterSet& set, std::string_view name,
 std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Parameters& values);
 
 // ConfigError for a parameter that was given and has no effect. After apply_preset().
-void reject_unused_configuration(const tb::ParameterSet& set, const spec::geometric::Parameters& values);
+void reject_unused_configuration(const tb::ParameterSet& set,
+                                 const spec::geometric::Parameters& values);
 
 // ConfigError for a mesh with more faces than the hardware has facing bits, or than any has.
 void reject_too_many_faces(const tb::Scene& scene, const spec::geometric::Parameters& values);

@@ -14,10 +14,10 @@
 #include "tb/engines/geometric/geometric_testbench.h"
 #include "tb/run/amount.h"
 #include "tb/run/progress.h"
+#include "tool/engines/geometric/geometric_configuration.h"
 #include "tool/engines/geometric/geometric_draws.h"
 #include "tool/engines/geometric/geometric_pictures.h"
 #include "tool/engines/geometric/geometric_role.h"
-#include "tool/engines/geometric/geometric_configuration.h"
 #include "tool/run/flicker.h"
 #include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
@@ -128,17 +128,18 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
   std::shared_ptr<const LoadedGeometricFrame> load(const RunParameters& run,
                                                    const RunContext& context) const {
     const bool reference = run.reference && !context.checking_only();
-    return context.shared<LoadedGeometricFrame>("geometric frame", {"scene.", "run.reference"}, [&] {
-      tb::Waiting waiting(reference ? "rendering frame and reference" : "rendering the frame",
-                          context.quiet());
-      return tb::load_geometric_frame(
-          in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), reference,
-          [&] {
-            waiting.update();
-            return tb::interrupted();
-          },
-          [&](const tb::Scene& scene) { check(scene); });
-    });
+    return context.shared<LoadedGeometricFrame>(
+        "geometric frame", {"scene.", "run.reference"}, [&] {
+          tb::Waiting waiting(reference ? "rendering frame and reference" : "rendering the frame",
+                              context.quiet());
+          return tb::load_geometric_frame(
+              in_frame(scene_, lists_, 0), static_cast<std::uint32_t>(run.seed), reference,
+              [&] {
+                waiting.update();
+                return tb::interrupted();
+              },
+              [&](const tb::Scene& scene) { check(scene); });
+        });
   }
 
   SequencePicture picture_of(int frame, std::uint32_t seed) const {
@@ -190,8 +191,8 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
     if (!engine.done()) return;
     result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);
     if (loaded.reference)
-      result.quality =
-          measure_quality(loaded.reference_name, before, after, *loaded.reference, &loaded.frame.depth);
+      result.quality = measure_quality(loaded.reference_name, before, after, *loaded.reference,
+                                       &loaded.frame.depth);
   }
 
   tb::FrameLists lists_;

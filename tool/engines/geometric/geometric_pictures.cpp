@@ -76,7 +76,7 @@ tb::Image weight_picture(int width, int height,
       if (!(block.blended >> i & 1) || x >= width || y >= height) continue;
       const golden::geometric::Probe probe = golden::geometric::probe_of(block.weights[i]);
       weights[shape.index(x, y)] = {static_cast<std::uint8_t>(probe.first),
-                                   static_cast<std::uint8_t>(probe.second), probe.left_right};
+                                    static_cast<std::uint8_t>(probe.second), probe.left_right};
     }
   return weights_picture(width, height, weights);
 }

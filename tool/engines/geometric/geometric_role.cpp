@@ -10,8 +10,8 @@
 #include "tb/engines/geometric/geometric_environment.h"
 #include "tb/env/collect.h"
 #include "tb/scene/depth_codes.h"
-#include "tool/engines/geometric/geometric_pictures.h"
 #include "tool/engines/geometric/geometric_configuration.h"
+#include "tool/engines/geometric/geometric_pictures.h"
 #include "tool/run/input_configuration.h"
 
 namespace deburr::tool {

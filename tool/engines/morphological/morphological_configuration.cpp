@@ -31,10 +31,11 @@ std::string source_of(const spec::morphological::Parameters& values) {
 }  // namespace
 
 void apply_preset(tb::ParameterSet& set, const spec::morphological::Parameters& values) {
-  const spec::morphological::Parameters configuration = preset_parameters(values.preset, values.quality);
+  const spec::morphological::Parameters configuration =
+      preset_parameters(values.preset, values.quality);
   for_each_of(values.preset, values.quality, [&](std::string_view name, auto, auto) {
-    set.imply(fmt::format("{}{}", kMorphologicalPrefix, name), spec::value_text(configuration, name),
-              source_of(values));
+    set.imply(fmt::format("{}{}", kMorphologicalPrefix, name),
+              spec::value_text(configuration, name), source_of(values));
   });
 }
 
@@ -43,8 +44,9 @@ std::string preset_label(const tb::ParameterSet& set,
   return with_changes(source_of(values), set, kMorphologicalPrefix);
 }
 
-void reject_unused_configuration(const tb::ParameterSet& set, const spec::morphological::Parameters& p,
-                         std::string_view memory) {
+void reject_unused_configuration(const tb::ParameterSet& set,
+                                 const spec::morphological::Parameters& p,
+                                 std::string_view memory) {
   const auto reject = [&](std::string_view why, std::initializer_list<std::string_view> names) {
     for (const std::string_view name : names)
       set.reject(fmt::format("{}{}", kMorphologicalPrefix, name), why);
@@ -138,12 +140,13 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
 }
 
 std::vector<Shorthand> smoothing_shorthands() {
-  return {{"--preset", "morphological.preset",
-           preset_help(spec::morphological::kPresetNames, spec::morphological::Configuration().preset)},
-          {"--lanes", "morphological.lanes",
-           "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
-          {"--storage", "morphological.storage",
-           "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
+  return {
+      {"--preset", "morphological.preset",
+       preset_help(spec::morphological::kPresetNames, spec::morphological::Configuration().preset)},
+      {"--lanes", "morphological.lanes",
+       "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
+      {"--storage", "morphological.storage",
+       "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
 }
 
 }  // namespace deburr::tool

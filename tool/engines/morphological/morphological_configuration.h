@@ -22,8 +22,9 @@ std::string preset_label(const tb::ParameterSet& set,
 
 // ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no
 // effect. After apply_preset().
-void reject_unused_configuration(const tb::ParameterSet& set, const spec::morphological::Parameters& values,
-                         std::string_view memory);
+void reject_unused_configuration(const tb::ParameterSet& set,
+                                 const spec::morphological::Parameters& values,
+                                 std::string_view memory);
 
 // What the result says of a build that no clock of 250 MHz holds, although it can be simulated, and
 // of thresholds below a code, which are legal and hardly meant.

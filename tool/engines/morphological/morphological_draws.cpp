@@ -28,8 +28,9 @@ RandomDraws morphological_draws() {
                {"morphological.line_pixels", evenly<96, 1100>},
                {"morphological.memory.outstanding", magnitude<4, 256>}};
   // Files; and a reference and frames behind each other, which are nothing of the hardware.
-  all.fixed = {"frame.depth",         "frame.reference",     "frame.mask",     "frame.weights",
-               "frame.reference_samples", "sequence.frames", "sequence.motion"};
+  all.fixed = {"frame.depth",    "frame.reference",         "frame.mask",
+               "frame.weights",  "frame.reference_samples", "sequence.frames",
+               "sequence.motion"};
   all.given = {{"frame.reference_samples", "0"}};
   all.wanted = {traces_something};
   return all;

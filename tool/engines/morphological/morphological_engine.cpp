@@ -17,10 +17,10 @@
 #include "tb/run/progress.h"
 #include "tb/scene/image_bytes.h"
 #include "tb/scene/reference.h"
+#include "tool/engines/morphological/morphological_configuration.h"
 #include "tool/engines/morphological/morphological_draws.h"
 #include "tool/engines/morphological/morphological_pictures.h"
 #include "tool/engines/morphological/morphological_role.h"
-#include "tool/engines/morphological/morphological_configuration.h"
 #include "tool/run/flicker.h"
 #include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
@@ -51,9 +51,9 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
           "sequence.frames: an image file does not move: list a file a frame, as by "
           "--in 'frames/*.png'");
     if (!frame_.mask.empty()) {
-      set.imply("morphological.leave", "masked", "frame.mask");
-      if (parameters_.leave == spec::morphological::Bypass::kNone)
-        set.reject("frame.mask", "morphological.leave = none looks at no mask");
+      set.imply("morphological.bypass", "masked", "frame.mask");
+      if (parameters_.bypass == spec::morphological::Bypass::kNone)
+        set.reject("frame.mask", "morphological.bypass = none looks at no mask");
     }
     reject_unused_configuration(set, parameters_, "memory");
     reject_unused_memory(set, "memory", memory_);
@@ -83,7 +83,8 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
          {"--truth", "frame.reference", "Anti-aliased picture to compare with"},
          {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
          {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
-         {"--shares", "frame.weights", "Learned weights of `deburr train` instead of those shipped"},
+         {"--shares", "frame.weights",
+          "Learned weights of `deburr train` instead of those shipped"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
         joined(smoothing_shorthands(), sequence_shorthands()));
   }
@@ -205,7 +206,8 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
   void reject_unused_frame(const tb::ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
-    // load_frame() has its own words for a reference beside a scene, and for a file that is not there.
+    // load_frame() has its own words for a reference beside a scene, and for a file that is not
+    // there.
     if (is_rendered(first()) || !tb::is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.reject(name, "frame.source is an image file, which has a size of its own");
@@ -245,11 +247,11 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();
     if (golden) expected.pixels = engine.golden_model().pixels();
-    add_smoothing_pictures(
-        context,
-        {before, after, engine.delivered(), golden ? &expected : nullptr,
-         loaded.reference ? &*loaded.reference : nullptr, "the frame as it came", loaded.reference_name},
-        engine.probes());
+    add_smoothing_pictures(context,
+                           {before, after, engine.delivered(), golden ? &expected : nullptr,
+                            loaded.reference ? &*loaded.reference : nullptr, "the frame as it came",
+                            loaded.reference_name},
+                           engine.probes());
     if (engine.delivered() < after.pixels.size()) return;
     result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);
     if (loaded.reference)

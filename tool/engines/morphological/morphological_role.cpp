@@ -11,8 +11,8 @@
 #include "tb/engines/morphological/morphological_frames.h"
 #include "tb/env/collect.h"
 #include "tb/scene/depth_codes.h"
-#include "tool/engines/morphological/morphological_pictures.h"
 #include "tool/engines/morphological/morphological_configuration.h"
+#include "tool/engines/morphological/morphological_pictures.h"
 #include "tool/run/input_configuration.h"
 
 namespace deburr::tool {
@@ -107,7 +107,7 @@ class MorphologicalRole final : public RowSmoother {
   void follow(tb::ParameterSet& set, std::string_view why) override {
     const spec::morphological::Parameters configuration =
         golden::morphological::following_geometric(parameters_);
-    std::vector<std::string> names = {"leave"};
+    std::vector<std::string> names = {"bypass"};
     if (configuration.edge_source != parameters_.edge_source) names.push_back("edges.source");
     if (configuration.edge_source == spec::morphological::EdgeSource::kPredicated &&
         !set.given("morphological.edges.source"))

@@ -58,7 +58,8 @@ void reject_unused_scene(const tb::ParameterSet& set) {
         "scene.target", "scene.fov", "scene.roll", "sequence.frames", "sequence.motion"})
     set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.reference")->text() == "true")
-    throw spec::ConfigError("run.reference: the scene of a file's fragments is unknown: leave it out");
+    throw spec::ConfigError(
+        "run.reference: the scene of a file's fragments is unknown: leave it out");
 }
 
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {

@@ -19,14 +19,14 @@
 #include "tb/run/amount.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/textures.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/textures.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
-#include "tool/engines/texture/texture_draws.h"
-#include "tool/engines/texture/texture_role.h"
 #include "tool/engines/texture/texture_configuration.h"
+#include "tool/engines/texture/texture_draws.h"
 #include "tool/engines/texture/texture_reference.h"
+#include "tool/engines/texture/texture_role.h"
 #include "tool/run/flicker.h"
 #include "tool/run/input_configuration.h"
 #include "tool/run/pictures.h"
@@ -171,8 +171,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
 
   rtl::texture::TextureUnit::StandIns stand_ins(std::uint64_t seed) const {
     return tb::texture_counterparts(
-        counterpart_units_, tb::as_built(texture_, memory_cycles(memory_, texture_.cache_line_bytes)),
-        seed);
+        counterpart_units_,
+        tb::as_built(texture_, memory_cycles(memory_, texture_.cache_line_bytes)), seed);
   }
 
   void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
@@ -240,7 +240,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         name(texture_.count, spec::texture::kCountNames),
         name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
         texture_.cache_ways, memory_.latency,
-        counterpart_units_.empty() ? "" : "; in SystemVerilog: ", fmt::join(counterpart_units_, ", "));
+        counterpart_units_.empty() ? "" : "; in SystemVerilog: ",
+        fmt::join(counterpart_units_, ", "));
   }
 
   bool linear_light() const {

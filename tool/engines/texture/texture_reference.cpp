@@ -20,8 +20,8 @@ std::string reference_caption() {
   return fmt::format("{} samples a pixel", kReferenceSamples * kReferenceSamples);
 }
 
-std::shared_ptr<const Image> scene_reference(const tb::TextureScene& scene, tb::RenderOptions options,
-                                         const RunContext& context) {
+std::shared_ptr<const Image> scene_reference(const tb::TextureScene& scene,
+                                             tb::RenderOptions options, const RunContext& context) {
   options.width = scene.stream().width;
   options.height = scene.stream().height;
   options.samples = kReferenceSamples;
@@ -50,8 +50,9 @@ Image compare_with_scene(const tb::TextureScene& scene, tb::RenderOptions option
                          const RunContext& context) {
   try {
     Image reference = *scene_reference(scene, std::move(options), context);
-    result.quality = measure_quality(fmt::format("supersampled-{}", kReferenceSamples * kReferenceSamples),
-                                     before, after, reference, &scene.stream().depth);
+    result.quality =
+        measure_quality(fmt::format("supersampled-{}", kReferenceSamples * kReferenceSamples),
+                        before, after, reference, &scene.stream().depth);
     return reference;
   } catch (const tb::Interrupted&) {
     result.interrupted = true;

@@ -13,13 +13,14 @@
 
 namespace deburr::tool {
 
-// The scene's reference, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C on
-// the way ends it: the result is marked, the picture empty, and what was measured before stays.
+// The scene's reference, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C
+// on the way ends it: the result is marked, the picture empty, and what was measured before stays.
 inline constexpr int kReferenceSamples = 16;
 std::string reference_caption();
 // Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
 std::shared_ptr<const tb::Image> scene_reference(const tb::TextureScene& scene,
-                                             tb::RenderOptions options, const RunContext& context);
+                                                 tb::RenderOptions options,
+                                                 const RunContext& context);
 tb::Image compare_with_scene(const tb::TextureScene& scene, tb::RenderOptions options,
                              const tb::Image& before, const tb::Image& after, tb::Result& result,
                              const RunContext& context);

@@ -147,12 +147,12 @@ class TextureRole final : public PictureDrawer {
 
   std::string reference_caption() const override { return tool::reference_caption(); }
   void prepare_reference(const DrawnScene& scene, const tb::RenderOptions& options,
-                     const RunContext& context) const override {
+                         const RunContext& context) const override {
     scene_reference(textured(scene), options, context);
   }
   Image compare_with_reference(const DrawnScene& scene, const tb::RenderOptions& options,
-                           const Image& before, const Image& after, tb::Result& result,
-                           const RunContext& context) const override {
+                               const Image& before, const Image& after, tb::Result& result,
+                               const RunContext& context) const override {
     return compare_with_scene(textured(scene), options, before, after, result, context);
   }
 

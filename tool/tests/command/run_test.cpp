@@ -43,8 +43,8 @@ void fill(tb::Result& r) {
   r.bytes_read = 640000;
   r.bytes_written = 160000;
   r.memories = {memory("rom", ""), memory("cache", "nine ports"), memory("queue", "no clock")};
-  r.quality =
-      tb::Quality{"reference", 31.5, 28.25, 27.125, 30.25, 29.5, 25, 0.0625, 0.125, 0.96875, 0.9375};
+  r.quality = tb::Quality{"reference", 31.5,   28.25, 27.125,  30.25, 29.5,
+                          25,          0.0625, 0.125, 0.96875, 0.9375};
   r.change = tb::Change{12.25, 3.5, 0.75, 0.125, 33.75};
 }
 

@@ -34,7 +34,7 @@ CONTRACT = {
     "deburr_morphological.THRESHOLD_OFF.value": ({"sw": "rw", "hw": "r", "swwe": "true"}, 835635),
     "deburr_texture.STATUS.invalid_texture": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
     "deburr_texture.CONTROL.invalidate": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
-    "deburr_texture.RULES.spread": ({"sw": "r", "hw": "na"}, 64),
+    "deburr_texture.CONFIG.spread": ({"sw": "r", "hw": "na"}, 64),
     "deburr_texture.TEXTURE0_MODE.levels": ({"sw": "rw", "hw": "r"}, 0),
 }
 
@@ -242,7 +242,7 @@ def broken_resets(maps, defaults):
     """Fields that parameters load: their defaults, as `deburr params --json` lists them."""
     tried = 0
     for prefix, registers in maps.items():
-        for register in ("RULES", "SMAA", "THRESHOLD", "ALPHA", "FLOOR", "DEPTH_THRESHOLD"):
+        for register in ("CONFIG", "SMAA", "THRESHOLD", "ALPHA", "FLOOR", "DEPTH_THRESHOLD"):
             for name, field in registers.get(register, {"fields": {}})["fields"].items():
                 stem = register.lower() if name == "value" else name
                 keys = [(prefix, stem), (prefix, f"edges_{stem}")]

@@ -183,7 +183,7 @@ class Figures(CommandTest):
         self.wrong_figures("texture", 11, ["memory_port_reads", "miss_queue_fill_bytes"])
 
     def test_morphological(self):
-        self.wrong_figures("morphological", 4, ["sequencer_beats", "predictor_v_iterations"])
+        self.wrong_figures("morphological", 4, ["slot_sequencer_beats", "endpoint_predictor_v_iterations"])
         self.wrong_figures("morphological", 10, ["memory_port_bytes_written", "pixel_store_lines_read"],
                            "--storage", "memory")
 

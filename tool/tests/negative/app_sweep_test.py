@@ -220,7 +220,7 @@ class Surroundings(Sweeps):
         for action in ("plan", "run"):
             self.expect(2, "sweep", "s.yaml", action,
                         says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
-        for key, near in (("units.filter.buzy", "units.filter.busy"), ("/units/filtre/busy", "units.filter.busy"),
+        for key, near in (("units.filter_pipeline.buzy", "units.filter_pipeline.busy"), ("/units/filtre/busy", "units.filter_pipeline.busy"),
                           ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears")):
             self.write("s.yaml", BASE + AXES + f"metrics: {{it: '{key}'}}\n")
             self.expect(2, "sweep", "s.yaml", "plan", says=("has the key", f"'{near}'"))

@@ -54,8 +54,8 @@ Measured measured(const std::vector<Frame>& frames) {
   return m;
 }
 
-// The picture's steps are -4, 0 and +6, 0 off the reference's, and then 0, 3; what went in is off by
-// 10, 0 and 0, 0 and 0, 20.
+// The picture's steps are -4, 0 and +6, 0 off the reference's, and then 0, 3; what went in is off
+// by 10, 0 and 0, 0 and 0, 20.
 TEST(Flicker, IsOfEachPairOfFramesAgainstItsTruth) {
   const Measured m = measured({{picture(10, 10), picture(10, 20), picture(10, 50)},
                                {picture(30, 10), picture(16, 20), picture(20, 50)},

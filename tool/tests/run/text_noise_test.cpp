@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Text that a user gives, spoilt: configuration files, definitions of sweeps, injected faults. It is
-// taken, or rejected by a named error; what is taken runs to a named end. In the worst case a fault
-// that is injected breaks the run, never the program.
+// Text that a user gives, spoilt: configuration files, definitions of sweeps, injected faults. It
+// is taken, or rejected by a named error; what is taken runs to a named end. In the worst case a
+// fault that is injected breaks the run, never the program.
 //
 // No libFuzzer here: all of the command stands behind these texts, and SystemC elaborates once a
 // process, so inputs are made by what such texts look like, from seeds.
@@ -163,7 +163,8 @@ TEST_F(TextNoise, Sweeps) {
             "");
 }
 
-// ---- injected faults -----------------------------------------------------------------------------
+// ---- injected faults
+// -----------------------------------------------------------------------------
 
 // What comes of a run with this fault: what it said, if it ended by no name.
 std::string run_with(const std::string& engine, const std::string& fault, const fs::path& directory,
@@ -182,7 +183,8 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
                                                         {"run.watchdog_cycles", "3000"},
                                                         {"run.fault", fault}})
     bound.set.set(name, value, "--set");
-  if (bound.set.find("frame.reference_samples")) bound.set.set("frame.reference_samples", "0", "--set");
+  if (bound.set.find("frame.reference_samples"))
+    bound.set.set("frame.reference_samples", "0", "--set");
   try {
     bound.resolve();
     RunContext context(directory, bound.set, "", 1);

@@ -64,7 +64,7 @@ class Coverage(unittest.TestCase):
         self.assertEqual(bins["texture/format/rgba8"], fragments)
         self.assertEqual(total(bins, "texture/mode") + total(bins, "texture/magnified"), fragments)
         self.assertEqual(sum(int(name.split("/")[-1]) * hits for name, hits in bins.items()
-                             if name.startswith("texture/samples/")), work["walker_samples"])
+                             if name.startswith("texture/samples/")), work["sample_walker_samples"])
         for outcome, counter in (("hit", "hits"), ("miss", "misses"), ("merged", "merged")):
             self.assertEqual(bins[f"texture/cache/{outcome}"], work[f"tag_stage_{counter}"])
         for axes in (2, 8):
@@ -85,7 +85,7 @@ class Coverage(unittest.TestCase):
         bins, work = covered("morphological", *SIZE)
         self.assertEqual(set(bins), declared("morphological"))
         self.assertEqual(total(bins, "morphological/decision"), 72 * 56)
-        runs = work["extractor_horizontal_runs"] + work["extractor_vertical_runs"]
+        runs = work["run_extractor_horizontal_runs"] + work["run_extractor_vertical_runs"]
         self.assertEqual(total(bins, "morphological/shape"), runs)
         self.assertGreater(runs, 0)
         self.assertEqual(total(bins, "morphological/table"), 0)

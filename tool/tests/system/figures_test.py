@@ -84,8 +84,8 @@ class Texture(Figures):
         work, lines = r["work"], r["memory"]["lines_filled"]
         # Without levels a sample is one request, and the plane fills the picture.
         self.assertEqual(work["fragments"], 32 * 32)
-        self.assertEqual(work["bilinears"], work["walker_samples"])
-        self.assertEqual(work["bilinears_per_fragment"], work["walker_samples"] / 1024)
+        self.assertEqual(work["bilinears"], work["sample_walker_samples"])
+        self.assertEqual(work["bilinears_per_fragment"], work["sample_walker_samples"] / 1024)
         self.assertEqual(r["throughput"]["value"], work["bilinears"] / r["cycles"])
         self.assertEqual(r["throughput"]["bound"], 1)
         self.assertEqual(work["misses_per_texel"], lines / (4 * work["bilinears"]))
@@ -130,10 +130,10 @@ class Texture(Figures):
         """Without anisotropy one sample a fragment; a second request where two levels are mixed."""
         for mode, levels in (("nearest", 1), ("linear", 1), ("linear_mipmap_nearest", 1), ("linear_mipmap_linear", 2)):
             work = self.run_engine(*self.SMALL, "--mode", mode, "--aniso", "1")["work"]
-            self.assertEqual(work["walker_samples"], 1024, mode)
-            self.assertEqual(work["bilinears"], 1024 + (work["level_two_levels"] if levels == 2 else 0), mode)
-            self.assertEqual(work["filter_stage_7"], 1024, "a sample passes here once")
-            self.assertEqual(work["filter_stage_8"], 1024, "a fragment passes here once")
+            self.assertEqual(work["sample_walker_samples"], 1024, mode)
+            self.assertEqual(work["bilinears"], 1024 + (work["level_unit_two_levels"] if levels == 2 else 0), mode)
+            self.assertEqual(work["filter_pipeline_stage_7"], 1024, "a sample passes here once")
+            self.assertEqual(work["filter_pipeline_stage_8"], 1024, "a fragment passes here once")
 
     def test_texels_count_as_many_bytes_as_their_format_has(self):
         for texel_format, size in (("rgba8", 4), ("rgb565", 2), ("l8", 1)):
@@ -190,11 +190,11 @@ class Morphological(Figures):
         """Six runs of four left edges, five of one top edge; those at the frame's border are no clean Z."""
         for lanes in (1, 4):
             work = self.step("--set", "morphological.divider.interval=4", lanes=lanes)["work"]
-            expected = {"area_vertical_edges": 24, "area_horizontal_edges": 5, "edges_edge_pixels": 29,
-                        "extractor_vertical_runs": 6, "extractor_horizontal_runs": 5, "extractor_z_runs": 9,
-                        "extractor_long_runs": 0, "divider_h_divides": 5, "divider_v_divides": 6,
-                        "divider_h_occupancy": 20, "divider_v_occupancy": 24, "area_records": 11,
-                        "blender_pixels": 960, "sequencer_beats": 960 // lanes, "sequencer_frames": 1}
+            expected = {"area_unit_vertical_edges": 24, "area_unit_horizontal_edges": 5, "edge_detector_edge_pixels": 29,
+                        "run_extractor_vertical_runs": 6, "run_extractor_horizontal_runs": 5, "run_extractor_z_runs": 9,
+                        "run_extractor_long_runs": 0, "line_unit_h_divides": 5, "line_unit_v_divides": 6,
+                        "line_unit_h_occupancy": 20, "line_unit_v_occupancy": 24, "area_records": 11,
+                        "blender_pixels": 960, "slot_sequencer_beats": 960 // lanes, "slot_sequencer_frames": 1}
             self.assertEqual({name: work[name] for name in expected}, expected)
             self.assertAlmostEqual(work["edge_pixels_percent"], 100 * 29 / 960)
             self.assertAlmostEqual(work["blended_pixels_percent"], 100 * work["blender_blended_pixels"] / 960)
@@ -203,7 +203,7 @@ class Morphological(Figures):
         """Divisions x interval over cycles x lanes; idle is a clock without a division under way."""
         for lanes, interval in ((1, 1), (1, 4), (4, 4)):
             r = self.step("--set", f"morphological.divider.interval={interval}", lanes=lanes)
-            for name, divisions in (("divider_h", 5), ("divider_v", 6)):
+            for name, divisions in (("line_unit_h", 5), ("line_unit_v", 6)):
                 unit = r["units"][name]
                 self.assertEqual(unit["busy"] + unit["idle"] + sum(unit["stalls"].values()), r["cycles"])
                 self.assertAlmostEqual(r["work"][name + "_occupancy_percent"],

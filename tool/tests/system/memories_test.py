@@ -85,7 +85,7 @@ class Memories(unittest.TestCase):
 
         every_rule = found("--set", "texture.srgb_output=encoded", "--set", "texture.log2=exact")
         self.assertEqual(page, every_rule)
-        self.assertEqual(set(page) - set(found()), {"filter_codes", "log2_table"})
+        self.assertEqual(set(page) - set(found()), {"filter_codes", "log2_unit_table"})
 
 
 if __name__ == "__main__":

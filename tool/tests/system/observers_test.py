@@ -340,14 +340,14 @@ class Maps(MapSums):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--maps")
             maps, work = self.sums(out)
-            self.assertEqual(maps["samples"][0], work["walker_samples"])
+            self.assertEqual(maps["samples"][0], work["sample_walker_samples"])
             self.assertEqual(maps["misses"][0], work["tag_stage_misses"])
             self.assertEqual(maps["latency"][1], work["fragments"])
             result = load(out)
             latency = result["maps"]["latency"]
             self.assertEqual((latency["min"], latency["max"]), (result["latency"]["min"], result["latency"]["max"]))
             fractions = sum(v % 1 != 0 for v in values(out, "level")[2] if not math.isnan(v))
-            self.assertEqual(fractions, work["level_two_levels"])
+            self.assertEqual(fractions, work["level_unit_two_levels"])
 
     def test_morphological(self):
         for more in ((), ("--lanes", "4"), ("--preset", "mlaa")):
@@ -356,10 +356,10 @@ class Maps(MapSums):
                 result = load(out)
                 found, work = self.sums(out) if "mlaa" not in more else (None, result["work"])
                 edges = [v > 0 for v in values(out, "edges")[2]]
-                self.assertEqual(sum(edges), work["edges_edge_pixels"])
+                self.assertEqual(sum(edges), work["edge_detector_edge_pixels"])
                 self.assertEqual(edges, [v > 0 for v in values(out, "run_length")[2]])
                 if found:
-                    self.assertAlmostEqual(found["steps"][0], work["predictor_h_steps"] + work["predictor_v_steps"],
+                    self.assertAlmostEqual(found["steps"][0], work["endpoint_predictor_h_steps"] + work["endpoint_predictor_v_steps"],
                                            delta=1e-3)
 
 

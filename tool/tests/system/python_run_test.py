@@ -52,7 +52,7 @@ class Runs(Scratch):
         self.assertEqual(run.cycles, file["cycles"])
         self.assertEqual(run.verdict, "pass")
         self.assertEqual(run.throughput.value, file["throughput"]["value"])
-        self.assertEqual(run["units.filter.busy"], file["units"]["filter"]["busy"])
+        self.assertEqual(run["units.filter_pipeline.busy"], file["units"]["filter_pipeline"]["busy"])
         self.assertEqual(run.work.as_dict(), file["work"])
         self.assertIn("misses_per_texel", run.work)
         self.assertIn("[line/texel]", run.explain("work.misses_per_texel"))
@@ -60,8 +60,8 @@ class Runs(Scratch):
         # Windows add up to the run.
         intervals = run.intervals
         self.assertEqual(int(intervals.cycles.sum()), run.cycles)
-        self.assertEqual(int(intervals["series.work.derivative_fragments"].sum()), run.work.fragments)
-        self.assertEqual(intervals["series.units.filter.busy"].shape, (intervals.intervals,))
+        self.assertEqual(int(intervals["series.work.derivative_unit_fragments"].sum()), run.work.fragments)
+        self.assertEqual(intervals["series.units.filter_pipeline.busy"].shape, (intervals.intervals,))
         for page in ("docs/reference/python.md", "examples/python/notebook.ipynb"):
             named = set(re.findall(r"series\.[a-z_.]+", (SOURCE / page).read_text(encoding="utf-8")))
             self.assertNotEqual(named, set(), page)

@@ -65,7 +65,7 @@ class Smoothing(unittest.TestCase):
         self.assertLessEqual(work["engine_cycles_bound"], result["cycles"])
         # A marked pixel makes no edge, so none has a share to lose; with marked it has.
         self.assertEqual(work["morphological_blender_left_pixels"], 0)
-        marked = self.run_frame("--smoothing", "geometric-morphological", "--set", "morphological.leave=marked")["work"]
+        marked = self.run_frame("--smoothing", "geometric-morphological", "--set", "morphological.bypass=marked")["work"]
         self.assertGreater(marked["morphological_blender_left_pixels"], 0)
         # Whoever is marked was blended.
         self.assertLessEqual(marked["morphological_blender_left_pixels"], work["geometric_resolver_blended_pixels"])
@@ -78,11 +78,11 @@ class Smoothing(unittest.TestCase):
         implied = configuration()
         self.assertEqual(implied["geometric.mark"], True)
         self.assertEqual(implied["morphological.preset"], "deburr-line")
-        self.assertEqual(implied["morphological.leave"], "masked")
+        self.assertEqual(implied["morphological.bypass"], "masked")
         self.assertEqual(implied["morphological.edges.source"], "predicated")
         self.assertEqual(implied["morphological.edges.threshold_off_depth_edge"], 16777215)
-        given = configuration("--set", "morphological.leave=beside", "--set", "morphological.edges.source=luma")
-        self.assertEqual(given["morphological.leave"], "beside")
+        given = configuration("--set", "morphological.bypass=beside", "--set", "morphological.edges.source=luma")
+        self.assertEqual(given["morphological.bypass"], "beside")
         self.assertEqual(given["morphological.edges.source"], "luma")
         # A dynamic threshold has no depth beside it.
         self.assertEqual(configuration("--preset", "smaa-dynamic")["morphological.edges.source"], "luma")
@@ -109,7 +109,7 @@ class Smoothing(unittest.TestCase):
                             ("geometric.memory-error", 3), ("geometric.misdecode-rules-layout", 1),
                             ("morphological.misdecode-rules-linear-light", 1), ("misdecode-texture0-mode-layout", 1)):
             # Of the edges that are left no run is extended or blended here, which a wrong rule would change.
-            marks = ("--set", "morphological.leave=none") if fault.split(".")[-1] in unmarked else ()
+            marks = ("--set", "morphological.bypass=none") if fault.split(".")[-1] in unmarked else ()
             self.command(code, "--smoothing", "geometric-morphological", "--fault", fault, *marks)
 
 
@@ -127,11 +127,11 @@ class Maps(observers_test.MapSums):
     def test_maps_are_those_of_its_engines(self):
         with tempfile.TemporaryDirectory() as out:
             # As it is set, what is blended has no edge left.
-            observers_test.run(out, *observers_test.ENGINES["frame"], "--set", "morphological.leave=none", "--maps")
+            observers_test.run(out, *observers_test.ENGINES["frame"], "--set", "morphological.bypass=none", "--maps")
             maps, work = self.sums(out)
-            self.assertEqual(maps["texture_samples"][0], work["texture_walker_samples"])
+            self.assertEqual(maps["texture_samples"][0], work["texture_sample_walker_samples"])
             self.assertEqual(maps["geometric_lines"][0], work["geometric_coverage_unit_candidates"])
-            self.assertEqual(maps["morphological_edges"][1], work["morphological_edges_edge_pixels"])
+            self.assertEqual(maps["morphological_edges"][1], work["morphological_edge_detector_edge_pixels"])
 
 
 if __name__ == "__main__":

@@ -350,7 +350,7 @@ class Fragments(TracesTest):
         result = self.run_engine("texture", "out", "--fragments", "mixed", "--maps")
         self.assertEqual({figures["pixels"] for figures in result["maps"].values()}, {4})
         self.assertEqual(result["maps"]["samples"]["sum"], 4)
-        self.assertEqual(result["work"]["walker_samples"], 8)
+        self.assertEqual(result["work"]["sample_walker_samples"], 8)
         with open(self.path("bare"), "w") as file:
             file.write("deburr-fragments 1\nfragment 0 - - .5 .5 .01 0 0 .01\nend 1\n")
         done = subprocess.run([DEBURR, "run", "texture", "--fragments", self.path("bare"), "--maps", "--out",

@@ -215,7 +215,7 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
                boundary_lines = w("pair_fetch_boundary_lines");
   expect_lookups("pair-look-up/boundary", boundaries, boundary_lines);
   expect_lookups("pair-look-up/other", w("pair_fetch_lookups") - boundaries,
-                  w("pair_fetch_lines_read") - boundary_lines);
+                 w("pair_fetch_lines_read") - boundary_lines);
   EXPECT_EQ(bin("block/fresh"), missed - read_back);
   EXPECT_EQ(bin("block/cached"), weights - missed);
   EXPECT_EQ(bin("block/replaced"), w("weight_combiner_blocks_written"));

@@ -94,10 +94,10 @@ std::vector<Json> each_alone(const MorphologicalSetup& setup) {
 
 const SeveralFrames kFigures = {
     .of_the_last = {"frame_cycles", "frame_cycles_by_formula", "latency_by_formula",
-                    "sequencer_frame_cycles"},
+                    "slot_sequencer_frame_cycles"},
     .largest = {"memory_port_most_outstanding"},
-    .by_formula = {"edge_pixels_percent", "blended_pixels_percent", "divider_h_occupancy_percent",
-                   "divider_v_occupancy_percent", "input_pixels_per_cycle",
+    .by_formula = {"edge_pixels_percent", "blended_pixels_percent", "line_unit_h_occupancy_percent",
+                   "line_unit_v_occupancy_percent", "input_pixels_per_cycle",
                    "memory_bytes_per_pixel", "frame_rate", "clock_for_1080p60",
                    "pixel_clock_of_1080p60", "fits_1080p60"}};
 
@@ -111,9 +111,9 @@ void expect_formulas(const Json& r, double lanes) {
   const auto w = [&](const char* name) { return work(r, name); };
   const double pixels = area(frames());
   EXPECT_EQ(w("blender_pixels"), pixels);
-  EXPECT_DOUBLE_EQ(w("edge_pixels_percent"), 100 * w("edges_edge_pixels") / pixels);
+  EXPECT_DOUBLE_EQ(w("edge_pixels_percent"), 100 * w("edge_detector_edge_pixels") / pixels);
   EXPECT_DOUBLE_EQ(w("blended_pixels_percent"), 100 * w("blender_blended_pixels") / pixels);
-  for (const std::string divider : {"divider_h", "divider_v"}) {
+  for (const std::string divider : {"line_unit_h", "line_unit_v"}) {
     const Json& unit = r["units"][divider];
     double cycles = unit["busy"].get<double>() + unit["idle"].get<double>();
     for (const auto& [cause, stalled] : unit["stalls"].items()) cycles += stalled.get<double>();
@@ -153,9 +153,10 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
     const bool stored = setup.morphological.storage == Storage::kMemory;
     SeveralFrames figures = kFigures;
     if (stored)
-      figures.by_formula.insert({"extractor_interlock_stalls", "extractor_descriptor_stalls",
-                                 "predictor_h_occupancy", "predictor_v_occupancy",
-                                 "area_bank_conflicts"});
+      figures.by_formula.insert({"run_extractor_interlock_stalls",
+                                 "run_extractor_descriptor_stalls",
+                                 "endpoint_predictor_h_occupancy", "endpoint_predictor_v_occupancy",
+                                 "area_unit_bank_conflicts"});
     expect_sums(all, alone, figures, stored ? 10 : 0);
     expect_formulas(all, lanes);
     EXPECT_EQ(all["amount"], Json({area(frames()), area(frames()), "pixel"}));
@@ -167,8 +168,8 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
       EXPECT_EQ(all["input_cycles"], frames().back().image.pixels.size()) << "a pixel a clock";
     }
     if (stored) {
-      EXPECT_GT(work(all, "divider_h_occupancy"), 0);
-      EXPECT_GT(work(all, "divider_v_occupancy"), 0);
+      EXPECT_GT(work(all, "line_unit_h_occupancy"), 0);
+      EXPECT_GT(work(all, "line_unit_v_occupancy"), 0);
     }
     EXPECT_EQ(all["delivered"], frames().back().image.pixels.size());
     EXPECT_EQ(all["frame"], alone.back()["frame"]);
@@ -185,10 +186,11 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
     EXPECT_EQ(number_at(all, "/checks/traffic_comparisons"), 2 * lines);
     EXPECT_EQ(number_at(all, "/memory/bytes_read"), 64 * lines);
     // Every record of each frame is compared.
-    EXPECT_EQ(number_at(all, "/scoreboards/runs/comparisons"),
-              work(all, "extractor_horizontal_runs") + work(all, "extractor_vertical_runs"));
-    EXPECT_GE(number_at(all, "/scoreboards/lines/comparisons"), work(all, "extractor_z_runs"));
-    EXPECT_GT(work(all, "extractor_z_runs"), 10);
+    EXPECT_EQ(
+        number_at(all, "/scoreboards/runs/comparisons"),
+        work(all, "run_extractor_horizontal_runs") + work(all, "run_extractor_vertical_runs"));
+    EXPECT_GE(number_at(all, "/scoreboards/lines/comparisons"), work(all, "run_extractor_z_runs"));
+    EXPECT_GT(work(all, "run_extractor_z_runs"), 10);
     for (const char* const board : {"pixels", "taps"})
       EXPECT_EQ(all["scoreboards"][board]["comparisons"], area(frames())) << board;
   }
@@ -313,8 +315,10 @@ TEST(MorphologicalFigures, AResetInTheFirstOfTwoFramesChangesNoFigure) {
       for (const char* const key : {"checks", "scoreboards"}) again[key] = whole[key];
       for (const auto& [name, unit] : whole["units"].items())
         again["units"][name]["idle"] = unit["idle"];  // while memory was drained, too
-      again["work"]["divider_h_occupancy_percent"] = whole["work"]["divider_h_occupancy_percent"];
-      again["work"]["divider_v_occupancy_percent"] = whole["work"]["divider_v_occupancy_percent"];
+      again["work"]["line_unit_h_occupancy_percent"] =
+          whole["work"]["line_unit_h_occupancy_percent"];
+      again["work"]["line_unit_v_occupancy_percent"] =
+          whole["work"]["line_unit_v_occupancy_percent"];
       EXPECT_EQ(Json::diff(whole, again), Json::array()) << at;
     }
   }

@@ -129,7 +129,7 @@ TEST(TextureFigures, AreOfEveryFragmentAndLine) {
       const Json r = run(of, setup);
       const auto w = [&](const char* name) { return work(r, name); };
       const auto fragments = static_cast<double>(of.stream().counts.fragments);
-      const double lines = w("miss_queue_line_fills"), bilinears = w("addresser_bilinears");
+      const double lines = w("miss_queue_line_fills"), bilinears = w("texel_addresser_bilinears");
       EXPECT_EQ(r["amount"], Json({fragments, fragments, fragments, "fragment"}));
       EXPECT_EQ(w("fragments"), fragments);
       EXPECT_EQ(w("bilinears"), bilinears);
@@ -200,7 +200,7 @@ TEST(TextureFigures, MapsAreOfThePixelsThatWereDrawn) {
   for (std::size_t n = 0; n < r["by_samples"].size(); ++n)
     by_samples += static_cast<double>(n) * r["by_samples"][n].get<double>();
   EXPECT_EQ(samples, by_samples);
-  EXPECT_EQ(samples, work(r, "walker_samples"));
+  EXPECT_EQ(samples, work(r, "sample_walker_samples"));
   EXPECT_GT(r["pixel"]["steps"].size(), 10u);
   for (const Json& step : r["pixel"]["steps"]) EXPECT_EQ(step["differs"], false) << step.dump();
 }

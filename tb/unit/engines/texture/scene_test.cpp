@@ -16,8 +16,8 @@
 #include "tb/engines/texture/texture_levels.h"
 #include "tb/engines/texture/texture_scene.h"
 #include "tb/scene/quality.h"
-#include "tb/scene/textures.h"
 #include "tb/scene/reference.h"
+#include "tb/scene/textures.h"
 
 namespace deburr::tb::scene_test {
 namespace {
@@ -129,8 +129,8 @@ TEST(TextureScene, GivesTheSamplerItsState) {
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
 }
 
-// Fragments, hardware and reference must go by the same wrap mode, or a picture is compared with the
-// reference of another one.
+// Fragments, hardware and reference must go by the same wrap mode, or a picture is compared with
+// the reference of another one.
 TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndReference) {
   SceneParameters p = small("plane");
   p.texture = "gradient";
@@ -142,7 +142,7 @@ TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndReference) {
     options.width = options.height = 32;
     options.samples = 8;
     return reference ? render(scene.scene(), options)
-                 : golden_frame(scene, spec::texture::Parameters{}).image;
+                     : golden_frame(scene, spec::texture::Parameters{}).image;
   };
   const std::vector<WrapChoice> choices = {WrapChoice::kRepeat, WrapChoice::kMirroredRepeat,
                                            WrapChoice::kClampToEdge};

@@ -116,7 +116,7 @@ void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
                                                 (golden.edges().top.at(x, y) ? 2 : 0)));
       for (const auto& [first, second] : {golden.top_weights(x, y), golden.left_weights(x, y)})
         weights.insert(weights.end(),
-                      {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)});
+                       {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)});
     }
   }
   for (const auto& tap : golden.taps()) {

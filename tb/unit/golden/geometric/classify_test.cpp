@@ -20,6 +20,7 @@ using golden::geometric::is_kept;
 using golden::geometric::preset_parameters;
 using golden::geometric::rejection;
 using spec::geometric::CoarseLines;
+using spec::geometric::Configuration;
 using spec::geometric::Crease;
 using spec::geometric::Cull;
 using spec::geometric::Edge;
@@ -28,7 +29,6 @@ using spec::geometric::Parameters;
 using spec::geometric::Preset;
 using spec::geometric::RecordsLayout;
 using spec::geometric::Rejection;
-using spec::geometric::Configuration;
 using spec::geometric::Select;
 namespace flag = spec::geometric::flag;
 
@@ -46,7 +46,7 @@ EdgeClass from_the_page(const Configuration& configuration, int flags, bool fron
   const bool shading = (flags & 6) == 6 || (flags & 8) != 0;
   const bool crease = configuration.crease == Crease::kPaper     ? paper
                       : configuration.crease == Crease::kShading ? shading
-                                                         : false;
+                                                                 : false;
   return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 
@@ -68,7 +68,8 @@ TEST(Classify, AllFlagsFacingsAndRules) {
             const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
             const EdgeClass expected =
                 from_the_page(configuration, flags, (facings & 1) != 0, (facings & 2) != 0);
-            EXPECT_EQ(classify(configuration, edge, 2, {bytes, 11}), expected) << flags << ' ' << facings;
+            EXPECT_EQ(classify(configuration, edge, 2, {bytes, 11}), expected)
+                << flags << ' ' << facings;
             // Vertices that are not there matter to the one that checks them alone.
             EXPECT_EQ(classify_faces(configuration, edge, {bytes, 11}), expected);
             EXPECT_EQ(classify(configuration, edge, 1, {bytes, 11}), EdgeClass::kInvalid);

@@ -20,16 +20,16 @@ using golden::geometric::combine;
 using golden::geometric::LineFate;
 using golden::geometric::passes;
 using golden::geometric::point_at;
+using golden::geometric::probe_of;
 using golden::geometric::reciprocal;
 using golden::geometric::resolve;
 using golden::geometric::set_up_line;
-using golden::geometric::probe_of;
 using spec::geometric::Axis;
 using spec::geometric::Combine;
+using spec::geometric::Configuration;
 using spec::geometric::DepthTest;
 using spec::geometric::Direction;
 using spec::geometric::LineRecord;
-using spec::geometric::Configuration;
 using spec::geometric::Vertex;
 using spec::geometric::Weights;
 
@@ -386,12 +386,14 @@ TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
         for (const std::uint32_t f : {limit - 1, limit, limit + 1}) {
           const std::uint32_t other = test == DepthTest::kOwn ? 0 : 0xFFFFFF;
           if (f > d) continue;  // the line must be seen
-          EXPECT_EQ(passes(configuration, true, d, f, other), f >= limit) << n << ' ' << d << ' ' << f;
+          EXPECT_EQ(passes(configuration, true, d, f, other), f >= limit)
+              << n << ' ' << d << ' ' << f;
           EXPECT_TRUE(passes(configuration, false, d, f, other));
         }
       }
       configuration.depth_test = DepthTest::kFarther;
-      EXPECT_FALSE(passes(configuration, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
+      EXPECT_FALSE(
+          passes(configuration, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
       configuration.depth_test = DepthTest::kOff;
       EXPECT_TRUE(passes(configuration, true, d, 0, 0));
     }

@@ -42,8 +42,8 @@ using spec::morphological::LineDescriptor;
 using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
-using spec::morphological::RunPart;
 using spec::morphological::RunDescriptor;
+using spec::morphological::RunPart;
 using tb::morphological::Frame;
 
 // ---- entries ------------------------------------------------------------------------------------
@@ -451,7 +451,8 @@ TEST(Searches, LoseNothingByTheReachOf4NPlus2) {
     return all;
   };
   const auto low = weights(Quality::kLow, 60, 100);
-  for (int search_range = 18; search_range < 60; ++search_range) EXPECT_EQ(weights(Quality::kLow, 60, search_range), low);
+  for (int search_range = 18; search_range < 60; ++search_range)
+    EXPECT_EQ(weights(Quality::kLow, 60, search_range), low);
   EXPECT_NE(weights(Quality::kLow, 60, 17), low);
   const auto ultra = weights(Quality::kUltra, 300, 400);
   EXPECT_EQ(weights(Quality::kUltra, 300, 130), ultra);
@@ -478,8 +479,8 @@ golden::morphological::EdgePlanes with_margin(const golden::morphological::EdgeP
   return large;
 }
 
-// With border = clamp every edge has the weights that it has in such a frame, whose margin no search
-// crosses.
+// With border = clamp every edge has the weights that it has in such a frame, whose margin no
+// search crosses.
 TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
   using golden::morphological::BitPlane;
   tb::Random random(21);

@@ -108,7 +108,8 @@ TEST(Blender, MixesWithinACodeInLinearLight) {
 
 TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
   const PixelWeights s{3, 4, 5, 6, 1, 2};
-  EXPECT_EQ(probe_of(s, Decision::kLongerLeftRight), (spec::morphological::BlendProbe{true, 5, 6, 0}));
+  EXPECT_EQ(probe_of(s, Decision::kLongerLeftRight),
+            (spec::morphological::BlendProbe{true, 5, 6, 0}));
   EXPECT_EQ(probe_of(s, Decision::kTie), (spec::morphological::BlendProbe{false, 3, 4, 0}));
   EXPECT_EQ(probe_of({}, Decision::kNone), spec::morphological::BlendProbe{});
 }

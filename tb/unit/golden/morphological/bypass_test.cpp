@@ -42,11 +42,11 @@ bool has_mark(const Frame& frame, int x, int y) {
   return x >= 0 && y >= 0 && x < frame.width && y < frame.height && frame.at(x, y)[3] % 2 == 0;
 }
 
-bool asked_to_leave(const Frame& frame, Bypass leave, int x, int y) {
-  if (leave == Bypass::kNone) return false;
+bool asked_to_leave(const Frame& frame, Bypass bypass, int x, int y) {
+  if (bypass == Bypass::kNone) return false;
   const bool beside = has_mark(frame, x - 1, y) || has_mark(frame, x + 1, y) ||
                       has_mark(frame, x, y - 1) || has_mark(frame, x, y + 1);
-  return has_mark(frame, x, y) || (leave == Bypass::kBeside && beside);
+  return has_mark(frame, x, y) || (bypass == Bypass::kBeside && beside);
 }
 
 Rgba8 mix(const Parameters& p, const Frame& frame, int x, int y, const BlendProbe& probe) {
@@ -63,11 +63,11 @@ Rgba8 mix(const Parameters& p, const Frame& frame, int x, int y, const BlendProb
 // The frame that the engine without the rule makes, with the pixels that are left put back, and
 // those with half a weight mixed again.
 void expect_as_put_back(Parameters p, const Frame& frame) {
-  p.leave = Bypass::kNone;
+  p.bypass = Bypass::kNone;
   MorphologicalGolden plain(p);
   plain.process(frame.view());
-  for (const Bypass leave : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf}) {
-    p.leave = leave;
+  for (const Bypass bypass : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf}) {
+    p.bypass = bypass;
     MorphologicalGolden golden(p);
     golden.process(frame.view());
     spec::morphological::Work work = plain.work();
@@ -77,11 +77,12 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
         BlendProbe probe = plain.probes()[i];
         const bool had = (probe.first | probe.second) != 0;
         const int dx = probe.horizontal ? 1 : 0, dy = probe.horizontal ? 0 : 1;
-        if (leave == Bypass::kHalf) {
+        if (bypass == Bypass::kHalf) {
           if (has_mark(frame, x - dx, y - dy)) probe.first /= 2;
           if (has_mark(frame, x + dx, y + dy)) probe.second /= 2;
         }
-        const bool takes = (probe.first | probe.second) != 0 && !asked_to_leave(frame, leave, x, y);
+        const bool takes =
+            (probe.first | probe.second) != 0 && !asked_to_leave(frame, bypass, x, y);
         if (had && !takes) {
           --work.blended_pixels;
           ++work.bypassed_pixels;
@@ -140,15 +141,15 @@ TEST(Bypass, LooksAtFivePlaces) {
         Case{1, 1, false, false}, Case{2, 0, false, false}, Case{0, -2, false, false}}) {
     Frame frame = plain;
     frame.at(12 + c.dx, 4 + c.dy)[3] = 254;
-    for (const Bypass leave : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside}) {
-      p.leave = leave;
-      const bool left = leave == Bypass::kMarked   ? c.left_by_mark
-                        : leave == Bypass::kBeside ? c.left_beside
-                                                  : false;
+    for (const Bypass bypass : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside}) {
+      p.bypass = bypass;
+      const bool left = bypass == Bypass::kMarked   ? c.left_by_mark
+                        : bypass == Bypass::kBeside ? c.left_beside
+                                                    : false;
       const Frame output = smooth(p, frame);
       EXPECT_EQ(output.at(12, 4)[0], (left ? plain : smoothed).at(12, 4)[0]) << c.dx << ' ' << c.dy;
       // The mark stays with `none` and ends with the others.
-      EXPECT_EQ(output.at(12 + c.dx, 4 + c.dy)[3], leave == Bypass::kNone ? 254 : 255);
+      EXPECT_EQ(output.at(12 + c.dx, 4 + c.dy)[3], bypass == Bypass::kNone ? 254 : 255);
     }
   }
 }
@@ -157,7 +158,7 @@ TEST(Bypass, LooksAtFivePlaces) {
 // last row.
 TEST(Bypass, HasRulesAtTheBorders) {
   Parameters p = preset_parameters(Preset::kMlaa);
-  p.leave = Bypass::kBeside;
+  p.bypass = Bypass::kBeside;
   constexpr int kLast = 29;
   const Frame diamond(kLast + 1, kLast + 1, [](int x, int y) {
     return grey(std::abs(2 * x - kLast) + std::abs(2 * y - kLast) < 40 ? 230 : 20);
@@ -205,7 +206,7 @@ TEST(Bypass, HalvesBeforeSquares) {
   const Frame frame = marked(tb::morphological::noise_image(), random, 3);
   MorphologicalGolden plain(p);
   plain.process(frame.view());
-  p.leave = Bypass::kHalf;
+  p.bypass = Bypass::kHalf;
   MorphologicalGolden golden(p);
   golden.process(frame.view());
   int two = 0;
@@ -230,7 +231,7 @@ TEST(Bypass, HalvesBeforeSquares) {
 // A marked pixel is as good a neighbour as any: what lies across from it takes its weight of it.
 TEST(Bypass, MarkedPixelsAreNeighbours) {
   Parameters p = preset_parameters(Preset::kMlaa);
-  p.leave = Bypass::kMarked;
+  p.bypass = Bypass::kMarked;
   Frame frame = step();
   for (int x = 0; x < 40; ++x) frame.at(x, 3)[3] = 0;
   const Frame without = smooth(p, step()), with = smooth(p, frame);
@@ -244,7 +245,7 @@ TEST(Bypass, MarkedPixelsAreNeighbours) {
 TEST(Bypass, LinesThatCannotBeReadAreMarked) {
   Parameters p = preset_parameters(Preset::kMlaa);
   p.storage = spec::morphological::Storage::kMemory;
-  p.leave = Bypass::kBeside;
+  p.bypass = Bypass::kBeside;
   const Frame frame = step();  // rows of 192 bytes, lines of 16 pixels
   MorphologicalGolden golden(p);
   golden.set_read_errors([](std::uint32_t address) { return address == 4 * 192; });
@@ -261,7 +262,7 @@ TEST(Bypass, LinesThatCannotBeReadAreMarked) {
 TEST(BypassCoverage, DecisionsAreOfEveryPixelOnce) {
   Random random(3);
   Parameters p = preset_parameters(Preset::kDeburrLine);
-  p.leave = Bypass::kBeside;
+  p.bypass = Bypass::kBeside;
   MorphologicalGolden golden(p);
   golden.process(marked(tb::morphological::rendered_like(120, 90, 80), random, 20).view());
   EXPECT_GT(golden.work().bypassed_pixels, 10u);
@@ -273,9 +274,9 @@ TEST(BypassCoverage, DecisionsAreOfEveryPixelOnce) {
 
 TEST(BypassCoverage, EveryBinCanBeReached) {
   Random random(9);
-  const auto with = [](Bypass leave) {
+  const auto with = [](Bypass bypass) {
     Parameters p = preset_parameters(Preset::kDeburrLine);
-    p.leave = leave;
+    p.bypass = bypass;
     return MorphologicalGolden(p);
   };
   MorphologicalGolden by_mark = with(Bypass::kMarked), beside = with(Bypass::kBeside),
@@ -303,12 +304,12 @@ TEST(BypassCoverage, EveryBinCanBeReached) {
 }
 
 // One pixel of a frame of 5 x 4 with these marks; (2, 1) lies on no border.
-std::set<std::string> counted(Bypass leave, unsigned marks, const BlendProbe& probe, int x = 2,
+std::set<std::string> counted(Bypass bypass, unsigned marks, const BlendProbe& probe, int x = 2,
                               int y = 1) {
   const Frame frame(5, 4, [](int, int) { return grey(1); });
   golden::morphological::BypassCoverage coverage;
-  coverage.count_pixel(leave, static_cast<golden::morphological::Marks>(marks), probe, frame.view(),
-                       x, y);
+  coverage.count_pixel(bypass, static_cast<golden::morphological::Marks>(marks), probe,
+                       frame.view(), x, y);
   std::set<std::string> names;
   for (const CoverageBin& bin : coverage.bins()) {
     EXPECT_LE(bin.hits, 1u);
@@ -320,9 +321,9 @@ using Names = std::set<std::string>;
 constexpr unsigned kOwn = 1, kUp = 2, kBesideLeft = 4, kBesideRight = 8, kDown = 16;
 
 TEST(BypassCoverage, WithoutARuleNothingCounts) {
-  for (const Bypass leave : {Bypass::kNone, Bypass::kMasked})
+  for (const Bypass bypass : {Bypass::kNone, Bypass::kMasked})
     for (const unsigned marks : {0u, kOwn, kUp, 31u})
-      EXPECT_EQ(counted(leave, marks, {false, 60, 100}), Names{});
+      EXPECT_EQ(counted(bypass, marks, {false, 60, 100}), Names{});
 }
 
 TEST(BypassCoverage, OwnMarksAreOfTheirRule) {

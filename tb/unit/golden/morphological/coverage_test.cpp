@@ -230,8 +230,8 @@ Hits once(Names... names) {
 }
 
 using spec::morphological::Axis;
-using spec::morphological::RunPart;
 using spec::morphological::RunDescriptor;
+using spec::morphological::RunPart;
 
 constexpr std::array<const char*, 2> kAxisNames = {"horizontal", "vertical"};
 
@@ -480,7 +480,8 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
 TEST(SmaaCoverage, RecordsAreEndlessOrRepeatACrossing) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const std::string of_axis = std::string("endless/") + kAxisNames[axis] + '/';
-    const auto descriptor = [&](int endless, int shape, int extent, RunPart part = RunPart::kWhole) {
+    const auto descriptor = [&](int endless, int shape, int extent,
+                                RunPart part = RunPart::kWhole) {
       RunDescriptor run = inner_run(axis, 5, shape, part);
       run.endless = static_cast<std::uint8_t>(endless);
       SmaaCoverage coverage;

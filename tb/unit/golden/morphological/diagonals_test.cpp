@@ -17,8 +17,8 @@ namespace deburr::diagonals_test {
 namespace {
 
 using golden::morphological::BitPlane;
-using golden::morphological::diagonal_weights;
 using golden::morphological::diagonal_table;
+using golden::morphological::diagonal_weights;
 using golden::morphological::DiagonalAreas;
 using golden::morphological::DiagonalEnds;
 using golden::morphological::DiagonalWeights;
@@ -385,7 +385,7 @@ TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
       const DiagonalWeights found =
           with.edges().top.at(x, y)
               ? diagonal_weights(rising_diagonal(with.edges(), p.diagonal_steps, x, y, p.border),
-                                falling_diagonal(with.edges(), p.diagonal_steps, x, y, p.border))
+                                 falling_diagonal(with.edges(), p.diagonal_steps, x, y, p.border))
               : DiagonalWeights{};
       if (found.taken()) {
         ++taken;

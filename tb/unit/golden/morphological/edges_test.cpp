@@ -48,7 +48,7 @@ class PlainEdges {
   // Outside of the frame, or masked.
   bool outside(Pixel p) const {
     if (p.x < 0 || p.y < 0 || p.x >= frame_.width || p.y >= frame_.height) return true;
-    return p_.leave == spec::morphological::Bypass::kMasked && frame_.at(p.x, p.y)[3] % 2 == 0;
+    return p_.bypass == spec::morphological::Bypass::kMasked && frame_.at(p.x, p.y)[3] % 2 == 0;
   }
   std::int64_t luma(Pixel p) const {
     const spec::morphological::Rgba8& rgba = frame_.at(p.x, p.y);
@@ -201,7 +201,7 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
         p.dynamic_luma = mode.luma;
         p.local_contrast = contrast;
         p.threshold = 765000;
-        if (size[0] % 2 != 0) p.leave = spec::morphological::Bypass::kMasked;
+        if (size[0] % 2 != 0) p.bypass = spec::morphological::Bypass::kMasked;
         const Frame frame = random_frame(size[0], size[1], random);
         const std::vector<std::uint32_t> depth = random_depth(frame, random);
         const EdgePlanes edges = find_edges(p, frame.view(), DepthView(depth, size[0], size[1]));
@@ -313,7 +313,7 @@ TEST(MorphologicalEdges, AMaskHidesAStepOfOneCode) {
     p.threshold = 1;
     for (const int masked : {-1, 0, 1}) {
       for (const int step : {1, 255}) {
-        p.leave = spec::morphological::Bypass::kMasked;
+        p.bypass = spec::morphological::Bypass::kMasked;
         const auto pixel = [&](int i) {
           auto result = tb::morphological::grey(i * step);
           result[3] = i == masked ? 254 : 255;

@@ -373,8 +373,8 @@ int changes_by_edges(Preset preset, int columns, int rows) {
   int result = 0;
   for (int i = 0; i < 3000; ++i) {
     const golden::morphological::EdgePlanes edges = draw(), others = draw();
-    result +=
-        probe(edges) != probe({near_as_in(edges.left, others.left), near_as_in(edges.top, others.top)});
+    result += probe(edges) !=
+              probe({near_as_in(edges.left, others.left), near_as_in(edges.top, others.top)});
   }
   return result;
 }
@@ -684,15 +684,15 @@ TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
   const spec::morphological::FollowingRules configuration;
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   const spec::morphological::Parameters fixed = golden::morphological::following_geometric(p);
-  EXPECT_EQ(fixed.leave, configuration.leave);
+  EXPECT_EQ(fixed.bypass, configuration.bypass);
   EXPECT_EQ(fixed.edge_source, configuration.edge_source);
   EXPECT_EQ(fixed.threshold_on_depth_edge, configuration.threshold_on_depth_edge);
   EXPECT_EQ(fixed.threshold_off_depth_edge, configuration.threshold_off_depth_edge);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.threshold_on_depth_edge = configuration.threshold_on_depth_edge + 1;
   const spec::morphological::Parameters dynamic = golden::morphological::following_geometric(p);
-  EXPECT_NE(p.leave, configuration.leave);
-  EXPECT_EQ(dynamic.leave, configuration.leave);
+  EXPECT_NE(p.bypass, configuration.bypass);
+  EXPECT_EQ(dynamic.bypass, configuration.bypass);
   EXPECT_NE(p.edge_source, configuration.edge_source);
   EXPECT_EQ(dynamic.edge_source, p.edge_source);
   EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are learned weights and edges of colour what docs/reference/morphological/learned_weights.md says?
-// By its worked frames, by a reference in another language, entry by entry, and where other rules
-// meet them.
+// Are learned weights and edges of colour what docs/reference/morphological/learned_weights.md
+// says? By its worked frames, by a reference in another language, entry by entry, and where other
+// rules meet them.
 #include "golden/morphological/learned_weights.h"
 
 #include <gmock/gmock.h>
@@ -115,7 +115,7 @@ constexpr std::string_view kHues =
 
 // Of the edge at a position of a line, for both its pixels.
 std::array<WeightIndices, 2> indices_at(const MorphologicalGolden& golden, Axis axis, int position,
-                                       int line) {
+                                        int line) {
   for (const PredictedRun& run : golden.runs()) {
     const auto& r = run.line.run;
     const int k = position - r.start;
@@ -192,7 +192,7 @@ TEST(LearnedWeights, AreThoseOfTheReference) {
     for (Rgba8& pixel : frame.pixels)
       pixel[3] = static_cast<std::uint8_t>(random.below(256) | (random.below(30) == 0 ? 0u : 1u));
     Parameters p = without_extension();
-    p.leave = Bypass::kMasked;
+    p.bypass = Bypass::kMasked;
     if (i % 2 != 0) {
       p.steps = 0;
       p.window_rows = 12;  // runs longer than the reach
@@ -233,7 +233,7 @@ TEST(Mask, HidesPixelsFromEveryEdge) {
   Random random(9);
   for (const Preset preset : {Preset::kMlaa, Preset::kSmaa, Preset::kDeburrLine, Preset::kDeburr}) {
     Parameters p = preset_parameters(preset);
-    p.leave = Bypass::kMasked;
+    p.bypass = Bypass::kMasked;
     Frame frame = patches(90, 70, random), other = frame;
     const auto masked = [](int x, int y) { return (x - 40) * (x - 40) + (y - 30) * (y - 30) < 90; };
     for (int y = 0; y < frame.height; ++y) {

@@ -107,9 +107,10 @@ TEST(Runs, HaveTheShapeOfTheirCrossings) {
     edges.across.set(6, 2);  // a crossing in the middle does not end a run
     const auto descriptors = find_runs(preset_parameters(Preset::kMlaa), edges);
     ASSERT_EQ(descriptors.size(), 1u);
-    EXPECT_EQ(descriptors[0], (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
-                                                          spec::morphological::RunPart::kWhole, 3,
-                                                          4, 5, static_cast<std::uint8_t>(code)}));
+    EXPECT_EQ(descriptors[0],
+              (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
+                                                  spec::morphological::RunPart::kWhole, 3, 4, 5,
+                                                  static_cast<std::uint8_t>(code)}));
   }
 }
 
@@ -234,13 +235,13 @@ TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
       continue;
     }
     ASSERT_EQ(descriptors.size(), 2u);
-    EXPECT_EQ(descriptors[0],
-              (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
-                                              spec::morphological::RunPart::kHead, 2, 3, 4, 1}));
+    EXPECT_EQ(descriptors[0], (spec::morphological::RunDescriptor{
+                                  spec::morphological::Axis::kHorizontal,
+                                  spec::morphological::RunPart::kHead, 2, 3, 4, 1}));
     EXPECT_EQ(descriptors[1],
-              (spec::morphological::RunDescriptor{spec::morphological::Axis::kHorizontal,
-                                              spec::morphological::RunPart::kTail, 2,
-                                              static_cast<std::uint16_t>(3 + length - 4), 4, 8}));
+              (spec::morphological::RunDescriptor{
+                  spec::morphological::Axis::kHorizontal, spec::morphological::RunPart::kTail, 2,
+                  static_cast<std::uint16_t>(3 + length - 4), 4, 8}));
   }
 }
 
@@ -519,9 +520,9 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
   EXPECT_EQ(all.left_end, SideEnd::kSteps);
   // From X = 9 on the steps of 3, 2 and 4 end at 12, 11 and 13.
   for (const auto& [search_range, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
-                                          {11, 2, SideEnd::kReach},
-                                          {12, 3, SideEnd::kReach},
-                                          {15, 4, SideEnd::kReach}}) {
+                                                 {11, 2, SideEnd::kReach},
+                                                 {12, 3, SideEnd::kReach},
+                                                 {15, 4, SideEnd::kReach}}) {
     p.search_columns = search_range;
     const PredictedRun run = run_at(frame, p, 36);
     EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << search_range;

@@ -76,7 +76,8 @@ TEST(SmaaLimits, CutTheSearchesOfEachPixel) {
     Frame output = frame;
     output.pixels = golden.process(frame.view());
     std::ostringstream weights;
-    for (int x = 1; x <= v.length; ++x) put(weights << (x > 1 ? " " : ""), golden.top_weights(x, 2));
+    for (int x = 1; x <= v.length; ++x)
+      put(weights << (x > 1 ? " " : ""), golden.top_weights(x, 2));
     EXPECT_EQ(weights.str(), v.weights) << v.length;
     const spec::morphological::LimitResult got = {hash(output)};
     EXPECT_EQ(differences(v.result, got), "") << v.length;
@@ -133,7 +134,7 @@ TEST(SmaaTables, GiveTheContractsShares) {
     SCOPED_TRACE(testing::Message() << v.l << ' ' << v.r);
     // L-first-none and U-first.
     const EdgeWeights half = golden::morphological::table_weights(1, v.l, v.r),
-                     dip = golden::morphological::table_weights(5, v.l, v.r);
+                      dip = golden::morphological::table_weights(5, v.l, v.r);
     const spec::morphological::TableResult got = {half.first, dip.first};
     EXPECT_EQ(differences(v.result, got), "");
     tb::expect_each_value_is_compared(v.result, got);

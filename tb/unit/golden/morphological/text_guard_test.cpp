@@ -344,7 +344,7 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
       if (guard.at(x, y).guarded()) {
         probe = {false, 0, 0, before.edges};
         pixel = frame.pixels[i];
-        if (p.leave != Bypass::kNone) pixel[3] |= 1;
+        if (p.bypass != Bypass::kNone) pixel[3] |= 1;
         if ((before.first | before.second) != 0) {
           --work.blended_pixels;
           ++work.bypassed_pixels;
@@ -374,9 +374,9 @@ TEST(TextGuard, PutsBackWhatIsGuarded) {
 // With marks: both rules leave a pixel, and count it once.
 TEST(TextGuard, GoesWithEveryRuleOfMarks) {
   Random random(22);
-  for (const Bypass leave : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf, Bypass::kMasked}) {
+  for (const Bypass bypass : {Bypass::kMarked, Bypass::kBeside, Bypass::kHalf, Bypass::kMasked}) {
     Parameters p = preset_parameters(Preset::kDeburrLine);
-    p.leave = leave;
+    p.bypass = bypass;
     Frame frame = tb::morphological::text_image();
     for (Rgba8& pixel : frame.pixels)
       pixel[3] = static_cast<std::uint8_t>(random.below(128) << 1 | (random.below(6) == 0 ? 0 : 1));
@@ -500,7 +500,7 @@ TEST(GuardCoverage, EveryBinCanBeReached) {
   Random random(31);
   Parameters p = preset_parameters(Preset::kDeburr);
   p.text_guard = true;
-  p.leave = Bypass::kMarked;
+  p.bypass = Bypass::kMarked;
   MorphologicalGolden golden(p);
   std::vector<Frame> frames = {tb::morphological::text_image()};
   for (int i = 0; i < 40; ++i) frames.push_back(patches(60, 50, random));

@@ -47,9 +47,9 @@ FrameResult result_of(const FrameVector& v, MorphologicalGolden::Detail detail) 
   output.pixels = golden.process(input.view());
   const spec::morphological::Work& w = golden.work();
   EXPECT_EQ(w.pixels, input.pixels.size());
-  return {hash(output),     w.edge_pixels, w.horizontal_runs + w.vertical_runs,
-          w.long_runs,      w.z_runs,      w.extended_runs,
-          w.steps,          w.probes,      w.diagonal_pixels,
+  return {hash(output),     w.edge_pixels,    w.horizontal_runs + w.vertical_runs,
+          w.long_runs,      w.z_runs,         w.extended_runs,
+          w.steps,          w.probes,         w.diagonal_pixels,
           w.blended_pixels, w.bypassed_pixels};
 }
 
@@ -77,7 +77,8 @@ TEST(TestVectorHash, ChangesWithOneCodeOfOnePixel) {
   EXPECT_NE(hash(frame), before);
 }
 
-// ---- the table of weights ------------------------------------------------------------------------
+// ---- the table of weights
+// ------------------------------------------------------------------------
 
 struct LineCase {
   std::vector<int> left, right;  // corners taken, outwards

@@ -14,8 +14,8 @@ namespace {
 using golden::texture::log2_fixed;
 using spec::texture::Log2Rule;
 
-constexpr Log2Rule kConfiguration[] = {Log2Rule::kMitchell, Log2Rule::kCorrected, Log2Rule::kSegments,
-                               Log2Rule::kExact};
+constexpr Log2Rule kConfiguration[] = {Log2Rule::kMitchell, Log2Rule::kCorrected,
+                                       Log2Rule::kSegments, Log2Rule::kExact};
 
 // Every d whose bits below the 16 after the leading one are all 0 or all 1.
 void for_each_d(int p, const std::function<void(std::uint32_t)>& visit) {

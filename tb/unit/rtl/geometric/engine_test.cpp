@@ -210,7 +210,8 @@ TEST(Memories, NoneIsNotImplementable) {
       }
       EngineBench b(p);
       std::string not_implementable;
-      for (const rtl::MemoryBase* memory : b.engine.memories()) not_implementable += memory->not_implementable();
+      for (const rtl::MemoryBase* memory : b.engine.memories())
+        not_implementable += memory->not_implementable();
       return not_implementable;
     });
     EXPECT_EQ(got, "") << largest;

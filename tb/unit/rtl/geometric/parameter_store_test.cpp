@@ -25,7 +25,7 @@ using spec::geometric::Select;
 
 constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h << 16; }
 
-// ---- RULES
+// ---- CONFIG
 
 // Every field of what is decoded, in the order of the contract's table: select, crease, depth test,
 // combine, bias, mark, layout, copy, areas, cull, crease depth, linear light.

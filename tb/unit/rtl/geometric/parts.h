@@ -121,9 +121,10 @@ struct Frame {
   rtl::Link<rtl::MemoryResponse> responses;
   rtl::Wire<rtl::geometric::Phase> phase{"phase", rtl::geometric::Phase::kIdle,
                                          rtl::geometric::phase_shape()};
-  rtl::Wire<rtl::geometric::FrameConfiguration> configuration{"rules", rtl::geometric::FrameConfiguration{}};
+  rtl::Wire<rtl::geometric::FrameConfiguration> configuration{"rules",
+                                                              rtl::geometric::FrameConfiguration{}};
   rtl::CombinationalWire<spec::geometric::Rejection> rejection{"rejection",
-                                                           rtl::geometric::rejection_shape()};
+                                                               rtl::geometric::rejection_shape()};
   rtl::Pulse start{"start"}, latch{"latch"}, frame_done{"frame_done"}, memory_error{"memory_error"},
       invalid_edge{"invalid_edge"}, invalid_pair{"invalid_pair"};
   rtl::Wire<bool> high{"high", true}, low{"low", false};

@@ -48,7 +48,7 @@ void load(EngineBench& b, DrawnFrame frame) {
   set_ignored(b, b.bases.vertices, scene.vertices.size(), geometric::kIgnoredOfVertex);
 }
 
-// `rules`, if not 0, are written to RULES.
+// `rules`, if not 0, are written to CONFIG.
 FrameResult result_of(const FrameVector& v, std::uint32_t configuration = 0) {
   Parameters p = preset_parameters(v.preset);
   apply_settings(p, v.settings);
@@ -87,7 +87,7 @@ TEST(FrameVectors, EachValueIsCompared) {
   expect_each_value_is_compared(v.result, result_of(v));
 }
 
-// Codes of RULES that no choice has, on frames where what they count as is seen.
+// Codes of CONFIG that no choice has, on frames where what they count as is seen.
 struct Code {
   char name;
   spec::Field field;
@@ -102,7 +102,8 @@ TEST_P(Codes, ThatNoChoiceHasCountAsThePageSays) {
   const auto& [name, field, code] = GetParam();
   const FrameVector v = geometric::frame_vector(name);
   const std::uint32_t configuration = spec::geometric::configuration_word(configuration(name).p);
-  EXPECT_EQ(differences(v.result, result_of(v, (configuration & ~field.mask()) | field.in(code))), "");
+  EXPECT_EQ(differences(v.result, result_of(v, (configuration & ~field.mask()) | field.in(code))),
+            "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Codes,
                          ::testing::Values(Code{'p', reg::configuration::kDepthBias, 31},

@@ -36,13 +36,13 @@ struct Walk {
     try {
       walk.address<false>(cycle, configuration, slot, beat);
       walk.match<false, false>(cycle + match, slot, beat);
-      walk.visit_edges(
-          cycle + match + visit, beat,
-          [&](std::size_t number, const StoredDescriptor& descriptor, const DescriptorWalk::Edge& edge) {
-            EXPECT_EQ(number, 1u) << "the left edge of lane 0";
-            EXPECT_EQ(edge.k, 0);
-            spans.push_back(descriptor.span);
-          });
+      walk.visit_edges(cycle + match + visit, beat,
+                       [&](std::size_t number, const StoredDescriptor& descriptor,
+                           const DescriptorWalk::Edge& edge) {
+                         EXPECT_EQ(number, 1u) << "the left edge of lane 0";
+                         EXPECT_EQ(edge.k, 0);
+                         spans.push_back(descriptor.span);
+                       });
     } catch (const spec::CheckFailed&) {
       return false;
     }

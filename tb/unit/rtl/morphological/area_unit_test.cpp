@@ -29,7 +29,8 @@ using spec::morphological::Side;
 
 // slots, lines -> AreaUnit -> weights, finished records.
 struct Area {
-  Area(const Parameters& p, int width_, int height_, Cycle weights_open = 0, Cycle finished_open = 0)
+  Area(const Parameters& p, int width_, int height_, Cycle weights_open = 0,
+       Cycle finished_open = 0)
       : width(width_),
         height(height_),
         lanes(lanes_of(p)),
@@ -144,7 +145,8 @@ TEST_P(AreaLanes, LatencyAndIntervalOfTheDatasheet) {
   }
   EXPECT_EQ(bench.unit.busy_cycles(), last + 8);
   EXPECT_EQ(bench.unit.stalled_cycles(), 0u);
-  expect_sum_of_parts(AnalyticWeights::datasheet(), bench.weights_gate.taken[0].cycle - (first + 1));
+  expect_sum_of_parts(AnalyticWeights::datasheet(),
+                      bench.weights_gate.taken[0].cycle - (first + 1));
 }
 
 // A record of each axis, and one in the corner of the frame: 85, 11 | 11, 85, at its pixels and
@@ -267,7 +269,8 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
   EXPECT_EQ(bench.unit.descriptors.value(), 4u);
 }
 
-// ---- with learned weights ------------------------------------------------------------------------
+// ---- with learned weights
+// ------------------------------------------------------------------------
 
 Parameters with_weights(int lanes_code = 0) {
   Parameters p = small(lanes_code);
@@ -304,8 +307,8 @@ std::array<int, 2> shipped(const WeightsRom::Query& query) {
   return weights;
 }
 
-// Weights of a learned record of each axis and of edges without one, nine cycles behind their slots;
-// none has a span.
+// Weights of a learned record of each axis and of edges without one, nine cycles behind their
+// slots; none has a span.
 TEST_P(AreaLanes, LearnedSharesLieWhereTheirEdgesLie) {
   const Cycle latency = AreaUnit::datasheet(with_weights(GetParam())).latency.cycles;
   Area bench(with_weights(GetParam()), 11, 9);
@@ -398,8 +401,8 @@ TEST_P(AreaLanes, EdgesOfALearnedRecordAskByBothOfItsEnds) {
 
 // ---- after a reset ------------------------------------------------------------------------------
 
-// The weights of a row stay in their memory, where a narrower frame has none: beside its last column
-// is nothing.
+// The weights of a row stay in their memory, where a narrower frame has none: beside its last
+// column is nothing.
 TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
   constexpr int kWide = 16, kNarrow = 8;
   Area bench(small(GetParam()), kWide, 9);
@@ -666,10 +669,11 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   // Popped in slot + 2.
-  expect_notices_a_clock(DescriptorStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
-                         &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
-                           expect_latency(sheet, bench.finished_gate.taken[0].cycle - (slot + 2));
-                         });
+  expect_notices_a_clock(
+      DescriptorStore::datasheet(with_table(AreaSource::kTableMerged, GetParam())),
+      &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
+        expect_latency(sheet, bench.finished_gate.taken[0].cycle - (slot + 2));
+      });
   EXPECT_EQ(bench.finished_gate.taken[0].token.count[0], 2 * bench.lanes);
   EXPECT_EQ(bench.unit.bank_conflicts.value(), 0u);
 }

@@ -212,7 +212,7 @@ using spec::morphological::BlendRule;
 using spec::morphological::Bypass;
 
 struct BypassCase {
-  Bypass leave;
+  Bypass bypass;
   BlendRule blend;
   int lanes_code;
 };
@@ -227,7 +227,7 @@ TEST_P(BypassRule, LooksAtTheMarksOfTheFrame) {
   const BypassCase& row = GetParam();
   Parameters p = small(row.lanes_code);
   p.linear_light = false;
-  p.leave = row.leave;
+  p.bypass = row.bypass;
   p.blend = row.blend;
   Blending bench(p, kWidth, kHeight);
   const int lanes = lanes_of(p);
@@ -272,8 +272,8 @@ TEST_P(BypassRule, LooksAtTheMarksOfTheFrame) {
         const bool inside = mark_x >= 0 && mark_x < kWidth && mark_y >= 0 && mark_y < kHeight,
                    own = mark[0] == 0 && mark[1] == 0;
         const bool left =
-            inside && (row.leave == Bypass::kBeside || (row.leave != Bypass::kNone && own));
-        const bool above = row.leave == Bypass::kHalf && mark[0] == 0 && mark[1] == -1;
+            inside && (row.bypass == Bypass::kBeside || (row.bypass != Bypass::kNone && own));
+        const bool above = row.bypass == Bypass::kHalf && mark[0] == 0 && mark[1] == -1;
         const auto lane = static_cast<std::size_t>(x % lanes);
         const spec::morphological::BlendProbe& probe = beat.probe[lane];
         const std::string where = std::to_string(x) + ", " + std::to_string(y) + " mark " +
@@ -285,7 +285,7 @@ TEST_P(BypassRule, LooksAtTheMarksOfTheFrame) {
         for (int k = 0; k < beat.count; ++k) {
           const int alpha = at(x / lanes * lanes + k, y, mark, x, y)[3];
           ASSERT_EQ(beat.pixel[static_cast<std::size_t>(k)][3],
-                    row.leave == Bypass::kNone ? alpha : alpha | 1);
+                    row.bypass == Bypass::kNone ? alpha : alpha | 1);
         }
         for (std::size_t k = beat.count; k < beat.pixel.size(); ++k)
           ASSERT_EQ(beat.pixel[k], (spec::morphological::Rgba8{})) << "a lane that is not there";
@@ -300,14 +300,14 @@ TEST_P(BypassRule, LooksAtTheMarksOfTheFrame) {
 INSTANTIATE_TEST_SUITE_P(
     EveryOne, BypassRule, ::testing::ValuesIn([] {
       std::vector<BypassCase> cases;
-      for (const Bypass leave : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside, Bypass::kHalf})
+      for (const Bypass bypass : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside, Bypass::kHalf})
         for (const BlendRule blend : {BlendRule::kLongest, BlendRule::kStrongest})
-          for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({leave, blend, lanes});
+          for (int lanes = 0; lanes < 3; ++lanes) cases.push_back({bypass, blend, lanes});
       return cases;
     }()),
     [](const auto& row) {
       return std::string(
-                 spec::morphological::kBypassNames[static_cast<std::size_t>(row.param.leave)]) +
+                 spec::morphological::kBypassNames[static_cast<std::size_t>(row.param.bypass)]) +
              "_" +
              std::string(
                  spec::morphological::kBlendRuleNames[static_cast<std::size_t>(row.param.blend)]) +
@@ -320,7 +320,7 @@ TEST_P(HalfWeights, AreThoseOfMarkedNeighbours) {
   const int lanes_code = GetParam();
   Parameters p = small(lanes_code);
   p.linear_light = false;
-  p.leave = Bypass::kHalf;
+  p.bypass = Bypass::kHalf;
   struct Row {
     Weights s;
     unsigned marks;  // up 1, down 2, left 4, right 8
@@ -397,7 +397,7 @@ INSTANTIATE_TEST_SUITE_P(Lanes, HalfWeights, ::testing::Range(0, 3));
 
 TEST(BlenderBlock, ALeftPixelWithoutAWeightCountsNowhere) {
   Parameters p = small();
-  p.leave = Bypass::kBeside;
+  p.bypass = Bypass::kBeside;
   Blending bench(p);
   for (const int weight : {0, 9}) {
     WeightToken token{};

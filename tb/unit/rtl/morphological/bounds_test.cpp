@@ -29,7 +29,8 @@ int least_beats(const Parameters& p, int descriptors, bool one_a_clock) {
 }
 
 std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
-  return static_cast<std::uint64_t>((frame.height + search_range_of(p) + 5) * beats_a_row(frame, p)) +
+  return static_cast<std::uint64_t>((frame.height + search_range_of(p) + 5) *
+                                    beats_a_row(frame, p)) +
          kPipe;
 }
 

@@ -110,19 +110,22 @@ void expect_parts(const AreaUnit& area, const Parameters& p,
 TEST(MorphologicalDatasheets, EveryPartOfTheAreaUnitHasOne) {
   const Parameters p = preset(Preset::kMlaa);
   const EngineBench b(p);
-  expect_parts(b.engine.area, p, {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "WeightRows"});
+  expect_parts(b.engine.area, p,
+               {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "WeightRows"});
 }
 TEST(MorphologicalDatasheets, EveryPartWithLearnedSharesHasOne) {
   const Parameters p = preset(Preset::kDeburr);
   const EngineBench b(p);
-  expect_parts(b.engine.area, p,
-               {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "LearnedWeights", "WeightRows"});
+  expect_parts(
+      b.engine.area, p,
+      {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "LearnedWeights", "WeightRows"});
 }
 TEST(MorphologicalDatasheets, EveryPartWithATableHasOne) {
   const Parameters p = smaa(spec::morphological::Quality::kHigh);
   const EngineBench b(p);
-  expect_parts(b.engine.area, p,
-               {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "TableWeights", "WeightRows"});
+  expect_parts(
+      b.engine.area, p,
+      {"DescriptorStore", "DescriptorWalk", "AnalyticWeights", "TableWeights", "WeightRows"});
 }
 
 }  // namespace

@@ -532,7 +532,8 @@ TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
       ::testing::AllOf(::testing::HasSubstr("diagonal_rom"), ::testing::HasSubstr("is used")));
 }
 
-// ---- injected faults -----------------------------------------------------------------------------
+// ---- injected faults
+// -----------------------------------------------------------------------------
 
 struct Injected {
   const char* name;
@@ -562,37 +563,37 @@ INSTANTIATE_TEST_SUITE_P(
     Rom, DiagonalFaults,
     ::testing::Values(
         Injected{"a bit of a word",
-                [](Rom& rom) { rom.backdoor(diagonal_address(0, 0, 2, 1)) ^= 1; }},
+                 [](Rom& rom) { rom.backdoor(diagonal_address(0, 0, 2, 1)) ^= 1; }},
         Injected{"rising for falling",
-                [](Rom& rom) {
-                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                    const std::uint16_t word = rom.backdoor(diagonal_address(e1, e2, d1, d2));
-                    return static_cast<std::uint16_t>(word << 8 | word >> 8);
-                  });
-                }},
+                 [](Rom& rom) {
+                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                     const std::uint16_t word = rom.backdoor(diagonal_address(e1, e2, d1, d2));
+                     return static_cast<std::uint16_t>(word << 8 | word >> 8);
+                   });
+                 }},
         Injected{"codes of the ends exchanged",
-                [](Rom& rom) {
-                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                    return rom.backdoor(diagonal_address(e2, e1, d1, d2));
-                  });
-                }},
+                 [](Rom& rom) {
+                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                     return rom.backdoor(diagonal_address(e2, e1, d1, d2));
+                   });
+                 }},
         Injected{"bits of a code exchanged",
-                [](Rom& rom) {
-                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                    return rom.backdoor(diagonal_address(e1 >> 1 | (e1 & 1) << 1, e2, d1, d2));
-                  });
-                }},
+                 [](Rom& rom) {
+                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                     return rom.backdoor(diagonal_address(e1 >> 1 | (e1 & 1) << 1, e2, d1, d2));
+                   });
+                 }},
         Injected{"a pixel further from end 1",
-                [](Rom& rom) {
-                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                    return rom.backdoor(diagonal_address(e1, e2, std::min(19, d1 + 1), d2));
-                  });
-                }},
+                 [](Rom& rom) {
+                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                     return rom.backdoor(diagonal_address(e1, e2, std::min(19, d1 + 1), d2));
+                   });
+                 }},
         Injected{"a pixel further from end 2", [](Rom& rom) {
-                  for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                    return rom.backdoor(diagonal_address(e1, e2, d1, std::min(19, d2 + 1)));
-                  });
-                }}));
+                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
+                     return rom.backdoor(diagonal_address(e1, e2, d1, std::min(19, d2 + 1)));
+                   });
+                 }}));
 
 // One bit of one plane of one column.
 TEST(DiagonalFault, AFlippedEdgeIsSeen) {

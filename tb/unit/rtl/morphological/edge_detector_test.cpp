@@ -80,10 +80,10 @@ TEST(EdgeDetectorBlock, DynamicThresholdIsStrictAndHasAFloor) {
   // 10 codes of 100, of which 1677722 / 2^24 is a little more: no. 11 codes: yes. With alpha a unit
   // less, as it is rounded down, 10 are enough.
   EXPECT_EQ(left_bits(front.detect(row({90, 100}), with(current))), "00");
-  EXPECT_EQ(
-      left_bits(front.detect(
-          row({90, 100}), {{reg::kConfiguration, current}, {reg::kAlpha, 1677721}, {reg::kFloor, 131072}})),
-      "01");
+  EXPECT_EQ(left_bits(front.detect(
+                row({90, 100}),
+                {{reg::kConfiguration, current}, {reg::kAlpha, 1677721}, {reg::kFloor, 131072}})),
+            "01");
   EXPECT_EQ(left_bits(front.detect(row({89, 100}), with(current))), "01");
   // The other way round the current pixel is the darker one.
   EXPECT_EQ(left_bits(front.detect(row({100, 90}), with(current))), "01");
@@ -170,7 +170,7 @@ class Masked : public ::testing::TestWithParam<spec::morphological::EdgeSource> 
 TEST_P(Masked, PixelsMakeNoStep) {
   Parameters p = preset(spec::morphological::Preset::kDeburr);
   p.edge_source = GetParam();
-  p.leave = spec::morphological::Bypass::kMasked;
+  p.bypass = spec::morphological::Bypass::kMasked;
   Front front(p);
   Frame steps = row({0, 30, 30, 200, 0, 0, 80, 0});
   for (Rgba8& pixel : steps.pixel) pixel[3] = 1;
@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MaskedDepth, MakesNoStepEither) {
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
-  p.leave = spec::morphological::Bypass::kMasked;
+  p.bypass = spec::morphological::Bypass::kMasked;
   Front front(p);
   Frame frame = row({0, 0, 0, 0, 0});
   frame.depth = {1000, 950, 949, 1000, 0};
@@ -262,7 +262,8 @@ TEST_P(AtEquality, ADynamicThresholdIsExceeded) {
   for (const std::uint32_t larger : {0u, 1u << 3})
     for (const auto& [alpha, bits] :
          {std::pair{(1u << 23) - 1, "01"}, {1u << 23, "00"}, {(1u << 23) + 1, "00"}})
-      expect(row({1, 2}), {{reg::kConfiguration, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
+      expect(row({1, 2}),
+             {{reg::kConfiguration, 1u << 2 | larger}, {reg::kAlpha, alpha}, {reg::kFloor, 1}},
              bits);
 }
 
@@ -299,7 +300,8 @@ TEST_P(AtEquality, PredicatedThresholdsAreMet) {
                                       {kBlueStep, kBlueStep + 1, "001"},
                                       {kBlueStep - 1, kBlueStep - 1, "011"},
                                       {kBlueStep + 1, kBlueStep + 1, "000"}})
-    expect(frame, {{reg::kConfiguration, 2}, {reg::kThresholdOn, on}, {reg::kThresholdOff, off}}, bits);
+    expect(frame, {{reg::kConfiguration, 2}, {reg::kThresholdOn, on}, {reg::kThresholdOff, off}},
+           bits);
 }
 
 INSTANTIATE_TEST_SUITE_P(EdgeDetector, AtEquality,
@@ -312,7 +314,9 @@ TEST(EdgeDetectorBlock, LocalContrastIsStrictTwiceTheStep) {
   for (const std::uint32_t configuration : {paper, symmetric}) {
     const std::map<std::uint32_t, std::uint32_t> writes = {{reg::kConfiguration, configuration}};
     // Steps 100 and 200: 2 x 100 > 200 is false. Steps 101 and 200: both stay.
-    EXPECT_EQ(left_bits(front.detect(row({0, 100, 255 - 0}), {{reg::kConfiguration, configuration}})), "011");
+    EXPECT_EQ(
+        left_bits(front.detect(row({0, 100, 255 - 0}), {{reg::kConfiguration, configuration}})),
+        "011");
     EXPECT_EQ(left_bits(front.detect(row({0, 85, 255}), writes)), "001");  // 85, 170
     EXPECT_EQ(left_bits(front.detect(row({0, 86, 255}), writes)), "011");  // 86, 169
     EXPECT_EQ(left_bits(front.detect(row({0, 170, 255}), writes)), "010");

@@ -18,7 +18,8 @@ struct EdgeMemories {
 
   // When the runs of row y of a frame have been found. left(x, y), top(x, y): is there an edge?
   template <class Left, class Top>
-  void show(const rtl::morphological::FrameConfiguration& configuration, int y, Left&& left, Top&& top) {
+  void show(const rtl::morphological::FrameConfiguration& configuration, int y, Left&& left,
+            Top&& top) {
     const int newest = y + search_range_ + 1;
     const auto beat = [&](int row, int first) {
       rtl::morphological::EdgeBits bits;

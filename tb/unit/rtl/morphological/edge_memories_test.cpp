@@ -104,9 +104,8 @@ TEST_P(EdgeMemoriesShow, WhatHasBeenWritten) {
     const int across = vertical ? static_cast<int>(random.below(kWidth + 1)) : 30;
     trial.line = across + (vertical ? 0 : random.chance(500) ? k : -k);
     trial.length = length;
-    const int used =
-        length +
-        static_cast<int>(random.below(static_cast<std::uint32_t>(std::max(1, search_range - length))));
+    const int used = length + static_cast<int>(random.below(
+                                  static_cast<std::uint32_t>(std::max(1, search_range - length))));
     trial.room = search_range - used;
     trial.from = start + (trial.to_the_right ? used : length - used);
     if (trial.room < std::max(1, length - 1)) continue;
@@ -148,7 +147,8 @@ TEST(EdgeMemory, TheNextRowLeavesWhatTheRecordsOfThisOneLookAt) {
   for (const int row : {kRow, kRow + 1})
     for (int x = 0; x < kWidth; ++x) {
       const int y = row + rows.ahead();
-      rows.write(cycle++, shown.configuration, y, x, shown.edge(false, x, y), shown.edge(true, x, y));
+      rows.write(cycle++, shown.configuration, y, x, shown.edge(false, x, y),
+                 shown.edge(true, x, y));
     }
   for (const int line : {kRow - kSteps, kRow + kSteps}) {
     const Planes planes{shown, false, line};
@@ -345,7 +345,8 @@ TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
   for (const auto [search_range, learned] :
        {Longest{125, false}, Longest{126, false}, Longest{127, false}, Longest{127, true}})
     for (const bool right : {false, true}) {
-      Parameters p = learned ? preset(Preset::kDeburr, 32, search_range) : built(true, 32, search_range);
+      Parameters p =
+          learned ? preset(Preset::kDeburr, 32, search_range) : built(true, 32, search_range);
       p.contiguous = !learned;
       p.line_pixels = 256;
       Shown shown(p, 256, 70, 30, 1000);
@@ -355,8 +356,10 @@ TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
         Trial trial{31, right ? from - 62 : from, length, room, right, 3, 3};
         trial.classes = learned;
         const Cycle cycle = (Cycle{1} << 50) + 2 * static_cast<Cycle>(from) + (right ? 1000 : 0);
-        EXPECT_NO_THROW(rows.read(cycle, shown.configuration, 0, trial)) << search_range << ' ' << from;
-        EXPECT_NO_THROW(rows.hits(cycle + 1, shown.configuration, 0, trial)) << search_range << ' ' << from;
+        EXPECT_NO_THROW(rows.read(cycle, shown.configuration, 0, trial))
+            << search_range << ' ' << from;
+        EXPECT_NO_THROW(rows.hits(cycle + 1, shown.configuration, 0, trial))
+            << search_range << ' ' << from;
         EXPECT_LE(trial.last - trial.first + 1, (search_range + 1) / 2 + 2);
       }
     }

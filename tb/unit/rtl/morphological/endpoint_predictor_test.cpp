@@ -151,7 +151,8 @@ TEST_P(PredictorAxes, RunsOfOnePixelHaveTwoCandidatesAndTheFrameEnds) {
   EXPECT_EQ(bench.ends.sink.taken[0].token.left, 2);   // (0, 0) and (1, 1): top(0, 0) is outside
   EXPECT_EQ(bench.predictor.probes.value(), 2u * 2u * 3u);
   // The frame's end is not the window's: with trim both sides are lost there.
-  bench.registers.bus.write(reg::kConfiguration, bench.registers.bus.read(reg::kConfiguration) | kTrimBit);
+  bench.registers.bus.write(reg::kConfiguration,
+                            bench.registers.bus.read(reg::kConfiguration) | kTrimBit);
   bench.frame(7, 7, diagonal);
   bench.ends.source.add(bench.z(3, 3, 1, true));
   bench.clock.run(80);
@@ -394,7 +395,8 @@ int kept_by_contract(int taken, Ended ended) {
 struct Trimming : Prediction {
   static constexpr int kWidth = 2 * kTrimSearchRange + 2, kHeight = 40, kLine = 20, kStart = 31;
   static Parameters parameters(spec::morphological::Predictor line) {
-    Parameters p = preset(spec::morphological::Preset::kDeburrLine, kTrimSearchRange, kTrimSearchRange);
+    Parameters p =
+        preset(spec::morphological::Preset::kDeburrLine, kTrimSearchRange, kTrimSearchRange);
     p.predictor = line;
     return p;
   }
@@ -414,7 +416,8 @@ struct Trimming : Prediction {
     const auto steps = stair(kStart - before, lengths, row);
     std::uint32_t configuration = registers.bus.read(reg::kConfiguration);
     configuration &= ~(0x1Fu << 9 | 1u << 15 | kTrimBit);
-    configuration |= static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
+    configuration |=
+        static_cast<std::uint32_t>(s.n) << 9 | (s.safe ? 1u << 15 : 0) | (trim ? kTrimBit : 0);
     registers.bus.write(reg::kConfiguration, configuration);
     clock.run(1);
     frame(kWidth, kHeight, [&](int x) {
@@ -768,7 +771,7 @@ struct Looking {
     predictor.sums_out[0](ends.out);
   }
   RunToken descriptor(const Crossings& shown, int line, int start, int length, int start_code,
-                  int end_code, RunPart part = RunPart::kWhole) {
+                      int end_code, RunPart part = RunPart::kWhole) {
     const bool vertical = axis == Axis::kVertical;
     edges.show(
         registers.configuration.driven(), vertical ? start : line,
@@ -868,7 +871,8 @@ TEST_P(CrossingClasses, EndWithTheReach) {
         << length;
   }
   const Crossings shown = {{{30, 12, 50}, {29, 0, 12}}, {{12, 29}}};
-  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 0);
+  EXPECT_EQ(bench.classes(bench.descriptor(shown, 30, 12, 16, 1, 0, RunPart::kHead)).start_class,
+            0);
   const Crossings on = {{{30, 12, 50}, {29, 0, 13}}, {{12, 29}}};
   EXPECT_EQ(bench.classes(bench.descriptor(on, 30, 12, 16, 1, 0, RunPart::kHead)).start_class, 1);
 }
@@ -901,7 +905,8 @@ TEST_P(CrossingClasses, AreOfLearnedRecordsOnly) {
   EXPECT_FALSE(extended.learned);
   EXPECT_GT(extended.left + extended.right, 0);
   EXPECT_EQ(extended.start_class + extended.end_class, 0);
-  bench.registers.bus.write(reg::kConfiguration, bench.registers.bus.read(reg::kConfiguration) & ~(1u << 23));
+  bench.registers.bus.write(reg::kConfiguration,
+                            bench.registers.bus.read(reg::kConfiguration) & ~(1u << 23));
   bench.registers.frame(60, 60, bench.clock.cycle());
   const RunToken l = bench.descriptor(stair, 12, 16, 3, 1, 0);
   EXPECT_FALSE(bench.classes(l).learned);

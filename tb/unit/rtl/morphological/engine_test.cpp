@@ -141,8 +141,9 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   for (Rgba8& pixel : frame.pixel) pixel[3] = static_cast<std::uint8_t>(random.next() >> 16 | 1);
   for (std::size_t i = 0; i < frame.pixel.size(); ++i)
     if ((random.next() >> 16) % 12 == 0) frame.pixel[i][3] &= 0xFE;
-  const auto run = [&](std::uint32_t leave) {
-    bench.bus.write(reg::kConfiguration, (bench.bus.read(reg::kConfiguration) & ~(7u << 24)) | leave << 24);
+  const auto run = [&](std::uint32_t bypass) {
+    bench.bus.write(reg::kConfiguration,
+                    (bench.bus.read(reg::kConfiguration) & ~(7u << 24)) | bypass << 24);
     bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
     const std::size_t before = bench.sink.beats().size();
     bench.run(frame);
@@ -156,8 +157,8 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
   const auto marked = [&](int x, int y) {
     return x >= 0 && x < w && y >= 0 && y < h && frame.at(x, y)[3] % 2 == 0;
   };
-  for (const std::uint32_t leave : {1u, kBeside, 3u}) {
-    const auto beats = run(leave);
+  for (const std::uint32_t bypass : {1u, kBeside, 3u}) {
+    const auto beats = run(bypass);
     const auto beats_a_row = static_cast<std::size_t>((w + lanes - 1) / lanes);
     spec::morphological::Work expected = work;
     for (int y = 0; y < h; ++y)
@@ -166,8 +167,8 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
                                  static_cast<std::size_t>(x / lanes),
                           lane = static_cast<std::size_t>(x % lanes);
         const bool left =
-            marked(x, y) || (leave == kBeside && (marked(x, y - 1) || marked(x - 1, y) ||
-                                                  marked(x + 1, y) || marked(x, y + 1)));
+            marked(x, y) || (bypass == kBeside && (marked(x, y - 1) || marked(x - 1, y) ||
+                                                   marked(x + 1, y) || marked(x, y + 1)));
         spec::morphological::BlendProbe probe = whole[beat].probe[lane];
         Rgba8 pixel = whole[beat].pixel[lane];
         if (left) {
@@ -180,7 +181,7 @@ TEST_P(LeftPixels, AreAsTheyCameAndNothingElseChanges) {
         }
         pixel[3] = frame.at(x, y)[3] | 1;
         // Halved weights are the Blender's test; here they leave the rest alone.
-        if (leave == 3 && !left && (probe.first != 0 || probe.second != 0)) {
+        if (bypass == 3 && !left && (probe.first != 0 || probe.second != 0)) {
           const int dx = probe.horizontal, dy = !probe.horizontal;
           const bool first = probe.first != 0 && marked(x - dx, y - dy),
                      second = probe.second != 0 && marked(x + dx, y + dy);
@@ -294,9 +295,10 @@ TEST(Accounts, EveryUnitHasItsNameAndEveryClockItsClass) {
     EXPECT_EQ(unit->busy_cycles() + unit->stalled_cycles() + unit->idle_cycles(),
               bench.clock.cycle());
   }
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre(
-                         "sequencer", "luma", "edges", "extractor", "predictor_h", "predictor_v",
-                         "divider_h", "divider_v", "area", "pixel_store", "blender"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("sequencer", "luma", "edges", "extractor",
+                                                     "endpoint_predictor_h", "endpoint_predictor_v",
+                                                     "line_unit_h", "line_unit_v", "area",
+                                                     "pixel_store", "blender"));
   // Every slot is a busy clock of the pipe.
   EXPECT_EQ(bench.engine.sequencer.busy_cycles(), (80u + 37u) * 90u);
   EXPECT_EQ(bench.engine.blender.busy_cycles(), 80u * 90u + 5u);
@@ -619,7 +621,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Injected{"drop:engine.lines_v0:50"},           // a record is lost
                       Injected{"drop:engine.finished:20"},           // a record never ends
                       Injected{"flip:engine.pixels:3000:centre.0.g.7"},
-                      Injected{"drop:engine.weights:3000"},    // a slot is lost
+                      Injected{"drop:engine.weights:3000"},   // a slot is lost
                       Injected{"drop:engine.frames_done:0"},  // the frame never ends
                       Injected{"stuck_ready:engine.beats:3000"}));
 

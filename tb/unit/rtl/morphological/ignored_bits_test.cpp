@@ -17,8 +17,8 @@
 namespace deburr::tb::morphological_rtl::ignored_bits_test {
 namespace {
 
-using spec::morphological::EdgeSource;
 using spec::morphological::Bypass;
+using spec::morphological::EdgeSource;
 using spec::morphological::PixelBeat;
 namespace reg = spec::morphological::reg;
 
@@ -127,7 +127,7 @@ TEST_P(IgnoredBits, ChangeNothing) {
   };
   // The mark is bit 0, where one is looked for.
   EXPECT_EQ(difference(fresh, alphas(0xFE)), "");
-  EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.leave != Bypass::kNone);
+  EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.bypass != Bypass::kNone);
   // Lanes behind the last pixel of a row.
   const auto lanes = [&](bool used) {
     return run([&, used](PixelBeat& beat) {

@@ -194,8 +194,9 @@ class Kit : public EngineKit {
     memory.lanes = spec::morphological::Lanes::kFour;
     learned.storage = diagonal.storage = spec::morphological::Storage::kMemory;
     guarded.text_guard = learned.text_guard = diagonal.text_guard = true;
-    const std::vector<std::string> units = {"DiagonalUnit", "WeightsLoader", "TextGuard", "EdgeRows",
-                                            "Blender",      "memory_error", "latched"};
+    const std::vector<std::string> units = {"DiagonalUnit", "WeightsLoader", "TextGuard",
+                                            "EdgeRows",     "Blender",       "memory_error",
+                                            "latched"};
     return {{"deburr-line", deburr_line()},
             {"deburr", deburr()},
             {"smaa", smaa()},

@@ -46,7 +46,8 @@ TEST(ParameterStoreBlock, LetsFramesInWhileEnabled) {
   EXPECT_TRUE(registers.lets_frames_in());
   registers.bus.write(reg::kControl, 0);
   EXPECT_FALSE(registers.lets_frames_in());
-  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameConfiguration{}) << "nothing is latched";
+  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameConfiguration{})
+      << "nothing is latched";
   registers.bus.write(reg::kControl, reg::kControlEnable);
   EXPECT_TRUE(registers.lets_frames_in());
 }
@@ -133,7 +134,7 @@ TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
 // ---- what is decoded, bit by bit
 // ------------------------------------------------------------------
 
-// The fields of RULES that are not 0.
+// The fields of CONFIG that are not 0.
 std::string text_of(const rtl::morphological::FrameConfiguration& f) {
   std::string text;
   const auto add = [&](const char* name, auto value) {
@@ -156,7 +157,7 @@ std::string text_of(const rtl::morphological::FrameConfiguration& f) {
   add("diagonal_steps", f.diagonal_steps);
   add("corners", f.corners);
   add("strongest", f.strongest);
-  add("leave", f.leave);
+  add("bypass", f.bypass);
   add("text_guard", f.text_guard);
   add("learned", f.learned);
   return text;
@@ -178,47 +179,47 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
   p.diagonal_steps = 8;
   p.contiguous = true;
   expect_configuration(p, {{0, ""},
-                   {1, "source 1"},
-                   {2, "source 2"},
-                   {3, "source 3"},
-                   {1u << 2, "dynamic 1"},
-                   {1u << 3, "dynamic_luma 1"},
-                   {2u << 3, "dynamic_luma 2"},
-                   {3u << 3, "dynamic_luma 3"},
-                   {1u << 5, "local_contrast 1"},
-                   {2u << 5, "local_contrast 2"},
-                   {3u << 5, "local_contrast 3"},
-                   {1u << 7, "predictor 1"},
-                   {2u << 7, "predictor 2"},
-                   {3u << 7, ""},
-                   {31u << 9, ""},
-                   {1u << 7 | 1u << 9, "predictor 1, steps 1"},
-                   {1u << 7 | 2u << 9, "predictor 1, steps 2"},
-                   {1u << 7 | 4u << 9, "predictor 1, steps 4"},
-                   {1u << 7 | 8u << 9, "predictor 1, steps 8"},
-                   {2u << 7 | 16u << 9, "predictor 2, steps 16"},
-                   {1u << 14, "contiguous 1"},
-                   {1u << 15, "safe 1"},
-                   {1u << 16, "linear_light 1"},
-                   {1u << 17, "trim 1"},
-                   {1u << 18, "crossings 1"},
-                   {1u << 19, "table 1"},
-                   {1u << 20, "diagonal_steps 5"},
-                   {1u << 21, "corners 1"},
-                   {1u << 22, "strongest 1"},
-                   {1u << 23, ""},
-                   {1u << 24, "leave 1"},
-                   {2u << 24, "leave 2"},
-                   {3u << 24, "leave 3"},
-                   {4u << 24, "leave 4"},
-                   {5u << 24, ""},
-                   {6u << 24, ""},
-                   {7u << 24, ""},
-                   {1u << 27, ""},
-                   {1u << 27 | 1u << 18, "crossings 1"},
-                   {1u << 27 | 1u << 19, "table 1"},
-                   {1u << 27 | 3u << 18, "crossings 1, table 1, clamp 1"},
-                   {0xF0000000, ""}});
+                           {1, "source 1"},
+                           {2, "source 2"},
+                           {3, "source 3"},
+                           {1u << 2, "dynamic 1"},
+                           {1u << 3, "dynamic_luma 1"},
+                           {2u << 3, "dynamic_luma 2"},
+                           {3u << 3, "dynamic_luma 3"},
+                           {1u << 5, "local_contrast 1"},
+                           {2u << 5, "local_contrast 2"},
+                           {3u << 5, "local_contrast 3"},
+                           {1u << 7, "predictor 1"},
+                           {2u << 7, "predictor 2"},
+                           {3u << 7, ""},
+                           {31u << 9, ""},
+                           {1u << 7 | 1u << 9, "predictor 1, steps 1"},
+                           {1u << 7 | 2u << 9, "predictor 1, steps 2"},
+                           {1u << 7 | 4u << 9, "predictor 1, steps 4"},
+                           {1u << 7 | 8u << 9, "predictor 1, steps 8"},
+                           {2u << 7 | 16u << 9, "predictor 2, steps 16"},
+                           {1u << 14, "contiguous 1"},
+                           {1u << 15, "safe 1"},
+                           {1u << 16, "linear_light 1"},
+                           {1u << 17, "trim 1"},
+                           {1u << 18, "crossings 1"},
+                           {1u << 19, "table 1"},
+                           {1u << 20, "diagonal_steps 5"},
+                           {1u << 21, "corners 1"},
+                           {1u << 22, "strongest 1"},
+                           {1u << 23, ""},
+                           {1u << 24, "leave 1"},
+                           {2u << 24, "leave 2"},
+                           {3u << 24, "leave 3"},
+                           {4u << 24, "leave 4"},
+                           {5u << 24, ""},
+                           {6u << 24, ""},
+                           {7u << 24, ""},
+                           {1u << 27, ""},
+                           {1u << 27 | 1u << 18, "crossings 1"},
+                           {1u << 27 | 1u << 19, "table 1"},
+                           {1u << 27 | 3u << 18, "crossings 1, table 1, clamp 1"},
+                           {0xF0000000, ""}});
   p.border = spec::morphological::Border::kEnd;  // clamp is not built
   expect_configuration(p, {{1u << 27 | 3u << 18, "crossings 1, table 1"}});
   p.text_guard = true;
@@ -244,10 +245,11 @@ TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
 }
 TEST(FrameConfiguration, OfAnEngineWithLearnedShares) {
   // All but what ends at bit 16, learned and the highest bit of leave.
-  expect_configuration(deburr(), {{1u << 23, "learned 1"},
-                          {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, leave 3"},
-                          {2u << 3, "dynamic_luma 2"},
-                          {1u << 14, "contiguous 1"}});
+  expect_configuration(deburr(),
+                       {{1u << 23, "learned 1"},
+                        {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, leave 3"},
+                        {2u << 3, "dynamic_luma 2"},
+                        {1u << 14, "contiguous 1"}});
 }
 
 TEST(FrameConfiguration, ThresholdsAreThoseOfTheirRegisters) {
@@ -642,17 +644,17 @@ void luma(P& p) { p.edge_source = spec::morphological::EdgeSource::kLuma; }
 void colour(P& p) { p.edge_source = spec::morphological::EdgeSource::kColour; }
 void learned(P& p) { p.area = spec::morphological::AreaSource::kLearned; }
 void as_analytic(P& p) { p.area = spec::morphological::AreaSource::kAnalytic; }
-void masked(P& p) { p.leave = spec::morphological::Bypass::kMasked; }
+void masked(P& p) { p.bypass = spec::morphological::Bypass::kMasked; }
 void dynamic(P& p) {
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
   p.alpha = 2304000;
   p.floor = 229500;
 }
 void fit(P& p) { p.predictor = spec::morphological::Predictor::kFit; }
-void marked(P& p) { p.leave = spec::morphological::Bypass::kMarked; }
-void beside(P& p) { p.leave = spec::morphological::Bypass::kBeside; }
-void half(P& p) { p.leave = spec::morphological::Bypass::kHalf; }
-void as_before(P& p) { p.leave = spec::morphological::Bypass::kNone; }
+void marked(P& p) { p.bypass = spec::morphological::Bypass::kMarked; }
+void beside(P& p) { p.bypass = spec::morphological::Bypass::kBeside; }
+void half(P& p) { p.bypass = spec::morphological::Bypass::kHalf; }
+void as_before(P& p) { p.bypass = spec::morphological::Bypass::kNone; }
 template <int kSteps>
 void steps(P& p) {
   p.steps = kSteps;
@@ -673,10 +675,13 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"source_predicated", depth, reg::kConfiguration, 0, 1, 2, predicated},
         Field{"source_colour", depth, reg::kConfiguration, 0, 1, 3, colour},
         Field{"source_colour_where_no_depth_is", as_it_is, reg::kConfiguration, 0, 1, 3, colour},
-        Field{"dynamic_does_not_go_with_colour", colour, reg::kConfiguration, 2, 2, 1, as_it_is, false},
+        Field{"dynamic_does_not_go_with_colour", colour, reg::kConfiguration, 2, 2, 1, as_it_is,
+              false},
         Field{"area_from_lines", learned, reg::kConfiguration, 23, 23, 0, as_analytic},
-        Field{"learned_is_off_where_not_built", as_it_is, reg::kConfiguration, 23, 23, 1, as_it_is, false},
-        Field{"tables_are_off_beside_learned", learned, reg::kConfiguration, 19, 21, 7, as_it_is, false},
+        Field{"learned_is_off_where_not_built", as_it_is, reg::kConfiguration, 23, 23, 1, as_it_is,
+              false},
+        Field{"tables_are_off_beside_learned", learned, reg::kConfiguration, 19, 21, 7, as_it_is,
+              false},
         Field{"leave_masked", as_it_is, reg::kConfiguration, 24, 26, 4, masked},
         Field{"leave_5_is_none", marked, reg::kConfiguration, 24, 26, 5, as_before},
         Field{"leave_7_is_none", half, reg::kConfiguration, 24, 26, 7, as_before},
@@ -684,9 +689,10 @@ INSTANTIATE_TEST_SUITE_P(
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
         Field{"mode_fixed", dynamic, reg::kConfiguration, 2, 2, 0,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kFixed; }},
-        Field{"dynamic_does_not_go_with_predicated", predicated, reg::kConfiguration, 2, 2, 1, as_it_is,
+        Field{"dynamic_does_not_go_with_predicated", predicated, reg::kConfiguration, 2, 2, 1,
+              as_it_is, false},
+        Field{"dynamic_does_not_go_with_depth", depth, reg::kConfiguration, 2, 2, 1, as_it_is,
               false},
-        Field{"dynamic_does_not_go_with_depth", depth, reg::kConfiguration, 2, 2, 1, as_it_is, false},
         Field{"dynamic_luma_max", dynamic, reg::kConfiguration, 3, 4, 1,
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMax; }},
         Field{"dynamic_luma_min", dynamic, reg::kConfiguration, 3, 4, 2,
@@ -704,20 +710,22 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"leave_beside", as_it_is, reg::kConfiguration, 24, 26, 2, beside},
         Field{"leave_none", beside, reg::kConfiguration, 24, 26, 0, as_before},
         Field{"leave_half", as_it_is, reg::kConfiguration, 24, 26, 3, half},
-        Field{"crossings_are_off_where_not_built", as_it_is, reg::kConfiguration, 18, 18, 1, as_it_is,
+        Field{"crossings_are_off_where_not_built", as_it_is, reg::kConfiguration, 18, 18, 1,
+              as_it_is, false},
+        Field{"tables_are_off_where_not_built", as_it_is, reg::kConfiguration, 19, 19, 1, as_it_is,
               false},
-        Field{"tables_are_off_where_not_built", as_it_is, reg::kConfiguration, 19, 19, 1, as_it_is, false},
-        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kConfiguration, 20, 20, 1, as_it_is,
+        Field{"diagonals_are_off_where_not_built", as_it_is, reg::kConfiguration, 20, 20, 1,
+              as_it_is, false},
+        Field{"corners_are_off_where_not_built", as_it_is, reg::kConfiguration, 21, 21, 1, as_it_is,
               false},
-        Field{"corners_are_off_where_not_built", as_it_is, reg::kConfiguration, 21, 21, 1, as_it_is, false},
         Field{"local_contrast_paper", as_it_is, reg::kConfiguration, 5, 6, 1,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kPaper; }},
         Field{"local_contrast_symmetric", as_it_is, reg::kConfiguration, 5, 6, 2,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSymmetric; }},
         Field{"local_contrast_smaa", as_it_is, reg::kConfiguration, 5, 6, 3,
               [](P& p) { p.local_contrast = spec::morphological::LocalContrast::kSmaa; }},
-        Field{"local_contrast_does_not_go_with_depth", depth, reg::kConfiguration, 5, 6, 2, as_it_is,
-              false},
+        Field{"local_contrast_does_not_go_with_depth", depth, reg::kConfiguration, 5, 6, 2,
+              as_it_is, false},
         Field{"predictor_none", as_it_is, reg::kConfiguration, 7, 8, 0,
               [](P& p) { p.predictor = spec::morphological::Predictor::kNone; }},
         Field{"predictor_chord", fit, reg::kConfiguration, 7, 8, 1,
@@ -741,7 +749,7 @@ INSTANTIATE_TEST_SUITE_P(
         Field{"trim", fit, reg::kConfiguration, 17, 17, 1, [](P& p) { p.trim = true; }}),
     [](const auto& field) { return field.param.name; });
 
-// All of SMAA's blocks, each of which a bit of RULES switches off and a field of SMAA moves.
+// All of SMAA's blocks, each of which a bit of CONFIG switches off and a field of SMAA moves.
 void with_smaa(P& p) {
   p.ends = spec::morphological::Ends::kCrossings;
   p.area = spec::morphological::AreaSource::kTableMerged;
@@ -792,8 +800,10 @@ INSTANTIATE_TEST_SUITE_P(
                 not_clamped(p);
                 p.area = spec::morphological::AreaSource::kAnalytic;
               }},
-        Field{"clamp_is_off_where_not_built", with_smaa, reg::kConfiguration, 27, 27, 1, as_it_is, false},
-        Field{"clamp_does_not_go_with_gaps", as_it_is, reg::kConfiguration, 27, 27, 1, as_it_is, false},
+        Field{"clamp_is_off_where_not_built", with_smaa, reg::kConfiguration, 27, 27, 1, as_it_is,
+              false},
+        Field{"clamp_does_not_go_with_gaps", as_it_is, reg::kConfiguration, 27, 27, 1, as_it_is,
+              false},
         Field{"diagonals_off", with_smaa, reg::kConfiguration, 20, 20, 0, no_diagonals},
         Field{"corners_off", with_smaa, reg::kConfiguration, 21, 21, 0, no_corners},
         Field{"blend_longest", with_smaa, reg::kConfiguration, 22, 22, 0,
@@ -854,10 +864,12 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RegisterBits, ThatDoNotExistReadAsZero) {
   EngineBench bench(plain());
   const std::map<std::uint32_t, std::uint32_t> bits = {
-      {reg::kSize, 0x3FFF3FFF},      {reg::kConfiguration, 0x1FFFFFFF},      {reg::kThreshold, 0xFFFFFF},
-      {reg::kThresholdOn, 0xFFFFFF}, {reg::kThresholdOff, 0xFFFFFF}, {reg::kAlpha, 0xFFFFFF},
-      {reg::kFloor, 0xFFFFFF},       {reg::kDepthThreshold, 0xFFFF}, {reg::kPixelBase, 0xFFFFFFC0},
-      {reg::kSmaa, 0x01FF1F7F},      {reg::kWeightsAddress, 0},       {reg::kWeightsData, 0}};
+      {reg::kSize, 0x3FFF3FFF},       {reg::kConfiguration, 0x1FFFFFFF},
+      {reg::kThreshold, 0xFFFFFF},    {reg::kThresholdOn, 0xFFFFFF},
+      {reg::kThresholdOff, 0xFFFFFF}, {reg::kAlpha, 0xFFFFFF},
+      {reg::kFloor, 0xFFFFFF},        {reg::kDepthThreshold, 0xFFFF},
+      {reg::kPixelBase, 0xFFFFFFC0},  {reg::kSmaa, 0x01FF1F7F},
+      {reg::kWeightsAddress, 0},      {reg::kWeightsData, 0}};
   for (const auto& [offset, mask] : bits) {
     bench.bus.write(offset, 0xFFFFFFFF);
     EXPECT_EQ(bench.bus.read(offset), mask) << offset;
@@ -875,7 +887,8 @@ TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
   }
 }
 
-// ---- the tables of learned weights ---------------------------------------------------------------
+// ---- the tables of learned weights
+// ---------------------------------------------------------------
 
 TEST(WeightsRegisters, LoadAnEntryAfterTheOther) {
   EngineBench bench(deburr());
@@ -984,7 +997,7 @@ TEST(CounterRegisters, ShowTheirCounters) {
   p.descriptor_fifo = 2;
   p.window_rows = 14;
   p.search_columns = 5;
-  p.leave = spec::morphological::Bypass::kMarked;
+  p.bypass = spec::morphological::Bypass::kMarked;
   EngineBench bench(p);
   bench.memory->fail_range(64 * 5, 64 * 8);
   Frame frame = noise(64, 44);
@@ -999,10 +1012,10 @@ TEST(CounterRegisters, ShowTheirCounters) {
       {reg::kLongRuns, e.extractor.long_runs.value()},
       {reg::kZRuns, e.extractor.z_runs.value()},
       {reg::kExtendedRuns,
-       e.predictor_h.extended_runs.value() + e.predictor_v.extended_runs.value()},
-      {reg::kSteps, e.predictor_h.steps.value() + e.predictor_v.steps.value()},
-      {reg::kProbes, e.predictor_h.probes.value() + e.predictor_v.probes.value()},
-      {reg::kDivides, e.divider_h.divides.value() + e.divider_v.divides.value()},
+       e.endpoint_predictor_h.extended_runs.value() + e.endpoint_predictor_v.extended_runs.value()},
+      {reg::kSteps, e.endpoint_predictor_h.steps.value() + e.endpoint_predictor_v.steps.value()},
+      {reg::kProbes, e.endpoint_predictor_h.probes.value() + e.endpoint_predictor_v.probes.value()},
+      {reg::kDivides, e.line_unit_h.divides.value() + e.line_unit_v.divides.value()},
       {reg::kBlendedPixels, e.blender.blended_pixels.value()},
       {reg::kBypassedPixels, e.blender.bypassed_pixels.value()},
       {reg::kFrameCycles, e.sequencer.frame_cycles.value()},

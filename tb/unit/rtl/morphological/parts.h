@@ -36,7 +36,8 @@ struct Registers : RegisterFile {
     EXPECT_TRUE(decoded.valid);
     configuration.drive(cycle, decoded.configuration);
   }
-  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{"rules", rtl::morphological::FrameConfiguration{}};
+  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{
+      "rules", rtl::morphological::FrameConfiguration{}};
 };
 
 // With a ParameterStore, for a SlotSequencer; without one each call has a clock of its own.
@@ -77,10 +78,13 @@ struct WiredRegisters : RegisterFile {
     return units_see();
   }
   // In the clock after.
-  const rtl::morphological::FrameConfiguration& units_see() const { return configuration.read(now_ + 1); }
+  const rtl::morphological::FrameConfiguration& units_see() const {
+    return configuration.read(now_ + 1);
+  }
 
   rtl::morphological::ParameterStore store;
-  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{"rules", rtl::morphological::FrameConfiguration{}};
+  rtl::Wire<rtl::morphological::FrameConfiguration> configuration{
+      "rules", rtl::morphological::FrameConfiguration{}};
   rtl::Pulse first_beat{"first_beat"}, latch_pulse{"latch"}, frame_done{"frame_done"},
       framing{"framing"};
   rtl::CombinationalWire<bool> enabled{"enabled"};
@@ -107,7 +111,7 @@ inline Parameters deburr_without_trim() {
   p.trim = false;
   return p;
 }
-inline constexpr std::uint32_t kTrimBit = 1u << 17;  // of RULES
+inline constexpr std::uint32_t kTrimBit = 1u << 17;  // of CONFIG
 
 inline rtl::morphological::RunToken run_of(int length, int start, std::uint32_t slot = 0) {
   rtl::morphological::RunToken token{};

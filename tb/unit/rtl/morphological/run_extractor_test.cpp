@@ -18,8 +18,8 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 using rtl::Activity;
 using spec::morphological::Axis;
 using spec::morphological::Preset;
-using spec::morphological::RunPart;
 using spec::morphological::RunDescriptor;
+using spec::morphological::RunPart;
 
 namespace reg = spec::morphological::reg;
 
@@ -92,7 +92,8 @@ Planes clamped(const Planes& planes, int margin) {
 }
 
 // Word for word from the contract, on whole planes.
-std::vector<RunDescriptor> runs_by_definition(const Planes& planes, const Parameters& configuration) {
+std::vector<RunDescriptor> runs_by_definition(const Planes& planes,
+                                              const Parameters& configuration) {
   const bool clamp = configuration.border == spec::morphological::Border::kClamp;
   constexpr int kMargin = 2;
   const Planes around = clamped(planes, kMargin);
@@ -104,7 +105,8 @@ std::vector<RunDescriptor> runs_by_definition(const Planes& planes, const Parame
     return clamp ? around.top_at(x + kMargin, y + kMargin) : planes.top_at(x, y);
   };
   const bool crossings = configuration.ends == spec::morphological::Ends::kCrossings;
-  const int search_rows = search_range_of(configuration), search_columns = configuration.search_columns;
+  const int search_rows = search_range_of(configuration),
+            search_columns = configuration.search_columns;
   const bool corners = configuration.round_corners;
   std::vector<RunDescriptor> found;
   for (const bool vertical : {false, true}) {
@@ -141,8 +143,8 @@ std::vector<RunDescriptor> runs_by_definition(const Planes& planes, const Parame
         };
         if (end - p > search_range) {
           add(RunPart::kHead, p, search_range / 2, code(p, q), far(p, q), endless_start);
-          add(RunPart::kTail, end - search_range / 2, search_range / 2, 4 * code(end, q), 4 * far(end, q),
-              2 * endless_end);
+          add(RunPart::kTail, end - search_range / 2, search_range / 2, 4 * code(end, q),
+              4 * far(end, q), 2 * endless_end);
         } else {
           add(RunPart::kWhole, p, end - p, code(p, q) + 4 * code(end, q),
               far(p, q) + 4 * far(end, q), endless_start + 2 * endless_end);
@@ -294,7 +296,7 @@ void extract(const Extract& e, spec::morphological::Ends ends, bool corners, boo
     heads += expected[i].part == RunPart::kHead;
     const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[expected[i].shape];
     descriptors += learned || shape.before != spec::morphological::Side::kNone ||
-               shape.after != spec::morphological::Side::kNone;
+                   shape.after != spec::morphological::Side::kNone;
   }
   EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
   EXPECT_EQ(bench.extractor.long_runs.value(), heads);
@@ -387,9 +389,9 @@ TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheSearchRangeGivesHeadAndTai
   for (int x = 11; x < 20; ++x) planes.top[static_cast<std::size_t>(3 * 20 + x)] = true;
   planes.left[static_cast<std::size_t>(2 * 20 + 11)] = true;
   bench.run(planes);
-  EXPECT_THAT(bench.runs,
-              ::testing::IsSupersetOf({RunDescriptor{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
-                                       RunDescriptor{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
+  EXPECT_THAT(bench.runs, ::testing::IsSupersetOf(
+                              {RunDescriptor{Axis::kHorizontal, RunPart::kHead, 3, 11, 4, 1},
+                               RunDescriptor{Axis::kHorizontal, RunPart::kTail, 3, 16, 4, 0}}));
   EXPECT_EQ(bench.extractor.descriptor_stalls.value(), 0u);
 }
 

@@ -264,7 +264,8 @@ INSTANTIATE_TEST_SUITE_P(Each, TableCycles,
                          ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
                                            AreaSource::kTableMinimal));
 
-// ---- injected faults -----------------------------------------------------------------------------
+// ---- injected faults
+// -----------------------------------------------------------------------------
 
 // A falling stair of one pixel.
 const spec::morphological::PatternVector& stair() {

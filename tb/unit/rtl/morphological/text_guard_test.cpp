@@ -475,8 +475,10 @@ struct Result {
   spec::morphological::Work work;
 };
 Result result_of(EngineBench& bench, const Frame& frame, bool on) {
-  const std::uint32_t configuration = spec::morphological::configuration_word(bench.engine.parameters());
-  bench.bus.write(spec::morphological::reg::kConfiguration, on ? configuration : configuration & ~(1u << 28));
+  const std::uint32_t configuration =
+      spec::morphological::configuration_word(bench.engine.parameters());
+  bench.bus.write(spec::morphological::reg::kConfiguration,
+                  on ? configuration : configuration & ~(1u << 28));
   Result result;
   const Cycle begin = bench.clock.cycle();
   const Monitor<spec::morphological::PixelBeat> in(

@@ -31,9 +31,9 @@ FrameResult result_of(const FrameVector& v, const Parameters& p, EngineBench::Op
   const Frame out = bench.run(in);
   const spec::morphological::Work w = bench.engine.work();
   EXPECT_EQ(w.pixels, in.pixel.size());
-  return {hash(out),        w.edge_pixels, w.horizontal_runs + w.vertical_runs,
-          w.long_runs,      w.z_runs,      w.extended_runs,
-          w.steps,          w.probes,      w.diagonal_pixels,
+  return {hash(out),        w.edge_pixels,    w.horizontal_runs + w.vertical_runs,
+          w.long_runs,      w.z_runs,         w.extended_runs,
+          w.steps,          w.probes,         w.diagonal_pixels,
           w.blended_pixels, w.bypassed_pixels};
 }
 

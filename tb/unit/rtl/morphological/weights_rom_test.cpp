@@ -44,9 +44,9 @@ TEST(WeightsRomAddresses, AreThoseOfTheContract) {
   for (const Row& row : kRows) {
     const WeightsRom::Query query =
         WeightsRom::ask({static_cast<std::uint8_t>(row.start_code + 4 * row.end_code),
-                        static_cast<std::uint8_t>(row.start_class),
-                        static_cast<std::uint8_t>(row.end_class), row.part},
-                       row.before, row.after);
+                         static_cast<std::uint8_t>(row.start_class),
+                         static_cast<std::uint8_t>(row.end_class), row.part},
+                        row.before, row.after);
     for (const std::size_t side : {0u, 1u}) {
       const std::array<int, 3>& expected = side == 0 ? row.first : row.second;
       EXPECT_EQ(query.a[side], expected[0]) << row.name << ' ' << side;
@@ -65,7 +65,7 @@ TEST(WeightsRomAddresses, ClassesOfDistancesAndLengths) {
     for (int far = near; far < 19; ++far)
       for (const bool turned : {false, true}) {
         const WeightsRom::Query query = WeightsRom::ask({2 + 4 * 2, 2, 2, RunPart::kWhole},
-                                                      turned ? far : near, turned ? near : far);
+                                                        turned ? far : near, turned ? near : far);
         const auto of = [&](int i) { return kClass[static_cast<std::size_t>(i)]; };
         ASSERT_EQ(query.a[0] & 63, of(near) << 3 | of(far)) << near << ' ' << far;
         const int length = kLength[static_cast<std::size_t>(std::min(near + far + 1, 9))];
@@ -107,8 +107,8 @@ TEST(WeightsRomAddresses, AreThoseOfTheMirroredRecord) {
 TEST(WeightsRomWords, AddUpToShares) {
   WeightsRom rom(1);
   WeightsRom::Query query = WeightsRom::ask({2 + 4 * 2, 2, 2, RunPart::kWhole}, 0, 7);
-  const int z = spec::morphological::kWeightsOfCodes[645] + spec::morphological::kWeightsOfNear[419] +
-                spec::morphological::kWeightsOfFar[439];
+  const int z = spec::morphological::kWeightsOfCodes[645] +
+                spec::morphological::kWeightsOfNear[419] + spec::morphological::kWeightsOfFar[439];
   rom.address(10, 1, query);
   rom.add(11, 1, query);
   rom.address_weights(12, 1, query);

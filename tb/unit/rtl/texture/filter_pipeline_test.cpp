@@ -13,9 +13,10 @@ using namespace rtl::texture;
 using spec::texture::Format;
 using testing::ElementsAre;
 
-spec::texture::Configuration configuration(spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
-                           spec::texture::CountRule count = spec::texture::CountRule::kFloor,
-                           spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear) {
+spec::texture::Configuration configuration(
+    spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
+    spec::texture::CountRule count = spec::texture::CountRule::kFloor,
+    spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear) {
   spec::texture::Configuration r;
   r.kernel = kernel;
   r.count = count;
@@ -67,9 +68,10 @@ class FilterBuild : public testing::TestWithParam<spec::texture::Configuration> 
 };
 INSTANTIATE_TEST_SUITE_P(
     TextureRtl, FilterBuild,
-    testing::Values(configuration(), configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
+    testing::Values(configuration(),
+                    configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
-                          spec::texture::SrgbOutput::kEncoded)));
+                                  spec::texture::SrgbOutput::kEncoded)));
 
 // Weight 0 for each sample, whatever its texels are.
 TEST_P(FilterBuild, AFragmentWithoutATextureIsZero) {
@@ -204,7 +206,7 @@ TEST(TextureRtlFilterSrgb, IsReadForCodedTexelsOnly) {
 struct WeightBench : FilterBench {
   WeightBench()
       : FilterBench(configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
-                          spec::texture::SrgbOutput::kEncoded)) {
+                                  spec::texture::SrgbOutput::kEncoded)) {
     add(token);
     clock.run(2);
   }

@@ -38,7 +38,8 @@ struct FilterWork {
     colour.last = (colour.tag & 5) != 0;
     std::array<std::uint32_t, 4> sum{};
     for (int sample = 0; sample < samples; ++sample) {
-      const std::uint32_t weight = golden::texture::sample_weight(configuration.kernel, sample, samples);
+      const std::uint32_t weight =
+          golden::texture::sample_weight(configuration.kernel, sample, samples);
       std::array<std::array<std::uint32_t, 4>, 2> level{};
       for (std::uint32_t k = 0; k < (fraction ? 2u : 1u); ++k) {
         hw::TexelQuadToken token = request();

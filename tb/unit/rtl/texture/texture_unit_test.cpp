@@ -81,7 +81,9 @@ void check_latency(const spec::texture::Parameters& p, Cycle expected) {
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragment) { check_latency(stimuli::paper_configuration(), 30); }
+TEST(TextureRtlUnit, LatencyOfANearestFragment) {
+  check_latency(stimuli::paper_configuration(), 30);
+}
 TEST(TextureRtlUnit, LatencyWithExactFootprint) {
   spec::texture::Parameters p = stimuli::paper_configuration();
   p.footprint = spec::texture::FootprintRule::kExact;

@@ -75,9 +75,10 @@ class Drawer final : public Plain<PictureDrawer> {
   std::shared_ptr<const DrawnScene> smallest() const override { return nullptr; }
   std::string reference_caption() const override { return ""; }
   void prepare_reference(const DrawnScene&, const tb::RenderOptions&,
-                     const RunContext&) const override {}
+                         const RunContext&) const override {}
   tb::Image compare_with_reference(const DrawnScene&, const tb::RenderOptions&, const tb::Image&,
-                               const tb::Image&, tb::Result&, const RunContext&) const override {
+                                   const tb::Image&, tb::Result&,
+                                   const RunContext&) const override {
     return {};
   }
   std::unique_ptr<DrawingStage> build(tb::Simulation&, const DrawnScene&) const override {

@@ -24,8 +24,9 @@ using testing::IsEmpty;
 
 std::string complaint(const Settings& settings) {
   return tool::complaint<spec::geometric::Parameters>(
-      "geometric", settings,
-      [](const tb::ParameterSet& set, const auto& values) { reject_unused_configuration(set, values); });
+      "geometric", settings, [](const tb::ParameterSet& set, const auto& values) {
+        reject_unused_configuration(set, values);
+      });
 }
 
 TEST(GeometricConfiguration, WhatHasNoEffectIsRejectedWithItsReason) {
@@ -147,7 +148,8 @@ TEST(UnprogrammedGeometricEngine, HasAnotherValueInEveryField) {
         const Parameters other = tb::unprogrammed(p);
         EXPECT_NO_THROW(check_build(other));
         for (const spec::Field& field : spec::geometric::reg::configuration::kFields)
-          EXPECT_NE(field.of(configuration_word(p)), field.of(configuration_word(other))) << field.name;
+          EXPECT_NE(field.of(configuration_word(p)), field.of(configuration_word(other)))
+              << field.name;
       }
 }
 

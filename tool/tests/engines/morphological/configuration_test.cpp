@@ -177,15 +177,16 @@ TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt)
         // From luma or depth to a source without a dynamic threshold.
         if (!no_luma && p.threshold_mode == ThresholdMode::kFixed)
           built.insert(built.begin(), "threshold_mode");
-        EXPECT_THAT(
-            same_fields(spec::morphological::reg::configuration::kFields, configuration_word(p), configuration_word(other)),
-            testing::ElementsAreArray(built));
+        EXPECT_THAT(same_fields(spec::morphological::reg::configuration::kFields,
+                                configuration_word(p), configuration_word(other)),
+                    testing::ElementsAreArray(built));
         EXPECT_THAT(
             same_fields(spec::morphological::reg::smaa::kFields, smaa_word(p), smaa_word(other)),
             ElementsAre("diagonal_steps"));
         for (const auto threshold :
-             {&Configuration::threshold, &Configuration::threshold_on_depth_edge, &Configuration::threshold_off_depth_edge,
-              &Configuration::alpha, &Configuration::floor, &Configuration::depth_threshold})
+             {&Configuration::threshold, &Configuration::threshold_on_depth_edge,
+              &Configuration::threshold_off_depth_edge, &Configuration::alpha,
+              &Configuration::floor, &Configuration::depth_threshold})
           EXPECT_NE(p.*threshold, other.*threshold);
       }
 }

@@ -23,11 +23,13 @@ int level_of(const spec::posteriser::Configuration& configuration, int code) {
   return best;
 }
 
-std::vector<Tone> posterised(const spec::posteriser::Configuration& configuration, std::span<const Tone> picture) {
+std::vector<Tone> posterised(const spec::posteriser::Configuration& configuration,
+                             std::span<const Tone> picture) {
   std::vector<Tone> out(picture.begin(), picture.end());
   for (Tone& tone : out)
     for (std::uint8_t& code : tone.colour)
-      code = static_cast<std::uint8_t>(code_of_level(level_of(configuration, code), configuration.bits));
+      code = static_cast<std::uint8_t>(
+          code_of_level(level_of(configuration, code), configuration.bits));
   return out;
 }
 

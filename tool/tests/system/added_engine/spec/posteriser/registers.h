@@ -46,7 +46,7 @@ inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
-    {reg::kRules, "RULES", "Loaded from the parameters.", reg::rules::kFields},
+    {reg::kRules, "CONFIG", "Loaded from the parameters.", reg::rules::kFields},
     {reg::kPixels, "PIXELS", "Pixels delivered.", kCounter},
     {reg::kChanged, "CHANGED", "Pixels that it changed.", kCounter},
 }};
