@@ -12,11 +12,11 @@
 namespace deburr::golden::c {
 namespace {
 
-enum class MorphologicalPlane : std::size_t { kPixels, kEdges, kWeights, kTaps, kDecisions };
+enum class MorphologicalPlane : std::size_t { kPixels, kEdges, kWeights, kProbes, kDecisions };
 constexpr std::array<Plane, 5> kMorphologicalPlanes = {{{"pixels", 4, false},
                                                         {"edges", 1, false},
                                                         {"weights", 4, false},
-                                                        {"taps", 4, true},
+                                                        {"probes", 4, true},
                                                         {"decisions", 1, true}}};
 
 using MorphologicalModel =
@@ -59,9 +59,9 @@ struct MorphologicalHandle final : MorphologicalModel {
         const auto top = golden.top_weights(x, y), left = golden.left_weights(x, y);
         return {top.first, top.second, left.first, left.second};
       }
-      case MorphologicalPlane::kTaps: {
-        const auto& tap = golden.taps()[i];
-        return {static_cast<std::uint8_t>(tap.horizontal), tap.first, tap.second, tap.edges};
+      case MorphologicalPlane::kProbes: {
+        const auto& probe = golden.probes()[i];
+        return {static_cast<std::uint8_t>(probe.horizontal), probe.first, probe.second, probe.edges};
       }
       case MorphologicalPlane::kDecisions:
         return {static_cast<std::uint8_t>(golden.decisions()[i])};

@@ -156,10 +156,10 @@ void add_morphological(py::module_& module) {
           },
           "What was done, by the names of the registers.")
       .def_property_readonly(
-          "taps",
+          "probes",
           [of](const py::object& self) {
-            of(self).require_detail("taps");
-            return view(of(self).golden->taps(), of(self).shape(), self);
+            of(self).require_detail("probes");
+            return view(of(self).golden->probes(), of(self).shape(), self);
           },
           "How each pixel was mixed, records of (height, width); with detail.")
       .def_property_readonly(

@@ -17,7 +17,7 @@ def morphological(pixels: Array, depth: Array | None = None, *, edges: Array | N
     """Smooths a frame with the morphological engine's golden model: a MorphologicalFrame.
 
     pixels is the frame, depth its depths (for edges of depth, and the rule `leave`), edges those that someone else
-    found (uint8, bit 0 left, bit 1 above). detail=True keeps taps, decisions, runs and coverage as well, and is slower.
+    found (uint8, bit 0 left, bit 1 above). detail=True keeps probes, decisions, runs and coverage as well, and is slower.
     error_lines are addresses of lines that memory cannot read, with storage = memory."""
     return _golden.morphological(rgba(pixels), depth, edges, bool(detail), error_lines, parameters)
 

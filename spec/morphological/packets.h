@@ -36,11 +36,11 @@ struct PixelBeat {
 // How a pixel was blended, for checks and pictures: first = weight of the upper (left) neighbour,
 // second = of the lower (right) one, U0.8, before blend = strongest mixes them; both 0 where the
 // pixel passed unchanged.
-struct BlendTap {
+struct BlendProbe {
   bool horizontal = false;  // the neighbours are left and right
   std::uint8_t first = 0, second = 0;
   std::uint8_t edges = 0;  // bit 0 left, bit 1 top
-  friend bool operator==(const BlendTap&, const BlendTap&) = default;
+  friend bool operator==(const BlendProbe&, const BlendProbe&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("horizontal", self.horizontal);
@@ -52,7 +52,7 @@ struct BlendTap {
 
 struct BlendedBeat {
   std::array<Rgba8, kMaxLanes> pixel{};
-  std::array<BlendTap, kMaxLanes> tap{};
+  std::array<BlendProbe, kMaxLanes> probe{};
   std::uint8_t count = 0;
   bool start_of_frame = false;
   bool end_of_row = false;
@@ -60,7 +60,7 @@ struct BlendedBeat {
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit.lanes("pixel", self.pixel, 8, "U0.8", "rgba");
-    visit.lanes("tap", self.tap);
+    visit.lanes("probe", self.probe);
     visit("count", self.count, 3, "U3");
     visit("start_of_frame", self.start_of_frame);
     visit("end_of_row", self.end_of_row);

@@ -64,7 +64,7 @@ constexpr std::array<const char*, 46> kWords = {"preset",
                                                 "off",
                                                 "pixels",
                                                 "edges",
-                                                "taps",
+                                                "probes",
                                                 "weights",
                                                 "weights",
                                                 "samples"};
@@ -436,7 +436,7 @@ std::vector<std::string> c_calls_seeds() {
     return seed;
   };
   Seed smoothed = frame(kSmoother, "smaa");
-  smoothed.bytes({6, kSmoother, 11, kSmoother}).word(kWords, "taps").bytes({0});
+  smoothed.bytes({6, kSmoother, 11, kSmoother}).word(kWords, "probes").bytes({0});
   smoothed.array(12 * 9 * 4, 0);
   smoothed.bytes({12, kSmoother, 0}).number(12 * 9).bytes({0});
   for (int i = 0; i < 64; ++i) smoothed.bytes({i < 13 || i % 12 == 0 ? 0 : 1});

@@ -90,16 +90,16 @@ TEST(Morphological, TheHashIsOfEveryChannelAndTapOfEveryPixel) {
   simulation.run();
   environment.check();
   OutputHash hash;
-  for (std::size_t i = 0; i < environment.taps().size(); ++i) {
+  for (std::size_t i = 0; i < environment.probes().size(); ++i) {
     const Rgba8& p = environment.frame().pixels[i];
-    const spec::morphological::BlendTap& t = environment.taps()[i];
+    const spec::morphological::BlendProbe& t = environment.probes()[i];
     const int bytes[] = {p[0], p[1], p[2], p[3], t.first, t.second, t.edges, t.horizontal};
     std::uint64_t word = 0;
     for (std::size_t n = std::size(bytes); n-- > 0;)
       word = word * 256 + static_cast<std::uint64_t>(bytes[n]);
     hash.add(word);
   }
-  EXPECT_EQ(environment.taps().size(), pixels_of(frames));
+  EXPECT_EQ(environment.probes().size(), pixels_of(frames));
   EXPECT_EQ(environment.pixel_hash(), hash.value());
 }
 
@@ -400,7 +400,7 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
   p.search_columns = 64;
   p.steps = 3;
   p.predictor_units = 1;
-  p.record_fifo = 4096;
+  p.descriptor_fifo = 4096;
   p.line_pixels = 128;
   options.records = true;
   const MorphologicalInput frame = draw(97, 61, [](int x, int y) {

@@ -48,7 +48,7 @@ auto order_of(const RunDescriptor& r) { return std::tuple(r.axis, r.line, r.star
 
 MorphologicalChecks::MorphologicalChecks(const MorphologicalSetup& setup, bool golden)
     : pixels("pixels", describe_pixel),
-      probes("taps", describe_probe),
+      probes("probes", describe_probe),
       runs("runs", 0, describe_run),
       lines("lines", 0, describe_line),
       traffic(

@@ -203,7 +203,7 @@ class Fields(CommandTest):
 class Blind(CommandTest):
     """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
     TEXTURE = ("colours", "line-fills", "status-registers", "figures")
-    MORPHOLOGICAL = ("pixels", "taps", "memory-lines", "status-registers", "figures")
+    MORPHOLOGICAL = ("pixels", "probes", "memory-lines", "status-registers", "figures")
 
     def test_texture(self):
         boards = {f"blind-{board}" for board in self.TEXTURE}

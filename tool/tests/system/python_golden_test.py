@@ -118,9 +118,9 @@ class Vectors(unittest.TestCase):
         """Planes agree with each other, and with what is counted."""
         frame = golden.morphological(vector_image("blocks"), preset="deburr-line", detail=True)
         self.assertEqual(frame.pixels.shape, (80, 90, 4))
-        self.assertEqual(frame.taps.shape, (80, 90))
-        self.assertTrue((frame.taps["edges"] == frame.edges).all())
-        mixed = (frame.taps["first"] | frame.taps["second"]) != 0
+        self.assertEqual(frame.probes.shape, (80, 90))
+        self.assertTrue((frame.probes["edges"] == frame.edges).all())
+        mixed = (frame.probes["first"] | frame.probes["second"]) != 0
         self.assertEqual(numpy.count_nonzero(mixed), frame.work.blended_pixels)
         self.assertTrue((frame.pixels[~mixed] == vector_image("blocks")[~mixed]).all())
         self.assertTrue((frame.weights[:, :, :2][(frame.edges & 2) == 0] == 0).all())
@@ -567,7 +567,7 @@ class BadCalls(unittest.TestCase):
         rejected("edges: the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
         rejected("give one", golden.morphological, image, numpy.zeros((61, 97), numpy.float32), edges=0 * edges)
         frame = golden.morphological(image, preset="mlaa")
-        for plane in ("taps", "decisions", "runs", "coverage"):
+        for plane in ("probes", "decisions", "runs", "coverage"):
             rejected("give detail=True", getattr, frame, plane)
         rejected("error_lines", golden.morphological, image, error_lines=[1, 2])
         rejected("", golden.morphological, error=TypeError)

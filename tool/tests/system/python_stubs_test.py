@@ -27,9 +27,9 @@ table = deburr.sweep("texture", {"texture_cache_bytes": [4096]}, scene="plane", 
 unit = golden.TextureUnit(cache_bytes=4096)
 unit.load(golden.mip_levels(frame), format="rgba8")
 colours = unit.filter(golden.quads_of(numpy.zeros((4, 4)), numpy.zeros((4, 4))))
-print(unit.work.by_level, golden.QUAD.names, golden.EDGE_CLASSES[0], smooth.taps["weights"], colours["rgba"])
+print(unit.work.by_level, golden.QUAD.names, golden.EDGE_CLASSES[0], smooth.probes["weights"], colours["rgba"])
 """
-MISTAKES = ("golden.morphologic(frame)", "golden.morphological(frame, detail='yes')", "smooth.pixel", "smooth.taps()",
+MISTAKES = ("golden.morphologic(frame)", "golden.morphological(frame, detail='yes')", "smooth.pixel", "smooth.probes()",
             "ideal.fxaa(frame, treshold=1)", "ideal.TextureImage(frame, srgb='yes')", "ideal.disc('0', 0, 1, 4, 4)",
             "golden.QUAD.nams", "smooth.work()", "run.explain(3)", "run.pictures[3]", "deburr.run(3)",
             "deburr.sweep('texture', {}, jobs='2')", "unit.filter()", "golden.mip_levels(frame).shape")

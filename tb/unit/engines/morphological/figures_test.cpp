@@ -191,7 +191,7 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
         work(all, "run_extractor_horizontal_runs") + work(all, "run_extractor_vertical_runs"));
     EXPECT_GE(number_at(all, "/scoreboards/lines/comparisons"), work(all, "run_extractor_z_runs"));
     EXPECT_GT(work(all, "run_extractor_z_runs"), 10);
-    for (const char* const board : {"pixels", "taps"})
+    for (const char* const board : {"pixels", "probes"})
       EXPECT_EQ(all["scoreboards"][board]["comparisons"], area(frames())) << board;
   }
 }

@@ -119,7 +119,7 @@ void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
                        {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second)});
     }
   }
-  for (const auto& tap : golden.taps()) {
+  for (const auto& tap : golden.probes()) {
     const auto horizontal = static_cast<std::uint8_t>(tap.horizontal ? 1 : 0);
     taps.insert(taps.end(), {horizontal, tap.first, tap.second, tap.edges});
   }
@@ -127,7 +127,7 @@ void expect_same(deburr_golden* handle, const MorphologicalGolden& golden) {
     decisions.push_back(static_cast<std::uint8_t>(decision));
   EXPECT_EQ(plane_of(handle, "edges", 3), edges);
   EXPECT_EQ(plane_of(handle, "weights", 1), weights);
-  EXPECT_EQ(plane_of(handle, "taps", 5), taps);
+  EXPECT_EQ(plane_of(handle, "probes", 5), taps);
   EXPECT_EQ(plane_of(handle, "decisions", 0), decisions);
   EXPECT_EQ(counter_of(handle, "pixels"), golden.work().pixels);
   EXPECT_EQ(counter_of(handle, "edge_pixels"), golden.work().edge_pixels);
@@ -499,7 +499,7 @@ TEST(Detail, CountsFromTheNextFrameOn) {
     for (const char* plane : {"pixels", "weights"})
       DEBURR_EXPECT_TAKEN(drawn, deburr_plane_pixel(drawn.get(), plane, 0, 0, &value));
     const int status = detail ? DEBURR_OK : DEBURR_ARGUMENT;
-    for (const char* plane : {"taps", "decisions"})
+    for (const char* plane : {"probes", "decisions"})
       EXPECT_EQ(deburr_plane_pixel(smoother.get(), plane, 0, 0, &value), status);
     EXPECT_EQ(deburr_geometric_classes(drawn.get(), &classes, 1), status);
   }
@@ -527,7 +527,7 @@ TEST(BadCalls, OfOneEngineAlone) {
   DEBURR_EXPECT_TAKEN(smoother, deburr_frame_process(smoother.get()));
   DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT,
                          "the plane 'taps' was not kept: call deburr_frame_detail with 1",
-                         deburr_plane(smoother.get(), "taps", edges.data(), 4, 0));
+                         deburr_plane(smoother.get(), "probes", edges.data(), 4, 0));
 
   const Handle drawn(deburr_geometric_new());
   const std::vector<std::uint32_t> words(8, 0);
