@@ -70,7 +70,7 @@ inline constexpr std::uint32_t kBoundaryCount = 0x98;
 inline constexpr std::uint32_t kPairBase = 0x9C;
 inline constexpr std::uint32_t kOtherPairBase = 0xA0;
 inline constexpr std::uint32_t kCoarseBase = 0xA4;
-inline constexpr std::uint32_t kIdValue = 0xDEB00004;
+inline constexpr std::uint32_t kIdValue = 0xDEB00005;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/geometric/.
 namespace id {

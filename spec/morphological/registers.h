@@ -43,7 +43,7 @@ inline constexpr std::uint32_t kBypassedPixels = 0x7C;
 inline constexpr std::uint32_t kWeightsAddress = 0x80;
 inline constexpr std::uint32_t kWeightsData = 0x84;
 inline constexpr std::uint32_t kWeightsSum = 0x88;
-inline constexpr std::uint32_t kIdValue = 0xDEB00104;
+inline constexpr std::uint32_t kIdValue = 0xDEB00105;
 
 // Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
 namespace id {

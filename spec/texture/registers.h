@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kMode = 0x04;
 inline constexpr std::uint32_t kLodBias = 0x08;
 inline constexpr std::uint32_t kLodClamp = 0x0C;
 inline constexpr std::uint32_t kLevelBase = 0x10;  // + 4 k for level k
-inline constexpr std::uint32_t kIdValue = 0xDEB00001;
+inline constexpr std::uint32_t kIdValue = 0xDEB00002;
 
 // Fields, from the lowest bit on.
 namespace id {

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <optional>
 #include <utility>
+
+#include "tb/base/renamed.h"
 
 namespace deburr::tb {
 namespace {
@@ -38,6 +41,7 @@ std::vector<std::string> near_matches(std::string_view name,
       100;  // longer is not a typing error, and the search is quadratic
   std::vector<std::pair<int, std::string>> ranked;
   if (name.empty() || name.size() > kMaxName) return {};
+  if (const std::optional<std::string> now = renamed(name, candidates)) return {*now};
   const auto last_part = [](std::string_view text) { return text.substr(text.rfind('.') + 1); };
   for (const std::string& candidate : candidates) {
     int distance = edit_distance(name, candidate);

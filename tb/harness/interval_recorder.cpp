@@ -196,7 +196,7 @@ std::vector<IntervalRecorder::Occupancy> IntervalRecorder::occupancy() const {
 }
 
 Json IntervalRecorder::json() const {
-  Json json{{"schema", 1},
+  Json json{{"schema", 2},
             {"asked_cycles", options_.cycles},
             {"interval_cycles", interval_},
             {"windows", from_.size()},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // windows.json of a run directory: what was counted in each window of a run's cycles, under the
-// keys of result.json (schema 1, docs/reference/statistics.md). IntervalRecorder makes it.
+// keys of result.json (schema 2, docs/reference/statistics.md). IntervalRecorder makes it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run measured, and its file result.json (schema 3, docs/reference/run.md).
+// What a run measured, and its file result.json (schema 4, docs/reference/run.md).
 //
 // Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Its keys
 // are described in result_description.h. Unit and meaning of each travel with the file, under
@@ -24,7 +24,7 @@
 
 namespace deburr::tb {
 
-inline constexpr int kResultSchema = 3;
+inline constexpr int kResultSchema = 4;
 // No reader takes more of one of our JSON files.
 inline constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 

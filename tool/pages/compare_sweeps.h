@@ -16,7 +16,7 @@ namespace deburr::tool {
 
 // Layout of a sweep's collected.json. In it a value that would be infinite is null, and the point's
 // list `identical` names its metric.
-inline constexpr int kCollectionSchema = 2;
+inline constexpr int kCollectionSchema = 3;
 
 // A sweep's directory, or its collected.json.
 bool is_sweep(const std::filesystem::path& path);

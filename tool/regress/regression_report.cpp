@@ -34,7 +34,7 @@ namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kCollectedFile = "collected.json";
-constexpr int kReportSchema = 2;
+constexpr int kReportSchema = 3;
 constexpr std::size_t kMaxReportBytes = 256u << 20;
 constexpr std::size_t kMostNights = 30, kCommitDigits = 12;  // in a table
 

@@ -36,7 +36,7 @@ using spec::ConfigError;
 using spec::FileError;
 
 constexpr std::size_t kMaxPlanBytes = 64u << 20;
-constexpr int kPlanSchema = 3;
+constexpr int kPlanSchema = 4;
 
 fs::path plan_file(const fs::path& directory) { return directory / "plan.json"; }
 

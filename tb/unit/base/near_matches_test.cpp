@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tb/base/renamed.h"
 
 namespace deburr::tb::near_matches_test {
 namespace {
@@ -19,6 +23,37 @@ TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_THAT(near_matches("MLAA", presets), testing::ElementsAre("mlaa"));
   EXPECT_THAT(near_matches("Debur", presets), testing::ElementsAre("deburr"));
   EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
+}
+
+TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
+  const std::vector<std::string> known = {"run.reference",
+                                          "frame.reference",
+                                          "texture.axis_cycles",
+                                          "texture.cache.bytes",
+                                          "units.filter_pipeline.busy",
+                                          "units.texture_filter_pipeline.busy",
+                                          "work.line_unit_h_divides",
+                                          "work.run_extractor_descriptor_stalls",
+                                          "work.level_unit_two_levels",
+                                          "morphological.bypass",
+                                          "memory.bytes_per_cycle",
+                                          "units.run_extractor.stalls.descriptors"};
+  for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
+           {"run.truth", "run.reference"},
+           {"frame.truth", "frame.reference"},
+           {"texture.axis_clocks", "texture.axis_cycles"},
+           {"units.filter.busy", "units.filter_pipeline.busy"},
+           {"units.texture_filter.busy", "units.texture_filter_pipeline.busy"},
+           {"work.divider_h_divides", "work.line_unit_h_divides"},
+           {"work.extractor_record_stalls", "work.run_extractor_descriptor_stalls"},
+           {"work.level_two_levels", "work.level_unit_two_levels"},
+           {"morphological.leave", "morphological.bypass"},
+           {"memory.bytes_per_clock", "memory.bytes_per_cycle"},
+           {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"}}) {
+    EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
+  }
+  EXPECT_EQ(renamed("texture.cache.bites", known), std::nullopt);
+  EXPECT_EQ(renamed("texture.axis_clocksmith", known), std::nullopt);
 }
 
 TEST(DidYouMean, ReadsWell) {

@@ -224,7 +224,7 @@ TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
 struct Bed {
   explicit Bed(const Parameters& p = raster(), std::size_t bytes = 1 << 20)
       : memory(bytes), driver(registers, memory, p) {
-    registers.values[reg::kId] = 0xDEB00004;
+    registers.values[reg::kId] = 0xDEB00005;
     registers.values[reg::kStatus] = 1;
     driver.place(
         GeometricRegions({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0x6000, 0x7000, 0x8000, 0x9000}));
@@ -393,7 +393,7 @@ TEST(GeometricDriver, ReadsWhatTheEngineShows) {
 
 TEST(GeometricDriver, AnotherEngineIsRejected) {
   Bed b;
-  b.registers.values[reg::kId] = 0xDEB00001;
+  b.registers.values[reg::kId] = 0xDEB00002;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.identify(); }),
             "the ID register reads 0xdeb00001, expected 0xdeb00004");
 }

@@ -78,7 +78,7 @@ Parameters nothing() {
 
 struct Bed {
   explicit Bed(const Parameters& p = nothing()) : driver(registers, p, &memory) {
-    registers.values[reg::kId] = 0xDEB00104;
+    registers.values[reg::kId] = 0xDEB00105;
     registers.values[reg::kStatus] = 1;
   }
   FakeRegisters registers;

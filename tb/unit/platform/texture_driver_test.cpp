@@ -158,7 +158,7 @@ TEST(TextureMemory, EachSideHasATexelAndNotTooMany) {
 
 struct Bed {
   Bed() {
-    registers.values[reg::kId] = 0xDEB00001;
+    registers.values[reg::kId] = 0xDEB00002;
     registers.values[reg::kStatus] = 1;
   }
   FakeRegisters registers;

@@ -327,7 +327,7 @@ TEST_F(Parameters, MapsMayBeNestedSixteenDeep) {
 // that was another one.
 TEST_F(Parameters, OfAManifestAreThoseOfItsRun) {
   const std::string manifest =
-      R"({"schema": 3, "unit": "unit", "working_directory": "/elsewhere",
+      R"({"schema": 4, "unit": "unit", "working_directory": "/elsewhere",
           "configuration": {"unit.cache.ways": 8, "unit.cycles": 7, "unit.colour": "red", "unit.shuffle": false, "unit.stalls": 0.5,
                             "unit.source": "in/x.png"},
           "inputs": [{"file": "in/x.png"}, {"file": "c.yaml", "role": "configuration"}],

@@ -24,7 +24,7 @@ CONTRACT = {
     "deburr_geometric.CONTROL.start": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
     "deburr_geometric.SIZE.width": ({"sw": "rw", "hw": "r", "swwe": "true"}, 0),
     "deburr_geometric.EDGES.value": ({"sw": "r", "hw": "w"}, 0),
-    "deburr_geometric.ID.value": ({"sw": "r", "hw": "na"}, 0xDEB00004),
+    "deburr_geometric.ID.value": ({"sw": "r", "hw": "na"}, 0xDEB00005),
     "deburr_morphological.STATUS.framing": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
     "deburr_morphological.CONTROL.clear_counters": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
     "deburr_morphological.SHARES_ADDRESS.entry": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, 0),
@@ -312,7 +312,7 @@ def main():
     # Faults that must be seen: an offset, a bit, a reset value, a code, an access, side effects, a lost register, a
     # stride, and what the standard forbids.
     for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"),
-                          ("32'hDEB00004", "32'hDEB00002"), (" paper = 2'd1;", " paper = 2'd2;"),
+                          ("32'hDEB00005", "32'hDEB00002"), (" paper = 2'd1;", " paper = 2'd2;"),
                           ("onwrite = woclr;", ""), (" hwset;", ""), ("steps[13:9] = 5'h8", "steps[13:9] = 5'h0"),
                           ("value[15:0] = 16'hCCD", "value[15:0] = 16'h0"),
                           (" singlepulse;", ""), ("sw = r; hw = w;", "sw = rw; hw = r;"), (" swwe;", ""), (" we;", ""),

@@ -220,7 +220,7 @@ class Blind(CommandTest):
         self.assertEqual(self.known("morphological", *memory), boards)
         self.assertEqual(self.known("morphological"), boards - {"blind-memory-lines"})
         needed = {board: self.blind("morphological", board, *memory) for board in boards}
-        self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-taps": 32 * 32,
+        self.assertEqual(needed, {"blind-pixels": 32 * 32, "blind-probes": 32 * 32,
                                   "blind-memory-lines": 2 * 2 * 32, "blind-status-registers": 15,
                                   "blind-figures": 10})
 

@@ -31,7 +31,7 @@ using testing::Not;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kResult = R"json({
-  "schema": 3, "unit": "texture", "verdict": "fail", "reason": "3 of <them>",
+  "schema": 4, "unit": "texture", "verdict": "fail", "reason": "3 of <them>",
   "checks": {"comparisons": 1000, "mismatches": 3, "traffic_comparisons": 2000, "traffic_mismatches": 4},
   "cycles": 400000, "clock_mhz": 200,
   "throughput": {"value": 0.75, "unit": "pixel/clk", "bound": 0.8, "bound_meaning": "A clock each."},

@@ -160,7 +160,7 @@ TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
                                          "cycles", "clock_mhz", "throughput", "latency", "memory",
                                          "units", "bottleneck", "memories", "memory_bits", "work",
                                          "figures", "quality", "change", "host", "meaning"));
-  EXPECT_EQ(json["schema"], 3);
+  EXPECT_EQ(json["schema"], 4);
   EXPECT_EQ(json["checks"]["comparisons"], 1000);
   EXPECT_EQ(json["units"]["address"]["stalls"]["downstream"], 1321);
   EXPECT_EQ(json["latency"]["histogram"][1]["count"], 200);
@@ -169,7 +169,7 @@ TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
 
 // Of a result with everything, by hand.
 constexpr const char* kFullResult = R"json({
-  "schema": 3, "unit": "texture", "verdict": "fail", "reason": "3 mismatches",
+  "schema": 4, "unit": "texture", "verdict": "fail", "reason": "3 mismatches",
   "interrupted": true,
   "checks": {
     "comparisons": 1000, "mismatches": 3, "traffic_comparisons": 20, "traffic_mismatches": 1
@@ -424,10 +424,10 @@ TEST_F(Directory, AnIncompleteOrForeignResultIsRejected) {
   reject("");
   reject("{");
   reject("[1]");
-  reject(R"({"schema": 3})");
+  reject(R"({"schema": 4})");
   reject(R"({"schema": 1, "unit": "texture"})");
   Json old = to_json(sample_result());
-  old["schema"] = 2;
+  old["schema"] = 3;
   reject(old.dump());
   std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
   EXPECT_EQ(read_result(path_)["cycles"], 54321);

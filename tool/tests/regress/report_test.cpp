@@ -157,7 +157,7 @@ TEST_F(RegressionReport, TheJsonHasTheCounts) {
                                  {"failed_checks", 4},
                                  {"holes", 2},
                                  {"simulated_seconds", 8.875}}));
-  EXPECT_EQ(all["schema"], 2);
+  EXPECT_EQ(all["schema"], 3);
   EXPECT_EQ(all["features"][0]["traces"], Json({"docs/a.md#first", "docs/b & c.md#second"}));
   EXPECT_EQ(all["base_seed"], kSeed);
   EXPECT_EQ(all["holds"], false);
