@@ -66,12 +66,12 @@ class Run(Figures):
     """What a run measured. Its figures are those of result.json, as attributes: `run.cycles`, `run.throughput.value`,
     `run.units`, `run.work`; `run["units.filter_pipeline.busy"]` names one by its key.
 
-    pictures and maps are arrays by name, windows an array a series by key, directory is where the files are, which
+    pictures and maps are arrays by name, intervals an array a series by key, directory is where the files are, which
     are gone with this object unless run() was told where to leave them."""
 
     directory: pathlib.Path
     meaning: dict[str, dict[str, str]]
-    windows: Figures
+    intervals: Figures
     maps: _Files
     pictures: _Files
 
@@ -85,11 +85,11 @@ class Run(Figures):
         meaning = result.pop("meaning", {})
         super().__init__(result)
         files = [file.name for file in directory.iterdir()]
-        windows = {}
-        if "windows.json" in files:
-            windows = _arrays(json.loads((directory / "windows.json").read_text(encoding="utf-8")))
+        intervals = {}
+        if "intervals.json" in files:
+            intervals = _arrays(json.loads((directory / "intervals.json").read_text(encoding="utf-8")))
         self.__dict__.update(
-            _kept=kept, directory=directory, meaning=meaning, windows=Figures(windows),
+            _kept=kept, directory=directory, meaning=meaning, intervals=Figures(intervals),
             maps=_Files(directory, "map_*.pfm", "map_", _pictures.read_pfm),
             pictures=_Files(directory, "*.png", "", _pictures.read_png))
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 4> kRunFiles = {"result.json", "manifest.json", "windows.json",
+constexpr std::array<const char*, 4> kRunFiles = {"result.json", "manifest.json", "intervals.json",
                                                   "map_a.pfm"};
 constexpr std::string_view kBetweenFiles = "\n---\n";
 
@@ -111,12 +111,12 @@ std::vector<std::string> run_files_seeds() {
       {"summary", "S"},
       {"command", "deburr run engine --trace x --out out"},
       {"images", Json::array()},
-      {"records", {{"windows", "windows.json"}}},
+      {"records", {{"intervals", "intervals.json"}}},
       {"parameters",
        {{{"name", "engine.axes"}, {"kind", "rule"}, {"value", "two"}, {"default", "two"}}}},
       {"inputs", {{{"role", "mesh"}, {"file", "a.obj"}, {"sha256", "0"}}}}};
   const Json windows = {
-      {"window_cycles", 50},
+      {"interval_cycles", 50},
       {"asked_cycles", 50},
       {"from", {0, 50}},
       {"cycles", {50, 50}},

@@ -8,7 +8,7 @@
 
 namespace deburr::tb {
 
-// `bytes` are result.json, manifest.json, windows.json and map_a.pfm, with a line of --- between
+// `bytes` are result.json, manifest.json, intervals.json and map_a.pfm, with a line of --- between
 // two of them.
 void run_files(std::string_view bytes);
 std::vector<std::string> run_files_seeds();

@@ -199,7 +199,7 @@ Json IntervalRecorder::json() const {
   Json json{{"schema", 2},
             {"asked_cycles", options_.cycles},
             {"interval_cycles", interval_},
-            {"windows", from_.size()},
+            {"intervals", from_.size()},
             {"from", from_},
             {"cycles", cycles_},
             {"throughput", Json::array()},

@@ -68,7 +68,7 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
   // Without counters that are no sums: a largest value, or one that begins anew within the run.
   std::vector<Series> series() const;
   std::vector<Occupancy> occupancy() const;
-  // The file windows.json (docs/reference/statistics.md).
+  // The file intervals.json (docs/reference/statistics.md).
   nlohmann::ordered_json json() const;
 
  private:

@@ -79,7 +79,7 @@ std::span<const Statistic> interval_statistics() {
       Statistic{"interval_cycles", "clk",
                 "Length of a window, the last one may be shorter: asked_cycles, doubled until at "
                 "most 1023 windows hold the run."},
-      Statistic{"windows", "", "How many there are: the length of every list below."},
+      Statistic{"intervals", "", "How many there are: the length of every list below."},
       Statistic{"from", "clk", "First cycle of each, counted as waves and --trace-from count."},
       Statistic{"cycles", "clk", "Cycles of each."},
       Statistic{"throughput", "",

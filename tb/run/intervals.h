@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// windows.json of a run directory: what was counted in each window of a run's cycles, under the
+// intervals.json of a run directory: what was counted in each window of a run's cycles, under the
 // keys of result.json (schema 2, docs/reference/statistics.md). IntervalRecorder makes it.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace deburr::tb {
 // all of them every sum is what result.json says. CheckFailed names the first key that differs.
 void check_intervals(const nlohmann::ordered_json& intervals, const nlohmann::ordered_json& result);
 
-// The keys of windows.json.
+// The keys of intervals.json.
 std::span<const Statistic> interval_statistics();
 
 }  // namespace deburr::tb

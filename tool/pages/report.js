@@ -350,19 +350,19 @@
         b.mean / b.depth - a.mean / a.depth);
     for (const [name, link] of order) byId('link').add(new Option(`${name}, depth ${link.depth}`, name));
     for (const select of [units, byId('link')]) select.addEventListener('change', drawCharts);
-    const linked = () => Number((location.hash.match(/^#window-(\d+)$/) || [])[1]);
+    const linked = () => Number((location.hash.match(/^#interval-(\d+)$/) || [])[1]);
     choose(linked() < intervals.from.length ? linked() : 0);
     addEventListener('hashchange', () => {
       if (!(linked() < intervals.from.length)) return;
       choose(linked());
-      byId('window-chosen').scrollIntoView({block: 'nearest'});
+      byId('interval-chosen').scrollIntoView({block: 'nearest'});
     });
   }
   function choose(window) {
     chosen = window;
     const from = intervals.from[window], to = from + intervals.cycles[window];
-    byId('window-chosen').textContent = `Window ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
-    byId('window-command').textContent =
+    byId('interval-chosen').textContent = `Window ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
+    byId('interval-command').textContent =
         `${intervals.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
     for (const chart of charts) if (chart.options.overTime) chart.draw();
   }

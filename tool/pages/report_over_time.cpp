@@ -22,7 +22,7 @@ constexpr std::size_t kMaxIntervalsBytes = 64u << 20;
 }  // namespace
 
 Json fill_over_time(const ReportSource& source, mustache::data& page) {
-  const std::string name = source.manifest.value("records", Json::object()).value("windows", "");
+  const std::string name = source.manifest.value("records", Json::object()).value("intervals", "");
   page.set("has_intervals", !name.empty());
   if (name.empty()) return Json();
   reject_path(source.directory, name);
@@ -77,14 +77,14 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   page.set("has_ports", !of_ports.empty());
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::vector<HtmlCell> cells{HtmlCell::link(
-        fmt::format("#window-{}", i),
+        fmt::format("#interval-{}", i),
         fmt::format("{} to {}", tb::grouped(from[i]), tb::grouped(from[i] + cycles[i])))};
     for (const std::vector<std::uint64_t>& counts : columns)
       cells.emplace_back(fmt::format(
           "{:.3f}", static_cast<double>(counts.at(i)) / static_cast<double>(cycles[i])));
     table.row(cells);
   }
-  page.set("windows", table.html());
+  page.set("intervals", table.html());
 
   HtmlTable links(
       "Link:name|Of waves:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of cycles:n");

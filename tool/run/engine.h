@@ -84,7 +84,7 @@ void describe(RunParameters& p, Visitor& v) {
             "Cycle after the last traced.");
   v.integer("interval_cycles", p.interval_cycles, 0, std::int64_t{1} << 40, "clk",
             "Cuts the run into windows of so many cycles and keeps what each unit, link and port "
-            "did in them: windows.json, result.json's links, the report's curves; 0: none.");
+            "did in them: intervals.json, result.json's links, the report's curves; 0: none.");
   v.boolean("maps", p.maps,
             "Leave maps over the picture, in false colours and as values: what the hardware did "
             "for each pixel.");

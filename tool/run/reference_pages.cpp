@@ -184,7 +184,7 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
   for (const tb::Statistic& s : tb::statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
   page +=
-      "\n## windows.json\n\nOf a run with `run.interval_cycles` (`--windows N`), beside "
+      "\n## intervals.json\n\nOf a run with `run.interval_cycles` (`--windows N`), beside "
       "`result.json`, schema 2. Each list has an entry a window. A\nseries stands under "
       "its key of `result.json`, and sums up to what stands there: every run checks it.\n\n"
       "| key | unit | meaning |\n|---|---|---|\n";

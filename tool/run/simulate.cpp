@@ -80,7 +80,7 @@ void leave_intervals(const tb::Simulation& simulation, RunContext& context,
     context.add_record("timeline", kTimelineFile, simulation.timeline()->json());
   if (!simulation.intervals()) return;
   const nlohmann::ordered_json intervals = simulation.intervals()->json();
-  context.add_record("windows", kIntervalsFile, tb::json_text(intervals) + "\n");
+  context.add_record("intervals", kIntervalsFile, tb::json_text(intervals) + "\n");
   if (whole_cycles) tb::check_intervals(intervals, to_json(result));
 }
 

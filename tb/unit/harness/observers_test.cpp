@@ -223,7 +223,7 @@ TEST(IntervalRecorder, AddsCodesThatCountAsTheSame) {
   const auto json = recorder.json();
   EXPECT_EQ(json["asked_cycles"], 100);
   EXPECT_EQ(json["interval_cycles"], 100);
-  EXPECT_EQ(json["windows"], 10);
+  EXPECT_EQ(json["intervals"], 10);
   EXPECT_EQ(json["from"].size(), 10U);
   EXPECT_EQ(json["units"]["units.joined.idle"], "clk");
   EXPECT_EQ(json["series"]["units"]["joined"]["idle"], all.at("units.joined.idle"));

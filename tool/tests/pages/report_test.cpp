@@ -100,14 +100,14 @@ constexpr const char* kManifest = R"json({
              {"file": "gone.obj", "missing": true}],
   "images": [{"file": "after.png", "role": "after", "title": "After", "caption": "Came out."},
              {"file": "map_work.png", "role": "map_work", "title": "Map: Work"}],
-  "records": {"windows": "windows.json"},
+  "records": {"intervals": "intervals.json"},
   "parameters": [
     {"name": "cache.ways", "kind": "build", "value": "4", "default": "2", "range": "1..8", "unit": "way", "meaning": "Ways."},
     {"name": "rate", "kind": "run", "value": "8", "default": "8", "range": "1..9", "unit": "byte/clk", "meaning": "Rate."}]
 })json";
 
 constexpr const char* kIntervals = R"json({
-  "schema": 1, "asked_cycles": 500, "window_cycles": 1000, "windows": 2, "from": [0, 1000], "cycles": [1000, 400],
+  "schema": 1, "asked_cycles": 500, "interval_cycles": 1000, "intervals": 2, "from": [0, 1000], "cycles": [1000, 400],
   "throughput": [{"key": "work.pixels", "label": "Pixels", "unit": "pixel/clk", "bound": 1},
                  {"key": "work.absent", "label": "Absent", "unit": "x/clk", "bound": 0}],
   "series": {"units": {"luma": {"busy": [1, 2]}},
@@ -300,7 +300,7 @@ class Pages : public testing::Test {
   Pages()
       : path_(fs::temp_directory_path() / ("deburr_report_page_" + std::to_string(::getpid()))) {
     fs::create_directories(path_);
-    put("windows.json", kIntervals);
+    put("intervals.json", kIntervals);
     write_image(path_ / "after.png", tb::Image(4, 3, {10, 20, 30, 255}));
     write_image(path_ / "map_work.png", tb::Image(6, 9, {10, 20, 30, 255}));
     put("map_work.pfm", pfm_of(values()));
@@ -347,7 +347,7 @@ TEST_F(Pages, HaveTheDataOfTheirCharts) {
   expected.erase("units");
   expected["series"]["work"].erase("hits");
   expected["command"] = "deburr run texture --size 4x3 --pixel=3,0 --maps";
-  EXPECT_EQ(data["windows"], expected);
+  EXPECT_EQ(data["intervals"], expected);
   Json map = data["maps"];
   ASSERT_EQ(map.size(), 1u) << "of the empty one there is nothing to say";
   const tb::Image codes = codes_of(values()).picture;
@@ -462,12 +462,12 @@ TEST_F(Pages, AreNotMadeOfDamagedFiles) {
     return changed.dump();
   };
   const std::string is_none = "is not a valid file of windows";
-  says("windows.json", "[]", is_none);
-  says("windows.json", "{}", is_none);
-  says("windows.json", intervals("/cycles", {1000}), is_none);
-  says("windows.json", intervals("/cycles/1", -400), is_none);
-  says("windows.json", intervals("/series/work/pixels", {900, 100, 1}), is_none);
-  says("windows.json", intervals("/series/ports/port/outstanding/0", "1"), is_none);
+  says("intervals.json", "[]", is_none);
+  says("intervals.json", "{}", is_none);
+  says("intervals.json", intervals("/cycles", {1000}), is_none);
+  says("intervals.json", intervals("/cycles/1", -400), is_none);
+  says("intervals.json", intervals("/series/work/pixels", {900, 100, 1}), is_none);
+  says("intervals.json", intervals("/series/ports/port/outstanding/0", "1"), is_none);
   for (const char* const map :
        {"", "Pf 4", "Pf 0 3\n-1.0\n", "Pf 4 0\n-1.0\n", "Pf 4 3\n-1.0\n1234"})
     says("map_work.pfm", map, "is not a portable float map");

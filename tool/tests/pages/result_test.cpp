@@ -729,13 +729,13 @@ void describe(One& p, Visitor& v) {
 }
 struct OfRun {
   bool images = true, maps = false;
-  std::int64_t window_cycles = 0;
+  std::int64_t interval_cycles = 0;
 };
 template <class Visitor>
 void describe(OfRun& p, Visitor& v) {
   v.boolean("images", p.images, "Pictures.");
   v.boolean("maps", p.maps, "Maps.");
-  v.integer("window_cycles", p.window_cycles, 0, 99, "clk", "Windows.");
+  v.integer("interval_cycles", p.interval_cycles, 0, 99, "clk", "Windows.");
 }
 
 // A run with a parameter of each kind.
@@ -800,7 +800,7 @@ TEST_F(Manifests, SayWhatARunWas) {
           entry("build.value", "build", "1", "default", "1", "0..99", "", "One."),
           entry("run.images", "run", "true", "default", "true", "true | false", "", "Pictures."),
           entry("run.maps", "run", "false", "default", "false", "true | false", "", "Maps."),
-          entry("run.window_cycles", "run", "0", "default", "0", "0..99", "clk", "Windows.")}));
+          entry("run.interval_cycles", "run", "0", "default", "0", "0..99", "clk", "Windows.")}));
   EXPECT_EQ(json["configuration"], set_.resolved());
   EXPECT_EQ(json["rules"], (Json{{"rule.value", 1}}));
   EXPECT_EQ(json["build"], (Json{{"build.value", 1}}));
@@ -867,9 +867,9 @@ TEST_F(Manifests, HaveTheKeyOfTheirGoldenResult) {
 
 // Nothing that somebody else left is replaced, whatever parameter asks for a file of that name.
 TEST_F(Manifests, AreOfRunsThatReplaceNothing) {
-  run_.window_cycles = 10;
+  run_.interval_cycles = 10;
   run_.maps = true;
-  for (const char* name : {"result.json", "report.html", "manifest.json", "windows.json",
+  for (const char* name : {"result.json", "report.html", "manifest.json", "intervals.json",
                            "map_level.png", "map_level.pfm", "after.png"}) {
     std::filesystem::create_directories(path_ / "out");
     std::ofstream(path_ / "out" / name) << "mine";

@@ -43,7 +43,7 @@ Settings drawn(const std::string& engine, std::uint64_t seed) {
     const std::size_t memory = name.rfind("memory.");
     return (memory != std::string::npos && !name.ends_with(".latency")) ||
            name.find("_trace") != std::string::npos || name.starts_with("run.timeline") ||
-           name == "run.stalls" || name == "run.reset_after" || name == "run.window_cycles" ||
+           name == "run.stalls" || name == "run.reset_after" || name == "run.interval_cycles" ||
            name == "run.maps" || name == "run.coverage" || name == "run.pixel";
   });
   return settings;

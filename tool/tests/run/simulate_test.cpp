@@ -120,7 +120,7 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
   run.trace = "a*";
   run.trace_from = 14;
   run.trace_to = 15;
-  run.window_cycles = 16;
+  run.interval_cycles = 16;
   run.pixel = "17,18";
   run.timeline_from = 19;
   run.timeline_to = 20;
@@ -137,7 +137,7 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
   EXPECT_THAT(o.trace_file, testing::EndsWith("trace.vcd"));
   EXPECT_EQ(o.trace_from, 14u);
   EXPECT_EQ(o.trace_to, 15u);
-  EXPECT_EQ(o.window_cycles, 16u);
+  EXPECT_EQ(o.interval_cycles, 16u);
   EXPECT_EQ(o.pixel, (tb::PixelAddress{17, 18}));
   EXPECT_EQ(o.timeline->from, 19u);
   EXPECT_EQ(o.timeline->to, 20u);

@@ -52,7 +52,7 @@ class Added(unittest.TestCase):
         self.assertEqual(result["work"]["levels_pixels"], 31 * 17)
         self.assertEqual(sum(result["coverage"]["bins"].values()), 31 * 17)
         self.assertEqual(set(result["maps"]), {"level"})
-        for file in ("after.png", "change.png", "map_level.pfm", "windows.json", "timeline.json", "report.html"):
+        for file in ("after.png", "change.png", "map_level.pfm", "intervals.json", "timeline.json", "report.html"):
             self.assertTrue((self.folder / "out" / file).exists(), file)
 
     def test_what_is_wrong_is_found(self):

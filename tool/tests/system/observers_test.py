@@ -70,7 +70,7 @@ class Intervals(unittest.TestCase):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 run(out, *arguments, "--windows", "300", "--stalls", "0.1")
-                intervals, result = load(out, "windows.json"), load(out)
+                intervals, result = load(out, "intervals.json"), load(out)
                 self.assertGreater(len(intervals["from"]), 5)
                 self.check(intervals, result)
                 self.assertEqual(sum(intervals["cycles"]), result["cycles"])
@@ -104,7 +104,7 @@ class Intervals(unittest.TestCase):
             plain, watched = os.path.join(out, "plain"), os.path.join(out, "watched")
             run(plain, *ENGINES["texture"])
             run(watched, *ENGINES["texture"], "--windows", "100", "--maps", "--timeline")
-            for name in ("windows.json", "timeline.json", "map_samples.png", "map_samples.pfm"):
+            for name in ("intervals.json", "timeline.json", "map_samples.png", "map_samples.pfm"):
                 self.assertFalse(os.path.exists(os.path.join(plain, name)), name)
                 self.assertTrue(os.path.exists(os.path.join(watched, name)), name)
             before, after = load(plain), load(watched)
@@ -113,16 +113,16 @@ class Intervals(unittest.TestCase):
             self.assertNotIn("links", before)
             # The next run takes away what it does not make.
             run(watched, *ENGINES["texture"])
-            for name in ("windows.json", "timeline.json", "map_samples.png", "map_samples.pfm"):
+            for name in ("intervals.json", "timeline.json", "map_samples.png", "map_samples.pfm"):
                 self.assertFalse(os.path.exists(os.path.join(watched, name)), name)
 
     def test_a_long_run_has_no_more_windows_than_fit(self):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--windows", "1", "--check", "none")
-            intervals, result = load(out, "windows.json"), load(out)
+            intervals, result = load(out, "intervals.json"), load(out)
             self.assertLess(len(intervals["from"]), 1024)
             self.assertGreater(len(intervals["from"]), 500)
-            self.assertEqual(intervals["window_cycles"] & intervals["window_cycles"] - 1, 0)
+            self.assertEqual(intervals["interval_cycles"] & intervals["interval_cycles"] - 1, 0)
             self.check(intervals, result)
 
     def test_a_lost_window_is_noticed(self):
@@ -132,9 +132,9 @@ class Intervals(unittest.TestCase):
                 self.assertIn("windows: units.", said)
                 self.assertIn("window 2", said)
                 with self.assertRaises(AssertionError):
-                    self.check(load(out, "windows.json"), load(out))
+                    self.check(load(out, "intervals.json"), load(out))
         with tempfile.TemporaryDirectory() as out:
-            self.assertIn("needs run.window_cycles", run(out, *ENGINES["texture"], "--fault", "lose-window", code=2))
+            self.assertIn("needs run.interval_cycles", run(out, *ENGINES["texture"], "--fault", "lose-window", code=2))
 
 
 # ---- the Trace Event format ---------------------------------------------------------------------
@@ -201,7 +201,7 @@ class Timeline(unittest.TestCase):
     def trace(self, out, *arguments):
         run(out, *arguments, "--windows", str(self.WINDOW), "--stalls", "0.05", "--timeline", "--timeline-from",
             str(self.FROM), "--timeline-to", str(self.TO))
-        return load(out, "timeline.json"), load(out, "windows.json")
+        return load(out, "timeline.json"), load(out, "intervals.json")
 
     def test_obeys_the_rules_and_says_what_windows_say(self):
         for name, arguments in ENGINES.items():

@@ -382,11 +382,11 @@ class Runs(PagesTest):
         """Its link gives the command that writes its waves."""
         self.deburr("run", "texture", "--size", "128x128", "--windows", "1000", "--maps", "--trace", "colours", "--trace-to",
                     "9", "--out", "run")
-        text = self.probed("run/report.html", DESKTOP, self.TEXT, "#window-3")["keys"]
+        text = self.probed("run/report.html", DESKTOP, self.TEXT, "#interval-3")["keys"]
         self.assertIn("Window 3: cycles 3,004 to 4,004.", text)
         self.assertRegex(text, r"--maps --out run --trace '\*' --trace-from 3004 --trace-to 4004</pre>")
         for part in ('data-role="map_samples"', "map_latency.pfm", "latency_fifo_entries", "<option>tag_stage</option>",
-                     'href="#window-3">3,004 to 4,004</a>'):
+                     'href="#interval-3">3,004 to 4,004</a>'):
             self.assertIn(part, text)
         for canvas in ("rate-time", "unit-time", "port-time", "link-time", "link-histogram"):
             self.assertRegex(text, f'<canvas id="{canvas}"[^>]*style="[^"]*height: 2[0-9]+px')
