@@ -71,7 +71,7 @@ Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
       turn(in, in_hand_);
       cycles_left_ = more_cycles_;
     }
-  } else if (cycles_left_ != 0 && --clocks_left_ == 0) {
+  } else if (cycles_left_ != 0 && --cycles_left_ == 0) {
     stages.enter() = in_hand_;
   }
   return kBusy;
