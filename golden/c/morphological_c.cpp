@@ -61,7 +61,8 @@ struct MorphologicalHandle final : MorphologicalModel {
       }
       case MorphologicalPlane::kProbes: {
         const auto& probe = golden.probes()[i];
-        return {static_cast<std::uint8_t>(probe.horizontal), probe.first, probe.second, probe.edges};
+        return {static_cast<std::uint8_t>(probe.horizontal), probe.first, probe.second,
+                probe.edges};
       }
       case MorphologicalPlane::kDecisions:
         return {static_cast<std::uint8_t>(golden.decisions()[i])};

@@ -11,8 +11,8 @@ namespace deburr::tb {
 // Smallest number of insertions, deletions, substitutions and swaps of neighbours that turn a into
 // b.
 int edit_distance(std::string_view a, std::string_view b);
-// Up to three of `candidates` close to `name`, best first; for "did you mean". The one alone that had
-// this name before 0.4.0.
+// Up to three of `candidates` close to `name`, best first; for "did you mean". The one alone that
+// had this name before 0.4.0.
 std::vector<std::string> near_matches(std::string_view name,
                                       const std::vector<std::string>& candidates);
 // ": did you mean a, b or c?", or "" without candidates.

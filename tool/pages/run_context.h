@@ -28,7 +28,8 @@
 
 namespace deburr::tool {
 
-inline constexpr std::string_view kIntervalsFile = "intervals.json", kTimelineFile = "timeline.json";
+inline constexpr std::string_view kIntervalsFile = "intervals.json",
+                                  kTimelineFile = "timeline.json";
 
 // Names of what a run may leave for people to look at, as its engine declares them.
 struct Leaves {

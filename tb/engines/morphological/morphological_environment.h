@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The morphological engine on one or several frames.
 //
-//   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, probes: against the golden frame
+//   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, probes: against the golden
+//   frame
 //                                │       └ registers ◄─ RegisterHost: SIZE, and the counters at the
 //                                end
 //                            MemoryModel (storage = memory) ─► lines written, lines read
