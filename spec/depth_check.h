@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is wrong with the depths of a frame, in the words that the command, the C interface and
-// Python say: near / w as real numbers, or codes U24 (docs/reference/morphological/formats.md,
+// Python say: near / w as real numbers, or codes U24 (docs/reference/morphological/algorithm.md,
 // "Conversion of images").
 #pragma once
 

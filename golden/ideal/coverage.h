@@ -4,7 +4,7 @@
 // edges.
 //
 // Reference for the quality tables and the error bound of the integer areas (paper 000, section 2;
-// docs/reference/morphological/formats.md, "Line through a run", "Area", without any rounding).
+// docs/reference/morphological/algorithm.md, "Line through a run", "Area", without any rounding).
 #pragma once
 
 #include <span>

@@ -2,8 +2,8 @@
 // Areas of SMAA's orthogonal patterns in real numbers, with the subsample offsets of its temporal
 // and multisampled modes: any entry of the published table before it is rounded.
 //
-// docs/reference/morphological/formats.md, "Area table" and "Subsample rows". Jimenez et al., SMAA,
-// 2012, and the program published with it that makes its table.
+// docs/reference/morphological/smaa.md, "Area table". Jimenez et al., SMAA, 2012, and the program
+// published with it that makes its table.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Area between the line of a run and its edge, pixel by pixel: the weights of the pixels beside it.
 //
-// After LineUnit; docs/reference/morphological/formats.md, "Area". Trapezoids, and two triangles
+// After LineUnit; docs/reference/morphological/algorithm.md, "Area". Trapezoids, and two triangles
 // where the line crosses the edge (Reshetov). Error against real arithmetic on the same corners:
 // 0.57 of a weight's unit for runs that are not extended, 0.8 for any, 1.07 where two triangles add
 // up in one pixel of a U (tb/oracle/morphological_area_test.cpp, every length and shape).

@@ -2,8 +2,8 @@
 // SMAA's area table: the weights of a pixel by the distances to the two ends of its run and the
 // pattern that its crossing edges make.
 //
-// After LineUnit, in place of area.h; docs/reference/morphological/smaa.md, "Areas from tables";
-// docs/reference/morphological/formats.md, "Distances" and "Area table". Jimenez et al., SMAA,
+// After LineUnit, in place of area.h; docs/reference/morphological/smaa.md, "Areas from tables"
+// and "Area table". Jimenez et al., SMAA,
 // 2012; the merged layout is paper 003's, the minimal one ours. The golden reads the full one; that
 // the others decode to the same entries is a test's business
 // (tb/unit/golden/morphological/area_table_test.cpp).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rounded division and the integer root of docs/reference/morphological/formats.md.
+// The rounded division and the integer root of docs/reference/notation.md.
 #pragma once
 
 #include <cstdint>

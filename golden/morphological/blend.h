@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The last block: decides the axis of a pixel and mixes it with the neighbours of that axis.
 //
-// docs/reference/morphological/algorithm.md, "Blender"; docs/reference/morphological/smaa.md,
-// "Blend"; docs/reference/morphological/formats.md, "Blend" and "Strongest". The axis is decided
+// docs/reference/morphological/algorithm.md, "Blender" and "Blend";
+// docs/reference/morphological/smaa.md, "Blend" and "Strongest". The axis is decided
 // here and nowhere else: by the longer line (paper 000's comparison of D sums, taken after the
 // extension) or by the stronger weight (SMAA).
 #pragma once

@@ -2,7 +2,7 @@
 // What the geometric engine's marks do to the weights of a pixel, and which situations of this the
 // frames so far contained.
 //
-// docs/reference/morphological/algorithm.md, "Pixels that are left". Bins, of pixels that have a
+// docs/reference/morphological/algorithm.md, "Bypassed pixels". Bins, of pixels that have a
 // weight to lose or to take:
 //   left/<marked|half>/own                    marked itself
 //   left/beside/<which>                       the one place of five that is marked, or `several`

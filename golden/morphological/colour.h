@@ -2,8 +2,8 @@
 // Edges by colour: left and top edge bits from the largest step of R, G and B.
 //
 // In place of luma.h where source = colour, with the local contrast of edges.h said once more for
-// steps of a byte, whole rows at a time; docs/reference/morphological/learned_weights.md, "Edges
-// from colour". Ours.
+// steps of a byte, whole rows at a time; docs/reference/morphological/algorithm.md,
+// "Edges". Ours.
 #pragma once
 
 #include "golden/morphological/planes.h"

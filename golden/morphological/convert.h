@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Codes from images of other sample formats, by the rules of "Conversion of images" in
-// docs/reference/morphological/formats.md: exact, so that every reader gives the engine the same
+// docs/reference/morphological/algorithm.md: exact, so that every reader gives the engine the same
 // frame.
 //
 // Before the engine. Binary32 samples (IEEE 754) come as their bit patterns and are converted in

@@ -2,8 +2,8 @@
 // Diagonal patterns: edges that step by one pixel and one row, and the weights of the line along
 // them.
 //
-// Beside the runs, whose weights they replace; docs/reference/morphological/smaa.md, "Diagonals";
-// docs/reference/morphological/formats.md, "Diagonal table". Jimenez et al., SMAA, 2012,
+// Beside the runs, whose weights they replace; docs/reference/morphological/smaa.md, "Diagonals"
+// and "Diagonal table". Jimenez et al., SMAA, 2012,
 // section 4.2.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Left and top edge bits of a frame: raw edges from luma, depth or both, then local contrast.
 //
-// Second block; docs/reference/morphological/formats.md, "Edges". Equations (2) and (3) of paper
+// Second block; docs/reference/morphological/algorithm.md, "Edges". Equations (2) and (3) of paper
 // 003; the symmetric form of local contrast, and all but `current` of the dynamic luma, are ours.
 #pragma once
 

@@ -3,8 +3,8 @@
 // small tables over it.
 //
 // After the predictor, in place of line.h and area.h;
-// docs/reference/morphological/learned_weights.md, "Records" and "Indices". Ours. Every entry that
-// a record can name is listed by reachable_entries().
+// docs/reference/morphological/learned_weights.md, "Descriptors" and "Indices". Ours. Every entry
+// that a record can name is listed by reachable_entries().
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The straight line through a run and its extensions, as the two reciprocals that areas need.
 //
-// Between EndpointPredictor and AreaUnit; docs/reference/morphological/formats.md, "Line through a
-// run". One rounded division a record. Chord: paper 000; fit: ours.
+// Between EndpointPredictor and AreaUnit; docs/reference/morphological/algorithm.md, "Line through
+// a run". One rounded division a record. Chord: paper 000; fit: ours.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // every intermediate result and the predicted memory traffic.
 //
 // No time, no SystemC, integers only (docs/reference/morphological/algorithm.md,
-// docs/reference/morphological/smaa.md, docs/reference/morphological/formats.md; papers 000, 001
+// docs/reference/morphological/smaa.md; papers 000, 001
 // and 003). The blocks are pure functions: luma.h or colour.h, edges.h, runs.h, predictor.h,
 // line.h, area.h or area_table.h or learned_weights.h, corners.h, diagonals.h, blend.h, bypass.h,
 // text_guard.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden

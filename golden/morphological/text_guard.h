@@ -2,8 +2,9 @@
 // Which pixels the text guard leaves as they are, and which situations of this the frames so far
 // contained.
 //
-// docs/reference/morphological/text_guard.md. A set of colours is a word of 64 bits, one for each
-// hash, so that the colours of a window are an OR. Bins, of all pixels of frames with the guard:
+// docs/reference/morphological/algorithm.md, "Text guard". A set of colours is a word of 64 bits,
+// one for each hash, so that the colours of a window are an OR. Bins, of all pixels of frames with
+// the guard:
 //   text/guarded                 all conditions hold
 //   text/one-colour              the window has one colour
 //   text/more-colours            the window has three or more, and all else holds

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine can be built with. Why: docs/reference/morphological/index.md,
-// "Configuration errors"; docs/reference/morphological/smaa.md, "Errors".
+// What the morphological engine can be built with. See docs/reference/morphological/index.md,
+// "Configuration errors".
 #pragma once
 
 #include <array>

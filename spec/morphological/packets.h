@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packets of the morphological engine: pixels in and out, and what golden and hardware compare on
-// the way. Formats: docs/reference/morphological/formats.md.
+// the way. Formats: docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>

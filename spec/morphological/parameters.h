@@ -2,7 +2,7 @@
 // Parameters and presets of the morphological engine: rules, which change pixels, and build
 // choices, which change cycles and cost. Meaning: docs/reference/morphological/index.md and
 // docs/reference/morphological/smaa.md; formats and rounding, to the bit:
-// docs/reference/morphological/formats.md.
+// docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>

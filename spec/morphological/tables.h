@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ROM contents of the morphological engine: transfer tables of the linear-light blender and the two
 // reciprocal tables of the line unit. Data only; formulas, formats and a test of every entry are in
-// docs/reference/morphological/formats.md. Cost: 3072 + 32768 + 2 * 34 * 27 bits of ROM.
+// docs/reference/morphological/algorithm.md. Cost: 3072 + 32768 + 2 * 34 * 27 bits of ROM.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 namespace deburr::spec::morphological {
 
 // Sizes of SMAA's tables, whose entries both models compute from the formulas of
-// docs/reference/morphological/formats.md, "SMAA".
+// docs/reference/morphological/smaa.md.
 inline constexpr int kTableRoots = 16;         // entries each way of a tile, at squares 0..15
 inline constexpr int kTableDistances = 225;    // distances that the last tile entry reaches: 0..224
 inline constexpr int kDiagonalDistances = 20;  // of the diagonal table, each way

@@ -8,7 +8,7 @@
 //       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
 //   morphological_rtl_bench --trade                            bits of the edge memories and cycles
 //       of a frame by predictors and trial_cycles: the table of
-//       docs/reference/morphological/throughput.md
+//       docs/reference/morphological/index.md
 // Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
 // stripes.
 #include <benchmark/benchmark.h>

@@ -208,8 +208,7 @@ TEST(PublishedSmaa, HasTheseEdges) {
     table.row({name_of(quality), fmt::format("{}", edges), fmt::format("{}", differing),
                fmt::format("{}", unexplained)});
   }
-  expect_generated("reference/morphological/smaa_published.md", "PublishedSmaa.HasTheseEdges",
-                   table.text());
+  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.HasTheseEdges", table.text());
 }
 
 // ---- weights ------------------------------------------------------------------------------------
@@ -289,7 +288,7 @@ TEST(PublishedSmaa, HasTheseWeights) {
                              fmt::format("{:.1f}", d->largest)});
     table.row(row);
   }
-  expect_generated("reference/morphological/smaa_published.md", "PublishedSmaa.HasTheseWeights",
+  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.HasTheseWeights",
                    table.text());
 }
 

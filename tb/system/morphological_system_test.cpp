@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
 // counter and memory line equal to the golden model, for every preset, and the cycles that
-// docs/reference/morphological/throughput.md promises.
+// docs/reference/morphological/hardware.md promises.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -468,7 +468,7 @@ INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
 class Clustered : public testing::TestWithParam<spec::morphological::Lanes> {};
 
 // Diagonals of one pixel side by side, at either border and in the middle, as many as the bound of
-// docs/reference/morphological/throughput.md allows: no queue is too short. With a fifth of every
+// docs/reference/morphological/hardware.md allows: no queue is too short. With a fifth of every
 // row on them the slots wait, and nothing else changes.
 TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
   MorphologicalRunOptions options;
@@ -503,7 +503,7 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- what is rejected
 // ----------------------------------------------------------------------------
 
-// The sizing rule of docs/reference/morphological/throughput.md: so many lines in flight each way
+// The sizing rule of docs/reference/morphological/hardware.md: so many lines in flight each way
 // keep up with a memory of 100 cycles, one less does not.
 struct Sizing {
   spec::morphological::Lanes lanes;

@@ -8,9 +8,9 @@
 // each gives one a read. Layouts: full: 16 tiles of two values, by the pattern; merged: 8 tiles,
 // patterns 0, 5, 10 and 15 are not read, 7 and 14 read 6, 11 and 13 read 9; minimal: two tiles of
 // one value, T, read for both sides, and U. All give the same weights. Every word is computed from
-// the formulas of docs/reference/morphological/formats.md when the engine is built: the area, or
-// with area_values = published that of the published byte. Source: SMAA (Jimenez et al. 2012);
-// paper 003 (merged); minimal is ours.
+// the formulas of docs/reference/morphological/smaa.md when the engine is built: the area, or with
+// area_values = published that of the published byte. Source: SMAA (Jimenez et al. 2012); paper 003
+// (merged); minimal is ours.
 #pragma once
 
 #include <array>

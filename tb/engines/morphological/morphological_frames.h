@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the morphological engine is given: an image file with depth and reference beside it, or a
 // scene rendered without anti-aliasing, with its depth and its supersampled reference. Files become
-// codes by the rules of docs/reference/morphological/formats.md, "Conversion of images".
+// codes by the rules of docs/reference/morphological/algorithm.md, "Conversion of images".
 #pragma once
 
 #include <array>

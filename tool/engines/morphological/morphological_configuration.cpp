@@ -134,7 +134,7 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
   if (values.trial_cycles < 4)
     notes.push_back(fmt::format(
         "morphological.trial_cycles = {}: steps of a trial weight a clock, so the engine is not "
-        "made for 250 MHz (docs/reference/morphological/throughput.md, Trials)",
+        "made for 250 MHz (docs/reference/morphological/hardware.md, Trials)",
         values.trial_cycles));
   return notes;
 }

@@ -107,7 +107,7 @@ class Vectors(unittest.TestCase):
             for detail in (False, True):
                 with self.subTest(row["vector"], detail=detail):
                     frame = golden.morphological(vector_image(row["image"]), detail=detail, **preset,
-                                                 **settings(row["beside it"]))
+                                                 **settings(row["settings"]))
                     self.assertEqual(f"{fnv(frame.pixels[:, :, :3].tobytes()):016x}", row["hash"])
                     for column, name in columns.items():
                         self.assertEqual(frame.work[name], int(row[column]), name)

@@ -23,7 +23,7 @@ using golden::morphological::find_edges;
 using tb::Random;
 using tb::morphological::Frame;
 
-// "Edges" of docs/reference/morphological/formats.md, word for word.
+// "Edges" of docs/reference/morphological/algorithm.md, word for word.
 class PlainEdges {
  public:
   PlainEdges(const spec::morphological::Parameters& p, const Frame& frame,

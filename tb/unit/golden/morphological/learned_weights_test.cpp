@@ -461,7 +461,7 @@ TEST(LearnedWeights, TheSumOfTheShippedTablesIsWhatTheRegisterShows) {
   EXPECT_EQ(sum, spec::morphological::kWeightsSum);
 }
 
-// Entries that no record can name: docs/reference/morphological/learned_weights.md, "Entries".
+// Entries that no record can name: docs/reference/morphological/learned_weights.md, "Indices".
 TEST(LearnedCoverage, EveryEntryThatCanBeReachedIs) {
   const auto& reachable = reachable_entries();
   const auto count = [](const auto& flags) { return std::count(flags.begin(), flags.end(), true); };

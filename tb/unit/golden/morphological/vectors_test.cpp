@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Does the golden give the contract's numbers? The frames and runs of
 // spec/morphological/vectors.h, and every entry of the ROMs
-// (docs/reference/morphological/formats.md).
+// (docs/reference/morphological/algorithm.md).
 #include "spec/morphological/vectors.h"
 
 #include <fmt/format.h>

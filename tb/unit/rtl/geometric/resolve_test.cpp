@@ -145,7 +145,7 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
 
 // R of the colours that a frame begins with; the other channels are 0.
 int red(int x, int y) { return (7 * x + 11 * y) % 256; }
-// Half of the pixel itself and half of its neighbour, as docs/reference/morphological/formats.md
+// Half of the pixel itself and half of its neighbour, as docs/reference/morphological/algorithm.md
 // rounds it.
 int half_of_both(int own, int other) {
   const int v = 128 * (other - own), moved = (std::abs(v) + 128) >> 8;

@@ -463,7 +463,7 @@ TEST(TableEnds, AResetForgetsALineThatIsMeasured) {
   for (const Cycle at : {42, 43}) EXPECT_EQ(kept(true, at), "0 stored, 0 finished") << at;
 }
 
-// Where the ends of a line lie, by the formulas of docs/reference/morphological/formats.md: S13,
+// Where the ends of a line lie, by the formulas of docs/reference/morphological/smaa.md: S13,
 // and a tie goes up, which is a pixel further to the left for the start.
 TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
   constexpr std::int64_t kOne = std::int64_t{1} << 24;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds on the beats of a row that docs/reference/morphological/throughput.md gives for a
+// The bounds on the beats of a row that docs/reference/morphological/hardware.md gives for a
 // frame without a stall: for records, with the bursts that hurt most; for narrow rows; for memory.
 #include <algorithm>
 #include <cstdint>

@@ -60,7 +60,7 @@ RomHashes rom_hashes(AreaValues values) {
   return {{tiles[0].value(), tiles[1].value()}, roots.value(), mix.value(), diagonals.value()};
 }
 
-// By the table of docs/reference/morphological/smaa_hardware.md, of one lane and of two.
+// By the table of docs/reference/morphological/memories.md, of one lane and of two.
 TEST(SmaaTables, RomsAreThoseOfThePage) {
   struct Owner : sc_core::sc_module {
     Owner(const sc_core::sc_module_name& name, AreaSource layout, int lanes)

@@ -24,7 +24,7 @@ struct Row {
   std::array<int, 3> first, second;  // a, b, c
 };
 
-// docs/reference/morphological/learned_weights.md, "Worked frames", and ends that are not seen.
+// docs/reference/morphological/vectors.md, "Learned weights", and ends that are not seen.
 const Row kRows[] = {
     {"upper left of a box", 2, 2, 2, 2, 0, 7, RunPart::kWhole, {645, 419, 439}, {325, 131, 151}},
     {"fourth of eight", 2, 2, 2, 2, 3, 4, RunPart::kWhole, {668, 431, 435}, {348, 143, 147}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/reference/morphological/vectors.md, and of runs in formats.md, are made from
+// The tables of docs/reference/morphological/vectors.md, and of runs in algorithm.md, are made from
 // spec/morphological/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::string configuration_of(const FrameVector& v) {
 }
 
 std::string frames(std::span<const FrameVector> vectors) {
-  std::vector<std::string> titles = {"vector", "image", "preset", "beside it"};
+  std::vector<std::string> titles = {"vector", "image", "preset", "settings"};
   FrameResult::fields(vectors[0].result,
                       [&](std::string_view title, std::uint64_t) { titles.emplace_back(title); });
   MarkdownTable table(titles);
@@ -139,7 +139,7 @@ TEST(MorphologicalVectorsPage, HasTheDrawingsOfTheGuard) {
 }
 
 TEST(MorphologicalVectorsPage, HasTheRuns) {
-  expect_generated("reference/morphological/formats.md", "MorphologicalVectorsPage.HasTheRuns",
+  expect_generated("reference/morphological/algorithm.md", "MorphologicalVectorsPage.HasTheRuns",
                    runs(kRunVectors));
   expect_table_has_each_value(kRunVectors, runs);
 }

@@ -146,7 +146,7 @@ TEST(MorphologicalConfiguration, ThresholdsBelowACodeAreNoted) {
   EXPECT_THAT(build_notes(p),
               ElementsAre("morphological.trial_cycles = 3: steps of a trial weight a clock, so the "
                           "engine is not made for 250 MHz "
-                          "(docs/reference/morphological/throughput.md, Trials)"));
+                          "(docs/reference/morphological/hardware.md, Trials)"));
 }
 
 // Fields with the same value in both words.
