@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The coarse test of depth, by the least depth of tiles of pixels:
-// docs/reference/geometric/traffic.md, "A coarse test of depth".
+// docs/reference/geometric/memory.md, "Coarse depth test".
 #pragma once
 
 #include <algorithm>

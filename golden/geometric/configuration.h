@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which frames the engine accepts: docs/reference/geometric/index.md, "Errors". Parameters:
+// Which frames the engine accepts: docs/reference/geometric/index.md, "START". Parameters:
 // spec/geometric/check_build.h.
 #pragma once
 

@@ -2,11 +2,11 @@
 // Bit-exact reference of the whole geometric engine: edges, vertices, facing bits, depth and a
 // frame in, the smoothed frame out, with every intermediate result and the memory traffic.
 //
-// No time, no SystemC, integers only (docs/reference/geometric/algorithm.md,
-// docs/reference/geometric/formats.md; paper 002). The steps are functions: classify.h, line.h,
-// resolve.h; where things lie and what is fetched: traffic.h. GeometricGolden strings them together
-// over a frame. An edge that is dropped costs a look at its record, a line its columns, a touched
-// block its pixels; nothing else of the frame is visited but to copy it.
+// No time, no SystemC, integers only (docs/reference/geometric/algorithm.md; paper 002). The steps
+// are functions: classify.h, line.h, resolve.h; where things lie and what is fetched: traffic.h.
+// GeometricGolden strings them together over a frame. An edge that is dropped costs a look at its
+// record, a line its columns, a touched block its pixels; nothing else of the frame is visited but
+// to copy it.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // An edge on the screen as a line: reciprocal, slope, start, and what it is at each column.
 //
-// Second and third step; docs/reference/geometric/algorithm.md, "Line" and "Walk";
-// docs/reference/geometric/formats.md. Paper 002, equations (6) and (7). Integers only; bounds of
-// the errors stand with the formats.
+// Second and third step; docs/reference/geometric/algorithm.md, "Line" and "Walk". Paper 002,
+// equations (6) and (7). Integers only; bounds of the errors stand with the formats.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vertices of edges, apart from their faces: docs/reference/geometric/traffic.md, "Edge records in
+// Vertices of edges, apart from their faces: docs/reference/geometric/memory.md, "Edge records in
 // two arrays".
 #pragma once
 

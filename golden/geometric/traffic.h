@@ -2,8 +2,7 @@
 // Where things lie in memory, and which lines of it a frame reads and writes.
 //
 // Beside the arithmetic: pixels do not depend on it, but for lines that memory cannot read.
-// docs/reference/geometric/memory.md, "What is in memory" and "Traffic";
-// docs/reference/geometric/traffic.md.
+// docs/reference/geometric/memory.md, "What is in memory" and "Traffic".
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine can be built with. Why: docs/reference/geometric/hardware.md,
-// "Parameters".
+// What the geometric engine can be built with.
 #pragma once
 
 #include <array>

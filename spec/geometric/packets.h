@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What golden and hardware compare on the way through the geometric engine. Formats:
-// docs/reference/geometric/formats.md.
+// docs/reference/geometric/algorithm.md.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
 // choices, which change cycles, traffic and cost. Meaning: docs/reference/geometric/index.md;
-// formats and rounding, to the bit: docs/reference/geometric/formats.md; cycles:
+// formats and rounding, to the bit: docs/reference/geometric/algorithm.md; cycles:
 // docs/reference/geometric/hardware.md.
 #pragma once
 
@@ -90,7 +90,7 @@ inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight
 // Places, where they are not sized from the latency of memory.
 inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
 inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
-// Lines that are kept on the chip, where any are: docs/reference/geometric/traffic.md.
+// Lines that are kept on the chip, where any are: docs/reference/geometric/memory.md.
 inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
 
 // Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.

@@ -2,7 +2,7 @@
 // ROM contents of the geometric engine: reciprocals of short lines, areas that lines cut off, and
 // the transfer tables of the blend, which are those of the morphological engine. Data only;
 // formulas and formats
-// are in docs/reference/geometric/formats.md, and every entry is tested.
+// are in docs/reference/geometric/algorithm.md, and every entry is tested.
 #pragma once
 
 #include <array>

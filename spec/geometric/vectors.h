@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
-// that the tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md
+// that the tables of docs/reference/geometric/vectors.md and algorithm.md
 // are made from. What the frames hold, and what is hashed: docs/reference/geometric/vectors.md.
 #pragma once
 
@@ -204,7 +204,7 @@ inline constexpr std::array<FrameVector, 5> kSpecialFrameVectors = {{
      DrawnFrame::kSpecial},
 }};
 
-// Of less traffic: docs/reference/geometric/traffic.md.
+// Of less traffic: docs/reference/geometric/memory.md.
 inline constexpr std::array<FrameVector, 7> kTrafficFrameVectors = {{
     {'t',
      Preset::kDeburr,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paper 002: Fan and others, Geometric information anti-aliasing algorithm with edge optimization,
-// 2016. Its equations are lost in the scan; docs/reference/geometric/choices.md has them as they
-// were reconstructed.
+// 2016. Its equations are lost in the scan; docs/reference/geometric/algorithm.md has them as
+// they were reconstructed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -316,7 +316,7 @@ std::array<Drawing, 3> drawings() {
            {"selected", preset_parameters(Preset::kGpaaOptimised)}}};
 }
 
-// Cycles of the hardware's edges phase by the bounds of docs/reference/geometric/cycles.md,
+// Cycles of the hardware's edges phase by the bounds of docs/reference/geometric/hardware.md,
 // "Cycles".
 struct EdgeCycles {
   std::uint64_t kept = 0, blended = 0;

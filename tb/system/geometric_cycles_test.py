@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The cycles that docs/reference/geometric/cycles.md quotes of a dense frame, against those that the bench counts.
+"""The cycles that docs/reference/geometric/hardware.md quotes of a dense frame, against those that the bench counts.
 
 usage: geometric_cycles_test.py BENCH"""
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 
 BENCH = "geometric_rtl_bench"
 BEGIN = 540  # cycles, of a word of touched bits each
-PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/reference/geometric/cycles.md"
+PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/reference/geometric/hardware.md"
 
 
 def bench(*arguments):
@@ -40,8 +40,8 @@ class Cycles(unittest.TestCase):
         self.assertIn(text, self.page)
 
     def test_dense_frames(self):
-        """Rings side by side and on each other, near a memory and far from one, against what the port takes alone."""
-        for passes, name in (("1", "side by side"), ("3", "three on each other")):
+        """Rings apart and stacked, with a fast and a slow memory, against the cycles of the port."""
+        for passes, name in (("1", "apart"), ("3", "stacked")):
             for coverage in ("distance", "area"):
                 for latency in ("20", "100"):
                     edges, resolve, work, lines = frame("deburr", "4", "2", "tiled", passes, latency,
@@ -61,7 +61,7 @@ class Cycles(unittest.TestCase):
         """The same with the build choices that leave out lines; with the larger cache near the port's bound, far from a
         memory, too."""
         larger = "records=split colour_lines=128 weight_blocks=256"
-        for passes, name in (("1", "side by side"), ("3", "three on each other")):
+        for passes, name in (("1", "apart"), ("3", "stacked")):
             for latency in ("20", "100"):
                 for choices in ("colour_lines=128", "records=split", "write_buffer=128",
                                 "records=split colour_lines=128 write_buffer=128", larger):

@@ -9,7 +9,7 @@
 //           arrives and one is used per cycle.
 // Stalls    `no_line` (the line has not come), `no_fill` (no entry for a line is free), downstream.
 // Cost      Tags, data, the FillStore; per port a tag of the token and its compare.
-// Source    docs/reference/geometric/hardware.md, "Caches with a look ahead".
+// Source    docs/reference/geometric/hardware.md, "Caches with lookahead".
 #pragma once
 
 #include <array>

@@ -5,7 +5,7 @@
 // Where: between EdgeClassifier and VertexFetch. It looks ahead as a cache does, with a place for a
 // line of each array: boundaries, and other edges. Numbers of either only grow, so a line is read
 // once. Stalls: `pairs` (the line has not come), `fills` (no place for one), `downstream`. A
-// dropped edge leaves nothing. Source: docs/reference/geometric/traffic.md.
+// dropped edge leaves nothing. Source: docs/reference/geometric/memory.md.
 #pragma once
 
 #include <array>

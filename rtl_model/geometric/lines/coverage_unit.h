@@ -3,9 +3,9 @@
 // which it lies, and with coverage = area the neighbour that it cuts, too.
 //
 // Where: after the LineWalker. Stalls: `downstream`. Coverage is rounded. Source: paper 002, eq
-// (7); areas: docs/reference/geometric/formats.md. A column looks two areas up: the pixel's in the
-// near half of the table, up to half a pixel from the centre, the neighbour's in the far one. Just
-// half a pixel away both are the same, which is in the far half.
+// (7); areas: docs/reference/geometric/algorithm.md. A column looks two areas up: the pixel's in
+// the near half of the table, up to half a pixel from the centre, the neighbour's in the far one.
+// Just half a pixel away both are the same, which is in the far half.
 #pragma once
 
 #include <array>

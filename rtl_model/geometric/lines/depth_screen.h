@@ -5,7 +5,7 @@
 // Where: between CoverageUnit and DepthTest, with a small cache of coarse lines that looks ahead.
 // Every group goes on, with a bit for each candidate that is dropped, so that DepthTest keeps their
 // order. A group lies in one tile, and so do its neighbours. Stalls: `coarse` (the line has not
-// come), `fills` (no place for one), `downstream`. Source: docs/reference/geometric/traffic.md.
+// come), `fills` (no place for one), `downstream`. Source: docs/reference/geometric/memory.md.
 #pragma once
 
 #include <array>

@@ -4,7 +4,7 @@
 // Where: after VertexFetch. All stages move together; before the quotient a line waits for a
 // divider. Lines leave in order, since every line takes as long from the divider on, one of the
 // table too. Stalls: `divider` (none is free), `downstream`. Error bounds:
-// docs/reference/geometric/formats.md. Source: paper 002, eqs (5), (6).
+// docs/reference/geometric/algorithm.md. Source: paper 002, eqs (5), (6).
 #pragma once
 
 #include <array>

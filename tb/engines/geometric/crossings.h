@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the faces of a mesh pass through each other: no edge of it, and an edge in every picture.
 //
-// Before the engine: docs/reference/geometric/host.md. Double precision, without
+// Before the engine: docs/reference/geometric/index.md. Double precision, without
 // contraction; once a mesh. A tree of boxes finds pairs of faces that may cross: O(n log n) on
 // meshes whose faces mostly do not.
 #pragma once

@@ -2,8 +2,8 @@
 // The geometric engine's input from a mesh and a camera: the edge table, once a mesh; facing bits,
 // snapped vertices and clipped edges, once a frame.
 //
-// Before the engine: docs/reference/geometric/host.md says each rule. Double
-// precision, without contraction; formats in docs/reference/geometric/formats.md.
+// Before the engine: docs/reference/geometric/index.md says each rule. Double
+// precision, without contraction; formats in docs/reference/geometric/algorithm.md.
 #pragma once
 
 #include <Imath/ImathVec.h>

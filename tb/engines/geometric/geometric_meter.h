@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures of the geometric engine: units and counters, traffic by region, and the cycles below
-// which no frame of this work can be drawn (docs/reference/geometric/cycles.md, "Cycles").
+// which no frame of this work can be drawn (docs/reference/geometric/hardware.md, "Cycles").
 #pragma once
 
 #include <cstdint>

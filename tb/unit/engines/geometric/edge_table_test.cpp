@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Does the geometric engine get the edges of each kind of mesh, and of broken ones a defined result
-// or a named error (docs/reference/geometric/host.md)?
+// or a named error (docs/reference/geometric/index.md)?
 #include "tb/engines/geometric/edge_table.h"
 
 #include <fmt/core.h>

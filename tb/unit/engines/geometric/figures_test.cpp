@@ -304,7 +304,7 @@ TEST(GeometricFigures, LinesOfEachRegionAreThoseThatGoldenAskedFor) {
     }
 }
 
-// docs/reference/geometric/cycles.md: what each part needs at least, of which the slowest counts.
+// docs/reference/geometric/hardware.md: what each part needs at least, of which the slowest counts.
 double bound_of(const Json& r, const Frame& frame, const GeometricSetup& setup, double times) {
   const auto w = [&](const std::string& name) {
     return r["work"].contains(name) ? work(r, name) : 0;

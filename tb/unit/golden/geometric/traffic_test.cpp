@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Do the choices that leave traffic out leave out what docs/reference/geometric/traffic.md says, in
+// Do the choices that leave traffic out leave out what docs/reference/geometric/memory.md says, in
 // its order, and nothing of the picture? Lists and counts are worked out by hand.
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Does the golden give the contract's numbers? The frames and lines of spec/geometric/vectors.h,
-// and every entry of the ROM (docs/reference/geometric/formats.md).
+// and every entry of the ROM (docs/reference/geometric/algorithm.md).
 #include "spec/geometric/vectors.h"
 
 #include <gmock/gmock.h>

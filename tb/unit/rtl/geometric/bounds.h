@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds of a frame's cycles, as docs/reference/geometric/cycles.md has them.
+// The bounds of a frame's cycles, as docs/reference/geometric/hardware.md has them.
 #pragma once
 
 #include <bit>

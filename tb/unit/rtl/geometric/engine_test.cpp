@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The geometric engine as a whole: refusals and registers, bad input, empty frames; the cycles of a
-// frame between the bounds of docs/reference/geometric/cycles.md, and near the one that is the
+// frame between the bounds of docs/reference/geometric/hardware.md, and near the one that is the
 // largest.
 #include <map>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies in memory beside what docs/reference/geometric/memory.md and traffic.md give a meaning
+// What lies in memory beside what docs/reference/geometric/memory.md gives a meaning
 // to: bits of their records that are ignored, records after the last one, what lies between rows
 // and tiles, room for weights and for the copy before a frame; bits of registers that no field has,
 // and registers that a build has no use for. Whatever is there, a frame is the same, in pixels,

@@ -120,7 +120,7 @@ class Kit : public EngineKit {
                 rtl::geometric::TouchedBlock, rtl::geometric::BlockToken,
                 rtl::geometric::FrameConfiguration>;
   static constexpr int kFormats = 58;
-  static constexpr const char* kTables = "reference/geometric/memories.md";
+  static constexpr const char* kTables = "reference/geometric/hardware.md";
   static constexpr const char* kHeader = "rtl_model/geometric/geometric_engine.h";
   static constexpr const char* kFigure = "reference/geometric/hardware.md";
   // The last one: with all that an engine can be built with.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/reference/geometric/vectors.md and docs/reference/geometric/formats.md are
+// The tables of docs/reference/geometric/vectors.md and algorithm.md are
 // made from spec/geometric/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(GeometricVectorsPage, HasTheSpecialCases) {
 }
 
 TEST(GeometricVectorsPage, HasTheLines) {
-  expect_generated("reference/geometric/formats.md", "GeometricVectorsPage.HasTheLines",
+  expect_generated("reference/geometric/algorithm.md", "GeometricVectorsPage.HasTheLines",
                    lines(kLineVectors));
   expect_table_has_each_value(kLineVectors, lines);
 }
