@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A FIFO of many places (docs/explanation/fabric/memories.md, "Memories"): a memory with one read and one write
+// A FIFO of many places (docs/explanation/fabric.md, "Memories"): a memory with one read and one write
 // port, read ahead into two output registers, past which a beat goes while they have room. To both sides it is
 // a link: pushed in t, poppable from t + 1; freed in t, refillable from t + 1. PLACES counts all beats that it
 // holds, in the memory and in the registers.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A link (docs/explanation/fabric/index.md): a valid/ready channel with registered hand-over. A beat that is
+// A link (docs/explanation/fabric.md): a valid/ready channel with registered hand-over. A beat that is
 // pushed in clock t can be popped from t + 1; a place that is freed in t can be refilled from t + 1;
 // one push and one pop a clock. Flip-flops, so for few places; fifo.sv is for many.
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The valid bits of a pipeline that holds still as a whole while its last stage cannot leave
-// (docs/explanation/fabric/index.md, docs/reference/texture/hardware.md "Stages"). STAGES counts the registers:
+// (docs/explanation/fabric.md, docs/reference/texture/hardware.md "Stages"). STAGES counts the registers:
 // a unit with a latency of n cycles has n - 1, since the link behind it is the last one. The data registers are
 // the unit's; they move with `move`.
 module pipe #(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A memory with one read and one write port (docs/explanation/fabric/memories.md, "Memories"): the word of an
+// A memory with one read and one write port (docs/explanation/fabric.md, "Memories"): the word of an
 // address of clock t is on the output register in t + 1 and stays there until the next read. What is written in
 // the clock of a read is read as it was before.
 module sram_1r1w #(

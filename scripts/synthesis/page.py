@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""docs/measurements/cost.md, which says what cost.json does."""
+"""docs/measurements/cost.md, made from cost.json."""
 import textwrap
 
 from .flows import NOT_MAPPED, NOT_RUN
 
 # Settings of configurations that a preset builds, as they stand there. Their rows are there.
 PRESETS = {"deburr": [], "paper": ["axes=two", "footprint=half", "log2=mitchell", "count=floor"]}
+
+# Cells of the units: in cost.json only.
+CELLS = ("link", "pipe", "rom", "sram_1r1w")
 
 
 def number(value, digits=0):
@@ -27,7 +30,7 @@ def shown(unit):
 
 def units_of_presets(cost):
     names = {one["name"] for one in cost["configurations"] if one["settings"] in PRESETS.values()}
-    return [unit for unit in cost["units"] if names.intersection(unit["configurations"])]
+    return [unit for unit in cost["units"] if names.intersection(unit["configurations"]) and unit["unit"] not in CELLS]
 
 
 def gates(units):
@@ -58,9 +61,9 @@ def fpga(units):
 
 def paragraphs(cost):
     tools, yard, units = cost["tools"], cost["yardstick"], units_of_presets(cost)
-    yield ("Made by `scripts/synthesise`; do not edit. What the units of `hdl/` cost, mapped by yosys to three "
-           "technologies. Rows are those of the presets `paper` and `deburr`; those of all configurations that are compared "
-           "with the model (`tb/hdl/configurations.txt`) are in `docs/measurements/cost.json`.")
+    yield ("Made by `scripts/synthesise`; do not edit. This page shows the cost of the units of `hdl/`, mapped by yosys to "
+           "three technologies, for the presets `paper` and `deburr`. `docs/measurements/cost.json` has all configurations "
+           "of `tb/hdl/configurations.txt`, and the cells of which units are made.")
     yield "[How to read it](#how-to-read-it), [standard cells](#standard-cells), [FPGAs](#fpgas)."
     yield "## How to read it"
     yield (f"{cost['date']}, yosys {tools['yosys']}, berkeley-abc {tools['abc']}, qflow-tech-osu018 {tools['osu018']}. "
@@ -68,25 +71,25 @@ def paragraphs(cost):
     yield [
         "**osu018**: standard cells of 180 nm, typical corner, 1.8 V, 25 degrees (`abc -liberty`, `stime`, without "
         f"wires). A gate is a NAND2X1, {number(cost['gate']['area'])} of the library's units of area. *ns* is the longest "
-        "path through logic, from a register or an input to a register or an output. Clock-to-output, setup and the "
-        "access of a memory are not in it. *Ends in* is the register or port at the end of that path.",
-        f"**ratio**: ns by those of a {yard['what']} that is mapped in the same way, {number(yard['ns'], 2)} ns (osu018). "
-        "It says more of another process than ns do.",
-        "**xc7** (`synth_xilinx`): look-up tables of six inputs, flip-flops, DSP48E1, block RAMs of 36 kbit. **ECP5** "
-        "(`synth_ecp5 -abc9 -nowidelut`): look-up tables of four inputs, flip-flops, MULT18X18D, block RAMs of 18 kbit. "
-        "Small memories are look-up tables. There are no ns of an FPGA: yosys has none that hold.",
-        "**Memories** (`sram_1r1w`, `fifo`, `rom`) are not mapped to flip-flops. For osu018 they are left out of gates "
-        "and flip-flops, and *memory* is their bits, with those of FIFOs that the hardware builds of flip-flops. The "
-        "tags, the queue of lines and the descriptors are flip-flops.",
-        f"**{NOT_MAPPED}**: yosys and abc did not end in {number(cost['seconds'])} s of processor time. There is no guess."
+        "path through logic, from a register or an input to a register or an output, without clock-to-output, setup and "
+        "memory access. *Ends in* is the register or port at the end of that path.",
+        f"**ratio**: ns divided by those of a {yard['what']} mapped in the same way, {number(yard['ns'], 2)} ns (osu018). "
+        "For another process the ratio says more than the ns.",
+        "**xc7** (`synth_xilinx`): LUTs of six inputs, flip-flops, DSP48E1, block RAMs of 36 kbit. **ECP5** "
+        "(`synth_ecp5 -abc9 -nowidelut`): LUTs of four inputs, flip-flops, MULT18X18D, block RAMs of 18 kbit. Small "
+        "memories are LUTs. No FPGA timing is given: yosys does not report reliable delays.",
+        "**Memories** (`sram_1r1w`, `fifo`, `rom`) are not mapped to flip-flops. For osu018 the column *memory* has their "
+        "bits, including FIFOs that the hardware builds of flip-flops; gates and flip-flops exclude them. The tags, the "
+        "queue of lines and the descriptors are flip-flops.",
+        f"**{NOT_MAPPED}**: yosys and abc did not finish in {number(cost['seconds'])} s of processor time."
         + (f" **{NOT_RUN}**: `scripts/synthesise` maps it." if any(
             unit[technology] == NOT_RUN for unit in units for technology in ("osu018", "xc7", "ecp5")) else ""),
-        "**`address_unit`, `texture_cache`** are the sum of their units and links: no path goes through a link, so their "
-        "ns are those of the longest part. A few gates between the parts are not in it.",
+        "**`address_unit`, `texture_cache`** are the sum of their units and links, without a few gates between them. Paths "
+        "end at links, so their ns are those of the longest part.",
     ]
-    yield ("A row is a module with a clock and the parameters on which it depends, as some configuration builds it. "
-           "Modules without one are in the unit that has them. `in_data` stands where other settings make a token wider.")
-    yield "Not covered: units that are not in `hdl/`, the memory port, wires, clock trees, energy."
+    yield ("A row is a clocked module with the parameters on which it depends. Unclocked modules count in the unit that "
+           "contains them. `in_data` is listed if other settings make a token wider.")
+    yield "Not covered: units outside `hdl/`, the memory port, wires, clock trees, energy."
     yield "## Standard cells"
     yield "Technology: osu018, 180 nm."
     yield table(["unit", "parameters", "gates", "flip-flops", "memory, bits", "ns (osu018)", "ratio", "ends in"],

@@ -4,7 +4,7 @@
 //
 //   fabric_bench                               wall time, Mcycle/s
 //   fabric_bench --cycles <mode> <n>           n cycles of one mode and nothing else, for counting
-//       instructions with callgrind (docs/explanation/fabric/index.md); modes: plain fast slow
+//       instructions with callgrind (docs/explanation/fabric.md); modes: plain fast slow
 //       shuffled
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Faults by name (`--fault NAME`), looked up in one place for every engine and every composition of
-// engines; docs/reference/injected_faults.md says what must catch each.
+// engines; docs/reference/tests.md says what must catch each.
 #pragma once
 
 #include <cstdint>

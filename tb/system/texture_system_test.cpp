@@ -278,7 +278,7 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
   EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be checked as it comes, not kept";
 }
 
-// ---- what the cache saves, against an independent simulation (docs/reference/texture/choices.md)
+// ---- what the cache saves, against an independent simulation
 
 struct Traffic {
   const char* source;

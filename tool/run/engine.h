@@ -105,7 +105,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.choice("line_trace", p.line_trace, tb::traces::kTraceChoiceNames,
            "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Plants a fault that the checks must catch (docs/reference/injected_faults.md).");
+         "Plants a fault that the checks must catch (docs/reference/tests.md).");
   v.boolean("reference", p.reference,
             "Compare the picture with the scene's supersampled reference.");
   v.boolean("images", p.images, "Leave pictures, and show them in the report.");

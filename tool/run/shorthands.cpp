@@ -27,7 +27,7 @@ std::vector<Shorthand> common_shorthands() {
       {"--truth", "run.reference", "Compare with the scene's supersampled reference"},
       {"--no-images", "run.images", "Leave no pictures", "", "false"},
       {"--fault", "run.fault",
-       "Plant a fault that the checks must catch (docs/reference/injected_faults.md)"}};
+       "Plant a fault that the checks must catch (docs/reference/tests.md)"}};
 }
 
 }  // namespace

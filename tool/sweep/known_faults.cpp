@@ -43,8 +43,8 @@ void KnownFaults::require(const std::string& engine, const std::string& fault) {
                   [&](const std::string& name) { return is_named(name, fault); }))
     return;
   throw spec::ConfigError(fmt::format(
-      "run.fault: no run of '{}' has a fault '{}'{} (docs/reference/injected_faults.md lists them)",
-      engine, fault, tb::did_you_mean(tb::near_matches(fault, known))));
+      "run.fault: no run of '{}' has a fault '{}'{} (docs/reference/tests.md lists them)", engine,
+      fault, tb::did_you_mean(tb::near_matches(fault, known))));
 }
 
 }  // namespace deburr::tool

@@ -167,7 +167,7 @@ TEST_P(TextureFlickerOnPhotographs, OnRollIsThatOfTheEllipse) {
     EXPECT_LE(roll[kEightCeil].mean, 2.5);
     EXPECT_LE(biased[kFourAny].mean, 2.5);
   } else {
-    // The picture's own, as docs/reference/texture/choices.md says.
+    // The picture's own (docs/reference/texture/index.md, "Choosing rules").
     EXPECT_GT(roll[kEllipseCeil].mean, 2.5);
   }
 }

@@ -69,7 +69,7 @@ def read_png(path):
 
 
 def flicker(pictures, references, drawn=None):
-    """(mean, worst, the worst pair's second frame), as docs/reference/texture/choices.md says."""
+    """(mean, worst, the worst pair's second frame), as docs/reference/run.md defines flicker."""
     squares = []
     for i in range(1, len(pictures)):
         total = count = 0

@@ -84,8 +84,8 @@ TEST(TextureTables, AreWhatTheirFormulasGive) {
   EXPECT_EQ(first_wrong(spec::texture::kSrgbToLinear, srgb_entry), -1);
 }
 
-// How far each choice of cosine and sine is from the angle and the length that it stands for: the
-// table of docs/reference/texture/choices.md.
+// How far each choice of cosine and sine is from the angle and the length that it stands for
+// (docs/reference/texture/formats.md, "Axes").
 TEST(TextureTables, AxesAreWithinTheirErrors) {
   for (std::size_t i = 0; i < spec::texture::kAxes.size(); ++i) {
     const spec::texture::Axis& axis = spec::texture::kAxes[i];
