@@ -199,9 +199,8 @@ constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
 
 bool is_reference(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
 
-// Of the reference there is nothing to say.
 std::string cell(const ComparisonRow& row, const Column& column) {
-  return is_reference(row) ? "-" : fmt::format("{:.{}f}", row.*column.value, column.digits);
+  return fmt::format("{:.{}f}", row.*column.value, column.digits);
 }
 
 // The best cell of a column.
@@ -261,11 +260,12 @@ std::vector<ComparisonRow> compare_methods(const std::string& scene) {
 std::string comparison_section(const std::string& name, std::span<const ComparisonRow> rows) {
   std::string text = fmt::format("### {}\n\n|", name), line = "|";
   for (const Column& column : kColumns) text += fmt::format(" | {}", column.title);
-  text += fmt::format(" | blended pixels | cycles, M = {} | bytes a pixel | memory, bits |\n",
+  text += fmt::format(" | blended pixels | cycles, M = {} | bytes per pixel | memory, bits |\n",
                       tb::GeometricSetup().memory.latency);
   for (std::size_t i = 0; i < std::size(kColumns) + 5; ++i) line += "---|";
   text += line + "\n";
   for (const ComparisonRow& row : rows) {
+    if (is_reference(row)) continue;
     text += "| " + row.method;
     for (const Column& column : kColumns) {
       const std::string value = cell(row, column);

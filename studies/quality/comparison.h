@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole project on the same scenes: every method's quality against supersampling, and what the
-// hardware model of it costs. The table of docs/measurements/comparison.md and the picture of the
-// README.
+// hardware model of it costs: tables and picture of docs/measurements/comparison.md.
 #pragma once
 
 #include <cstdint>

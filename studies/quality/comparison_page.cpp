@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Keeps the generated part of docs/measurements/comparison.md and the README's picture current.
+// Keeps the generated part of docs/measurements/comparison.md and its picture current.
 //   comparison_page write PAGE           replaces the part between the two marker lines
 //   comparison_page check PAGE [SCENE]   exit code 1 when that part, or of it the section of one
 //                                        scene, is not what would be written
@@ -56,30 +56,28 @@ std::string edges_by_scene(std::span<const std::vector<deburr::studies::Comparis
   }
   text += "\n" + line + "\n";
   for (std::size_t i = 0; i < scenes[0].size(); ++i) {
+    if (!std::isfinite(scenes[0][i].edges)) continue;  // the reference itself
     text += "| " + scenes[0][i].method;
     for (const std::vector<deburr::studies::ComparisonRow>& rows : scenes) {
       double best = 0;
       for (const deburr::studies::ComparisonRow& row : rows)
         if (std::isfinite(row.edges)) best = std::max(best, row.edges);
       const std::string value = fmt::format("{:.2f}", rows[i].edges);
-      if (!std::isfinite(rows[i].edges))
-        text += " | -";
-      else
-        text += value == fmt::format("{:.2f}", best) ? " | **" + value + "**" : " | " + value;
+      text += value == fmt::format("{:.2f}", best) ? " | **" + value + "**" : " | " + value;
     }
     text += " |\n";
   }
   return text + "\n";
 }
 
-// The mean of all scenes, and in full the simplest one and the one that takes most cycles.
+// The mean of all scenes, and in full the one that takes most cycles.
 std::string generated() {
   std::vector<std::vector<deburr::studies::ComparisonRow>> scenes;
   std::string sections;
   for (const std::string_view scene : deburr::studies::comparison_scenes()) {
     std::cerr << scene << "\n";
     scenes.push_back(deburr::studies::compare_methods(std::string(scene)));
-    if (scene == "cube" || scene == "object")
+    if (scene == "object")
       sections += deburr::studies::comparison_section(std::string(scene), scenes.back());
   }
   return fmt::format(

@@ -69,7 +69,7 @@ struct ConformanceRow {
 
 // Every footprint rule with every logarithm rule, 20 rows; a few seconds.
 std::vector<ConformanceRow> conformance_table();
-// The table in Markdown.
+// In Markdown, of the paper's footprint and the exact one: the others get the same verdicts.
 std::string conformance_markdown(const std::vector<ConformanceRow>& rows);
 
 }  // namespace deburr::tb::texture

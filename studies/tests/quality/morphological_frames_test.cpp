@@ -2,7 +2,7 @@
 // Does deburr come nearer to supersampled reference than every other preset and than no filter, on
 // edges and on silhouettes, on every frame? On frames and meshes that others made (DEBURR_DATA, or
 // data beside the repository) and on the scenes that every clone has. Where it does not, is that
-// said (docs/measurements/morphological_quality.md, "Learned weights")?
+// said (docs/measurements/morphological_quality.md, "Frames with a reference")?
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

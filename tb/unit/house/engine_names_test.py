@@ -48,8 +48,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "Python has its equations in real numbers, and tests call its functions of the module": [
             "python/bindings/ideal_python.cpp"],
-        "tables of pages are measured, its own among them": [
-            "scripts/reports/guides.py", "scripts/reports/results.py"],
+        "tables of pages are measured, its own among them": ["scripts/reports/results.py"],
         "an example of files, in what a script says of itself": ["scripts/mutate"],
     },
     "morphological": {

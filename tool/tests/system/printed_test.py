@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What the tutorial and how-tos print below a command of theirs is what the command prints today. A line that ends with
+"""What README, tutorial and how-tos print below a command of theirs is what the command prints today. A line that ends with
 ... may go on, a line of ... alone stands for others. Sweeps run where the page prints their file.
 
 usage: printed_test.py DEBURR ROOT [unittest options]"""
@@ -18,7 +18,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scripts"))
 from reports.sources import write_png  # noqa: E402
 
-PAGES = {"tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2, "howto/explore_a_design": 3}
+PAGES = {"../README": 1, "tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2,
+         "howto/explore_a_design": 3}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 FILE = re.compile(r"`(\w+\.(?:yaml|obj))`")
 
