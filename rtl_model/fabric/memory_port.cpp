@@ -20,7 +20,7 @@ MemoryShape buffer_shape(const MemoryPortParameters& p) {
           .word_bits = bits,
           .kind = MemoryBase::kind_for(words * bits),
           .latency = 1,
-          .content = "lines that have come from memory, with their status"};
+          .content = "lines returned by memory, with status"};
 }
 
 std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters& p) {
@@ -79,7 +79,8 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
       response_buffer("response_buffer", buffer_shape(parameters)),
       gather_buffer(make_gather_buffer(parameters)),
       parameters_(parameters),
-      stalled_outstanding_(declare_stall("outstanding", "the limit of transactions is reached")),
+      stalled_outstanding_(
+          declare_stall("outstanding", "the limit of transactions in flight is reached")),
       stalled_channel_(
           declare_stall("request_channel", "the target has not yet accepted the last request")),
       stalled_memory_(declare_stall("memory", "waits for responses, has nothing else to do")) {

@@ -40,8 +40,8 @@ class FrameSequencer final : public Unit {
   bool idle() const { return state_ == Phase::kIdle; }
 
   Counter frame_cycles{"frame_cycles", "clk", "cycles of the last frame"};
-  Counter edge_cycles{"edge_cycles", "clk", "of these until every edge was drawn"};
-  Counter resolve_cycles{"resolve_cycles", "clk", "of these the rest"};
+  Counter edge_cycles{"edge_cycles", "clk", "of these, cycles until all edges are drawn"};
+  Counter resolve_cycles{"resolve_cycles", "clk", "of these, the remaining cycles"};
 
   static Datasheet datasheet();
 

@@ -45,7 +45,7 @@ MemoryShape bank_shape(const spec::texture::Parameters& p) {
           .banks = banks,
           .span = banks,
           .separate_banks = true,
-          .content = "lines, a word of each in every bank"};
+          .content = "cache lines, spread over all banks"};
 }
 
 }  // namespace

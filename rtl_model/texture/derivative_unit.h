@@ -33,8 +33,7 @@ class DerivativeUnit final : public Unit {
 
   Counter quads{"quads", "quads", "quads taken"};
   Counter fragments{"fragments", "fragments", "covered fragments taken"};
-  Counter clamped{"clamped", "fragments",
-                  "covered fragments whose coordinates were clamped before"};
+  Counter clamped{"clamped", "fragments", "covered fragments whose coordinates had been clamped"};
   Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
   Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
 

@@ -48,7 +48,7 @@ class FillBuffer {
                        .kind = MemoryBase::kind_for(std::uint64_t{entries} * line_bytes * 8),
                        .latency = 1,
                        .mask_bits = line_bytes > kLineBytes ? kLineBytes * 8 : 0,
-                       .content = "lines on their way from memory"}),
+                       .content = "lines in flight from memory"}),
         bytes_(std::size_t{entries} * line_bytes + kPadding),
         bits_((std::string(name) + "_arrived").c_str(),
               {.words = entries,
@@ -56,7 +56,7 @@ class FillBuffer {
                .kind = MemoryKind::kFlops,
                .write_ports = 2,
                .latency = 0,
-               .content = "lines on their way: has it come?"}),
+               .content = "arrived bits of lines in flight"}),
         arrived_(entries, kNever) {}
 
   Reader reader() { return Reader(*this); }

@@ -21,14 +21,14 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
                        .read_ports = 1,
                        .write_ports = 4,
                        .latency = 0,
-                       .content = "lines that wait to be sent"}),
+                       .content = "lines waiting to be requested"}),
       failed_("failed", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
                          .word_bits = 1,
                          .kind = MemoryKind::kFlops,
                          .latency = 0,
-                         .content = "lines on their way: had a beat an error?"}),
+                         .content = "error bits of lines in flight"}),
       fill_buffer_full_(
-          declare_stall("fill_buffer_full", "every entry of the fill buffer is held")),
+          declare_stall("fill_buffer_full", "all entries of the fill buffer are in use")),
       wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {
   for (int i = 0; i < 4; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
 }

@@ -40,7 +40,7 @@ class MissQueue final : public Unit {
   Counter line_fills{"line_fills", "lines", "cache lines requested from memory"};
   Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
   Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
-  Counter max_waiting{"max_waiting", "lines", "largest number of lines waiting to be sent"};
+  Counter max_waiting{"max_waiting", "lines", "largest number of lines waiting to be requested"};
 
   static Datasheet datasheet();
 

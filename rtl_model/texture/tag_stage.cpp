@@ -15,7 +15,7 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       fill_number_(tags_.slots()),
       miss_queue_full_(declare_stall("miss_queue_full", "a line is missing and cannot be queued")),
-      fifo_full_(declare_stall("fifo_full", "the latency FIFO takes nothing")) {}
+      fifo_full_(declare_stall("fifo_full", "the latency FIFO is full")) {}
 
 Activity TagStage::tick(Cycle cycle) {
   used_ += line_used_in.read(cycle) ? 1 : 0;

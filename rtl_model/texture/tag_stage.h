@@ -44,9 +44,9 @@ class TagStage final : public Unit, public Lookups {
   // lookups = hits + merged + misses
   Counter requests{"requests", "requests", "bilinear requests looked up"};
   Counter hits{"hits", "lines", "lookups of a line that is in the data banks"};
-  Counter merged{"merged", "lines", "lookups of a line whose fill is under way"};
-  Counter misses{"misses", "lines", "lookups that ordered a fill"};
-  Counter evictions{"evictions", "lines", "valid lines that were replaced"};
+  Counter merged{"merged", "lines", "lookups of a line whose fill is in flight"};
+  Counter misses{"misses", "lines", "lookups that requested a fill"};
+  Counter evictions{"evictions", "lines", "valid lines replaced"};
 
   static Datasheet datasheet();
 

@@ -34,7 +34,7 @@ TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
                      .latency = 1,
                      // A request sees its sets as the one before it leaves them.
                      .read_during_write = ReadDuringWrite::kNewWord,
-                     .content = "tags, and the order in which the ways of a set were used"}),
+                     .content = "tags, and the order of use of the ways of a set"}),
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
       turned_(tags_.size()),
       age_(tags_.size()) {

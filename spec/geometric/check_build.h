@@ -14,30 +14,30 @@ namespace deburr::spec::geometric {
 
 inline constexpr std::array<BuildRule<Parameters>, 7> kBuildRules = {{
     {{"reciprocal_table", "pipelined"},
-     "must be 0 with pipelined dividers, which take a line every clock: a table has no effect",
+     "must be 0 with pipelined dividers: they accept a line in every cycle, so a table has no "
+     "effect",
      [](const Parameters& p) { return !p.pipelined || p.reciprocal_table == 0; },
      [](const Parameters&) -> std::string { return "use 0, or pipelined = false"; }},
     {{"face_limit"},
-     "must be a multiple of 512, since a line of memory fills as many facing bits at once",
+     "must be a multiple of 512, the facing bits in a line of memory",
      [](const Parameters& p) { return p.face_limit % kFacesInLine == 0; }},
     {{"fills"},
-     "must be at least 8 lines, as many as a group of pixels may order; 0 sizes it from the "
-     "latency "
-     "of memory",
+     "must be at least 8 lines, which one group of pixels may request; 0: derived from the memory "
+     "latency",
      [](const Parameters& p) { return p.fills == 0 || p.fills >= kMinFills; }},
     {{"fills", "memory.outstanding"},
-     "must be at most memory.outstanding, so that every line on its way has a transaction",
+     "must be at most memory.outstanding, since every line in flight needs a transaction",
      [](const Parameters& p) { return p.fills <= p.memory_outstanding; },
      [](const Parameters&) -> std::string { return "raise that, or lower fills"; }},
     {{"resolve_lines"},
-     "must be at least 16 lines, a half for colours and a half for weights, of which FIFOs between "
-     "are a quarter; 0 sizes it from the latency of memory",
+     "must be at least 16 lines: half for colours and half for weights, and the FIFOs between have "
+     "a quarter; 0: derived from the memory latency",
      [](const Parameters& p) {
        return p.resolve_lines == 0 || p.resolve_lines >= kMinResolveLines;
      }},
     {{"copy_lines"},
-     "must be at least 2 lines, one read while one is written; 0 sizes it from the latency of "
-     "memory",
+     "must be at least 2 lines, since one is read while one is written; 0: derived from the memory "
+     "latency",
      [](const Parameters& p) { return p.copy_lines == 0 || p.copy_lines >= kMinCopyLines; }},
     {{"coarse_lines", "depth_test"},
      "must be none with depth_test = off, which reads no depth",

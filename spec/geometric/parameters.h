@@ -142,88 +142,88 @@ struct Parameters : Configuration, Build {};
 
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
-  v.choice("preset", p.preset, kPresetNames,
-           "Named set of what follows; parameters given beside it override it.");
+  v.choice(
+      "preset", p.preset, kPresetNames,
+      "Named configuration: sets the parameters below. A parameter that is given overrides it.");
   v.choice("select", p.select, kSelectNames,
-           "Which edges are drawn: all of them; boundaries, silhouettes and creases; or boundaries "
-           "and creases alone, from wherever the mesh is seen.");
+           "Drawn edges: all; boundaries, silhouettes and creases; or boundaries and creases only, "
+           "independent of the view (mesh).");
   v.choice("crease", p.crease, kCreaseNames,
-           "What a crease is: nothing, an angle (eq 4 of paper 002), or what changes the shading.");
+           "Creases: none, by angle (eq 4 of paper 002), or by a change of shading.");
   v.choice("cull", p.cull, kCullNames,
-           "What becomes of edges between two faces turned away: treated as those of faces turned "
-           "to the eye, or dropped.");
+           "Edges between two back faces: handled as between front faces, or dropped.");
   v.choice("coverage", p.coverage, kCoverageNames,
-           "What a line gives a pixel: its distance along the column, or the area that it cuts "
-           "off, of the column's second pixel too.");
+           "Coverage of a pixel by a line: the distance along the column, or the area cut off, "
+           "including the second pixel of the column.");
   v.choice("depth_test", p.depth_test, kDepthTestNames,
-           "What a line must not lie behind: nothing, its pixel, or the farther of its pixel and "
-           "the neighbour.");
+           "Depth test of a line: off, against its own pixel, or against the farther of its pixel "
+           "and the neighbour.");
   v.integer("depth_bias", p.depth_bias, 1, 24, "bit",
-            "A line may lie behind by 2^-n of the depth that it is compared with.");
+            "Tolerance of the depth test: a line passes if it is farther by at most 2^-n of the "
+            "compared depth.");
   v.integer("crease_depth", p.crease_depth, 0, 24, "bit",
-            "What is compared may lie behind a crease by 2^-n of the crease's depth; 0: by any "
-            "depth.");
+            "Tolerance for creases: the compared depth may be farther than the crease by 2^-n of "
+            "the crease's depth; 0: no limit.");
   v.choice("combine", p.combine, kCombineNames,
-           "Weights of several lines: the largest of each direction, the last one alone, or the "
-           "smallest of a direction whose neighbour is farther and else the largest.");
+           "Weights where lines overlap: the largest per direction, the last one only, or the "
+           "smallest in a direction whose neighbour is farther and otherwise the largest.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light instead of sRGB codes.");
-  v.boolean("mark", p.mark,
-            "Clear the low bit of alpha where a pixel was blended, for the engine that follows.");
+  v.boolean("mark", p.mark, "Clear bit 0 of alpha of blended pixels, for the engine that follows.");
 }
 
 template <class Visitor>
 void describe(Build& p, Visitor& v) {
   v.choice("layout", p.layout, kLayoutNames,
-           "Order of pixels in colour and depth buffer: rows, or 8 x 8 tiles.");
+           "Pixel order of the colour and depth buffers: rows, or 8 x 8 tiles.");
   v.boolean("frame_copy", p.frame_copy,
             "Copy the whole frame first and blend from the copy, as the original method does.");
   v.integer("line_pixels", p.line_pixels, 64, kMaxFrameSize, "pixel",
-            "Widest frame that the rows of originals hold.");
+            "Maximum frame width of the row buffers of original pixels.");
   v.integer("touched_words", p.touched_words, 16, 65536, "word",
-            "Touched bits of 128 blocks each; a frame needs a word for every 512 x 4 pixels.");
+            "Words of 128 touched bits, one bit per block; a frame needs a word for every 512 x 4 "
+            "pixels.");
   v.integer("face_limit", p.face_limit, 8192, static_cast<std::int32_t>(kMaxFaces), "face",
-            "Facing bits on the chip; a mesh with more faces is rejected.");
-  v.choice("edge_lanes", p.edge_lanes, kLanesNames, "Edges classified a clock.");
+            "On-chip facing bits; a mesh with more faces is rejected.");
+  v.choice("edge_lanes", p.edge_lanes, kLanesNames, "Edges classified per cycle.");
   v.integer("edge_lines", p.edge_lines, 4, 256, "line",
-            "Lines of the edge table read ahead, four edges each; ten with records = split.");
+            "Prefetched lines of the edge table, four edges each; ten with records = split.");
   v.choice("vertex_lines", p.vertex_lines, kCacheLinesNames,
            "Lines of the vertex cache, four vertices each.");
   v.integer("dividers", p.dividers, 1, 8, "unit", "Dividers of the line setup.");
   v.boolean("pipelined", p.pipelined,
-            "A divider takes a line every clock instead of every thirteenth.");
+            "A divider accepts a line in every cycle instead of every thirteenth.");
   v.integer("reciprocal_table", p.reciprocal_table, 0, kMaxReciprocalBits, "bit",
-            "Lines shorter than 2^n / 256 pixels take their reciprocal from a table; 0: none. For "
-            "dividers that are not pipelined.");
+            "Lines shorter than 2^n / 256 pixels get their reciprocal from a table; 0: no table. "
+            "For dividers without pipelining.");
   v.integer("line_fifo", p.line_fifo, 2, 256, "line", "Lines waiting for the walkers.");
-  v.choice("walkers", p.walkers, kLanesNames, "Pixels of a line walked a clock.");
+  v.choice("walkers", p.walkers, kLanesNames, "Pixels of a line walked per cycle.");
   v.choice("depth_lines", p.depth_lines, kCacheLinesNames,
            "Lines of the depth cache, sixteen pixels each.");
   v.choice("weight_blocks", p.weight_blocks, kCacheLinesNames,
-           "Blocks of 4 x 4 pixels whose weights are on the chip.");
-  v.integer(
-      "fills", p.fills, 0, kMaxFills, "line",
-      "Lines on their way into each cache, of vertices, depth and weights, and of pairs and "
-      "coarse depth where these are built; 8 or more; 0 sizes it from the latency of memory.");
+           "Blocks of the weight cache, 4 x 4 pixels each.");
+  v.integer("fills", p.fills, 0, kMaxFills, "line",
+            "Fills in flight of each cache (vertices, depth, weights, and pairs and coarse depth "
+            "if built), at least 8; 0: derived from the memory latency.");
   v.integer("latency_fifo", p.latency_fifo, 4, 1024, "token",
-            "Look-ups that wait for their lines, for each cache that `fills` names.");
-  v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended a clock.");
+            "Lookups that wait for their lines, for each cache of `fills`.");
+  v.choice("resolve_lanes", p.resolve_lanes, kLanesNames, "Pixels blended per cycle.");
   v.integer("resolve_lines", p.resolve_lines, 0, kMaxResolveLines, "line",
-            "Lines of colours and weights on their way to the resolve, 16 or more; 0 sizes it from "
-            "the latency of memory.");
+            "Lines of colours and weights in flight to the resolve, at least 16; 0: derived from "
+            "the memory latency.");
   v.integer("copy_lines", p.copy_lines, 0, kMaxCopyLines, "line",
-            "Lines between read and write while the frame is copied, 2 or more; 0 sizes it from "
-            "the latency of memory.");
-  v.choice(
-      "records", p.records, kRecordsNames,
-      "Edge table: vertices and faces of an edge in one record, or in two arrays, of which the "
-      "vertices are read for kept edges alone.");
+            "Lines between read and write of the frame copy, at least 2; 0: derived from the "
+            "memory latency.");
+  v.choice("records", p.records, kRecordsNames,
+           "Edge table: vertices and faces of an edge in one record, or in two arrays, so that "
+           "vertices are only read for kept edges.");
   v.integer("colour_lines", p.colour_lines, 0, kMaxColourLines, "line",
-            "Lines of colours that the resolve keeps and need not read again; 0: none.");
+            "Colour lines that the resolve keeps and does not read again; 0: none.");
   v.integer("write_buffer", p.write_buffer, 0, kMaxWriteBuffer, "block",
-            "Replaced blocks of weights that stay on the chip before they are written; 0: none.");
+            "Write buffer: evicted blocks of weights that stay on the chip before they are "
+            "written; 0: none.");
   v.choice("coarse_lines", p.coarse_lines, kCoarseLinesNames,
-           "Lines of coarse depth on the chip, 32 tiles of 8 x 8 pixels each, which drop hidden "
-           "candidates before they read depth.");
+           "On-chip lines of coarse depth, 32 tiles of 8 x 8 pixels each; they drop hidden "
+           "candidates before depth is read.");
   v.integer("memory.outstanding", p.memory_outstanding, kMinFills, 1024, "transaction",
             "Transactions in flight.");
 }

@@ -77,22 +77,24 @@ namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "frames may start", {}, 1};
+inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "enables the start of frames",
+                               {},       1};
 inline constexpr Field kClearCounters{"clear_counters", 1, 1, Access::kCommand,
                                       "sets every counter to 0"};
 inline constexpr Field kStart{"start", 2, 2, Access::kCommand, "starts a frame; when idle only"};
 inline constexpr std::array kFields = {kEnable, kClearCounters, kStart};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame under way", {}, 1};
-inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame in progress", {}, 1};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear,
+                                  "a frame has been completed"};
 inline constexpr Field kRejected{"refused", 2, 2, Access::kWriteOneToClear,
                                  "a start was rejected, see REJECTION"};
 inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
-                                    "memory answered with an error"};
+                                    "a memory response had an error"};
 inline constexpr Field kWrittenWhileBusy{
     "written_while_busy", 4, 4, Access::kWriteOneToClear,
-    "a register was written while a frame was under way; the write is ignored"};
+    "a register was written while a frame was in progress; the write is ignored"};
 inline constexpr Field kInvalidEdge{"invalid_edge", 5, 5, Access::kWriteOneToClear,
                                     "an edge has an index out of range"};
 inline constexpr std::array kFields = {kIdle,        kFrameDone,        kRejected,
@@ -149,10 +151,10 @@ inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
 inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
-    {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
-    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kControl, "CONTROL", "Enable bit and commands.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State and events.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
-    {reg::kConfiguration, "CONFIG", "The rules of the frame, and where it lies.",
+    {reg::kConfiguration, "CONFIG", "Configuration of the frame, and its memory layout.",
      reg::configuration::kFields},
     {reg::kEdgeCount, "EDGE_COUNT", "Records of the edge table, 0..2^24.", kNumber},
     {reg::kVertexCount, "VERTEX_COUNT", "Vertices, 0..2^24.", kNumber},
@@ -161,44 +163,44 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kVertexBase, "VERTEX_BASE", "Byte address of the vertices.", reg::line_base::kFields},
     {reg::kFaceBase, "FACE_BASE", "Byte address of the facing bits.", reg::line_base::kFields},
     {reg::kDepthBase, "DEPTH_BASE", "Byte address of the depth buffer.", reg::line_base::kFields},
-    {reg::kColourBase, "COLOUR_BASE", "Byte address of the frame, which is blended in place.",
+    {reg::kColourBase, "COLOUR_BASE", "Byte address of the frame, blended in place.",
      reg::line_base::kFields},
     {reg::kWeightBase, "WEIGHT_BASE",
-     "Byte address of room for the weights, 64 bytes a block of 4 x 4 pixels.",
+     "Byte address of the weight buffer, 64 bytes per block of 4 x 4 pixels.",
      reg::line_base::kFields},
-    {reg::kCopyBase, "COPY_BASE", "Byte address of room for a copy of the frame (frame_copy).",
-     reg::line_base::kFields},
+    {reg::kCopyBase, "COPY_BASE",
+     "Byte address of the buffer for a copy of the frame (frame_copy).", reg::line_base::kFields},
     {reg::kRejection, "REJECTION",
-     "Why the last start was rejected: the first reason that holds; 0 if it was accepted.",
+     "Reason of the last rejected start: the first that applies; 0: accepted.",
      reg::rejection::kFields},
     {reg::kEdges, "EDGES", "Edges read.", kCounter},
-    {reg::kBoundaryEdges, "BOUNDARY_EDGES", "Edges of a single face.", kCounter},
+    {reg::kBoundaryEdges, "BOUNDARY_EDGES", "Boundary edges: edges of a single face.", kCounter},
     {reg::kSilhouetteEdges, "SILHOUETTE_EDGES",
-     "Edges between a face turned to the eye and one turned away.", kCounter},
-    {reg::kBackEdges, "BACK_EDGES", "Edges of two faces turned away, which cull drops.", kCounter},
+     "Silhouette edges: between a front face and a back face.", kCounter},
+    {reg::kBackEdges, "BACK_EDGES", "Edges of two back faces, dropped by cull.", kCounter},
     {reg::kCreaseEdges, "CREASE_EDGES",
-     "Creases between two faces turned to the eye, or not culled.", kCounter},
+     "Creases between two front faces, or back faces that are not culled.", kCounter},
     {reg::kFlatEdges, "FLAT_EDGES",
-     "Edges between two faces turned to the eye, or not culled, that are no crease.", kCounter},
+     "Flat edges between two front faces, or back faces that are not culled: not creases.",
+     kCounter},
     {reg::kInvalidEdges, "INVALID_EDGES", "Edges with an index out of range.", kCounter},
     {reg::kKeptEdges, "KEPT_EDGES", "Edges whose vertices were fetched.", kCounter},
     {reg::kOutsideEdges, "OUTSIDE_EDGES", "Kept edges with a vertex that is not usable.", kCounter},
-    {reg::kDegenerateEdges, "DEGENERATE_EDGES", "Kept edges with both ends in one place.",
-     kCounter},
-    {reg::kEmptyEdges, "EMPTY_EDGES", "Kept edges without a column of the frame.", kCounter},
+    {reg::kDegenerateEdges, "DEGENERATE_EDGES", "Kept edges whose two ends coincide.", kCounter},
+    {reg::kEmptyEdges, "EMPTY_EDGES", "Kept edges that cover no column of the frame.", kCounter},
     {reg::kLines, "LINES", "Lines set up and walked.", kCounter},
     {reg::kColumns, "COLUMNS", "Columns walked.", kCounter},
-    {reg::kGroups, "GROUPS", "Cycles in which the walkers stepped.", kCounter},
-    {reg::kCandidates, "CANDIDATES", "Pixels that a line would blend with a neighbour.", kCounter},
-    {reg::kPassed, "PASSED", "Candidates that passed the depth test.", kCounter},
-    {reg::kBlocks, "BLOCKS", "Blocks of 4 x 4 pixels that were touched.", kCounter},
-    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that were blended.", kCounter},
-    {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
-    {reg::kFrameCycles, "FRAME_CYCLES", "Cycles of the last frame, from its start to its end.",
+    {reg::kGroups, "GROUPS", "Cycles in which the walkers step.", kCounter},
+    {reg::kCandidates, "CANDIDATES", "Candidates: pixels that a line would blend with a neighbour.",
      kCounter},
+    {reg::kPassed, "PASSED", "Candidates that passed the depth test.", kCounter},
+    {reg::kBlocks, "BLOCKS", "Touched blocks of 4 x 4 pixels.", kCounter},
+    {reg::kBlendedPixels, "BLENDED_PIXELS", "Blended pixels.", kCounter},
+    {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
+    {reg::kFrameCycles, "FRAME_CYCLES", "Cycles of the last frame, from start to end.", kCounter},
     {reg::kEdgeCycles, "EDGE_CYCLES",
-     "Of these until every edge was drawn and every weight written back.", kCounter},
-    {reg::kResolveCycles, "RESOLVE_CYCLES", "Of these the rest.", kCounter},
+     "Of these, cycles until all edges are drawn and all weights written back.", kCounter},
+    {reg::kResolveCycles, "RESOLVE_CYCLES", "Of these, the remaining cycles.", kCounter},
     {reg::kBoundaryCount, "BOUNDARY_COUNT",
      "Boundaries of the edge table, 0..EDGE_COUNT (records = split).", kNumber},
     {reg::kPairBase, "PAIR_BASE", "Byte address of the vertices of boundaries (records = split).",

@@ -188,117 +188,113 @@ struct Parameters : Configuration, Build {};
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
-           "Named set of the rules below; rules given beside it override it.");
+           "Named configuration: sets the rules below. A rule that is given overrides it.");
   v.choice("quality", p.quality, kQualityNames,
-           "Named set of rules of the presets smaa and smaa-dynamic, which the preset and rules "
-           "given beside it override.");
-  v.choice(
-      "edges.source", p.edge_source, kEdgeSourceNames,
-      "What makes an edge: luma, depth, luma with a threshold that depth moves, or the largest "
-      "step of the three colours. SMAA's published text compares colours of the pixel itself with "
-      "left-left (pull request 11 of its repository); here it is the neighbours' step, as in its "
-      "ports.");
+           "Quality level of the presets smaa and smaa-dynamic. The preset, and rules that are "
+           "given, override it.");
+  v.choice("edges.source", p.edge_source, kEdgeSourceNames,
+           "Edge criterion: luma, depth, luma with a threshold controlled by depth, or the largest "
+           "step of R, G and B. Local contrast with colour uses steps between neighbours, as the "
+           "ports of SMAA do; SMAA's published text compares the pixel itself with left-left "
+           "(pull request 11 of its repository).");
   v.choice("edges.threshold_mode", p.threshold_mode, kThresholdModeNames,
-           "fixed: T. dynamic: alpha times luma (paper 003), above a floor, which is ours.");
+           "fixed: T. dynamic: alpha times luma (paper 003), at least floor (our addition).");
   v.choice("edges.dynamic_luma", p.dynamic_luma, kDynamicLumaNames,
            "Luma that alpha multiplies: of the current pixel (paper 003), or the larger, the "
            "smaller or the mean of the pair.");
-  v.integer(
-      "edges.threshold", p.threshold, 1, kMaxThreshold, "code / 65536",
-      "T: the smallest step that is an edge. A weight of full scale times 16711680. Where a T or "
-      "edges.floor is below 65536, a code, noise makes edges.");
+  v.integer("edges.threshold", p.threshold, 1, kMaxThreshold, "code / 65536",
+            "T: the smallest step that is an edge, 16711680 times the step relative to full scale. "
+            "With a T or edges.floor below 65536, one code, noise causes edges.");
   v.integer("edges.threshold_on_depth_edge", p.threshold_on_depth_edge, 1, kMaxThreshold,
-            "code / 65536", "T of source = predicated where depth has an edge.");
+            "code / 65536", "T of source = predicated at a depth edge.");
   v.integer("edges.threshold_off_depth_edge", p.threshold_off_depth_edge, 1, kMaxThreshold,
-            "code / 65536", "T of source = predicated where depth has no edge.");
+            "code / 65536", "T of source = predicated without a depth edge.");
   v.integer("edges.alpha", p.alpha, 0, kMaxThreshold, "1/16777216",
             "Factor of the dynamic threshold; rounded down, so that a step of exactly alpha times "
-            "luma stays an edge.");
+            "luma is an edge.");
   v.integer("edges.floor", p.floor, 1, kMaxThreshold, "code / 65536",
-            "Smallest step that a dynamic threshold lets through.");
+            "Lower limit of the dynamic threshold.");
   v.integer("edges.depth_threshold", p.depth_threshold, 1, 65535, "1/65536",
-            "Relative step of depth that is an edge.");
+            "Relative depth step that is an edge.");
   v.choice("edges.local_contrast", p.local_contrast, kLocalContrastNames,
-           "Drop edges beside one of twice the contrast: eq (2), (3) of paper 003, a symmetric "
-           "form of them, or SMAA's, which keeps an edge of exactly half the contrast.");
-  v.choice("ends", p.ends, kEndsNames, "Where runs end: at gaps, or at crossing edges too (SMAA).");
-  v.choice(
-      "border", p.border, kBorderNames,
-      "Edges beyond the frame's border: end: none, so that runs end there. clamp: those of the "
-      "nearest pixel, as SMAA's samplers give them; with ends = crossings and a table.");
+           "Drop edges next to an edge of twice the contrast: by equations (2) and (3) of paper "
+           "003, by a symmetric form of them, or as SMAA does, which keeps an edge of exactly half "
+           "the contrast.");
+  v.choice("ends", p.ends, kEndsNames,
+           "Where runs end: at gaps, or also at crossing edges (SMAA).");
+  v.choice("border", p.border, kBorderNames,
+           "Edges outside the frame: end: none, so runs end at the border. clamp: those of the "
+           "nearest pixel, as with SMAA's samplers; needs ends = crossings and a table.");
   v.choice("predictor", p.predictor, kPredictorNames,
            "Line through a run: its own ends, the chord of the extended ends (paper 000), or the "
            "least-squares line through all visited corners.");
-  v.integer("steps", p.steps, 0, kMaxSteps, "step", "N: extensions tried on each side of a run.");
-  v.boolean("contiguous", p.contiguous,
-            "A step must be an unbroken run with the codes of the first at both corners.");
+  v.integer("steps", p.steps, 0, kMaxSteps, "step",
+            "N: maximum number of extensions on each side of a run.");
+  v.boolean(
+      "contiguous", p.contiguous,
+      "Extend only by unbroken runs whose corners both have the crossing codes of the first.");
   v.boolean("safe", p.safe,
-            "Both sides grow in lockstep, weight L', and stop where no line fits all corners.");
+            "Extend both sides in lockstep with one L', and stop when no line fits all corners.");
   v.boolean("trim", p.trim,
-            "A side that lost its line before N steps and the end of the reach gives back its last "
-            "step; one that no line fits, half of its steps.");
-  v.choice(
-      "area", p.area, kAreaSourceNames,
-      "Where areas come from: the line itself, or SMAA's table as it is published, as paper "
-      "003 merges it, or as small as it gets; the tables give the same pixels. learned: the line "
-      "of a clean Z that was extended or is long, learned ROMs elsewhere.");
-  v.choice(
-      "area_values", p.area_values, kAreaValuesNames,
-      "Entries of the tables of runs and of diagonals: exact areas to the nearest, or those of "
-      "the bytes that SMAA's authors publish.");
+            "A side whose line was lost before N steps and before the end of the search range "
+            "gives back its last step; a side that no line fits gives back half of its steps.");
+  v.choice("area", p.area, kAreaSourceNames,
+           "Source of areas: the line itself (analytic), or SMAA's table as published, as merged "
+           "in paper 003, or minimised; the tables give the same pixels. learned: analytic for "
+           "long or extended clean Z runs, learned ROMs otherwise.");
+  v.choice("area_values", p.area_values, kAreaValuesNames,
+           "Entries of the run and diagonal tables: exact areas, rounded to nearest, or the bytes "
+           "published by SMAA's authors.");
   v.integer("search_steps", p.search_steps, 1, kMaxSearchSteps, "step",
             "N: a table covers 2 N - 1 pixels to the left (up) and 2 N to the right (down).");
-  v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, before the others.");
+  v.boolean("diagonals", p.diagonals, "Diagonal patterns of SMAA, with priority over the others.");
   v.integer("diagonal_steps", p.diagonal_steps, 1, kMaxDiagonalSteps, "step",
-            "M: pixels that a diagonal is followed each way.");
-  v.boolean("round_corners", p.round_corners,
-            "Corner rounding of SMAA: less weight where a crossing edge goes on for a second "
-            "pixel.");
+            "M: pixels that a diagonal is followed in each direction.");
+  v.boolean(
+      "round_corners", p.round_corners,
+      "Corner rounding of SMAA: less weight where a crossing edge continues for a second pixel.");
   v.integer("corner_rounding", p.corner_rounding, 0, kMaxCornerRounding, "1/256",
-            "Weight of a weight that stays at such a corner.");
+            "Fraction of the weight that remains at such a corner.");
   v.choice("blend", p.blend, kBlendRuleNames,
-           "Axis of a pixel and its weights: the longer line's, or the stronger weight's with "
-           "weights in proportion to their squares (SMAA).");
-  v.choice(
-      "bypass", p.bypass, kBypassNames,
-      "Pixels that take no weight: none, those that the geometric engine marked (bit 0 of alpha "
-      "is 0), or these and the four beside each; half: marked ones, and others take half of "
-      "a marked one's weight; masked: marked ones, which make no edge either. Other than none, it "
-      "ends the mark.");
+           "Axis and weights of a pixel: those of the longer line, or those of the larger blend "
+           "weight, with weights proportional to their squares (SMAA).");
+  v.choice("bypass", p.bypass, kBypassNames,
+           "Bypassed pixels: none; marked: pixels that the geometric engine marked (bit 0 of alpha "
+           "is 0); beside: also their four neighbours; half: marked ones, and a neighbour takes "
+           "half the blend weight of a marked pixel; masked: marked ones, which also cause no "
+           "edges. All but none end the mark.");
   v.boolean("text_guard", p.text_guard,
-            "Pixels of aliased text of two colours take no weight: those with strokes of 1 to 3 "
-            "pixels around them both ways.");
+            "Bypass aliased text of two colours: pixels surrounded by strokes of 1 to 3 pixels in "
+            "both axes.");
   v.boolean("linear_light", p.linear_light, "Blend in linear light (sRGB) instead of codes.");
-  v.integer(
-      "window_rows", p.window_rows, 10, 258, "row",
-      "Rows of edges held; even. What a run gives a pixel depends on edges of window_rows / 2 - 1 "
-      "rows each way.");
+  v.integer("window_rows", p.window_rows, 10, 258, "row",
+            "Rows of edges in the edge window; even. The result of a pixel depends on window_rows "
+            "/ 2 - 1 rows of edges up and down.");
   v.integer("search_columns", p.search_columns, 4, 2048, "pixel",
-            "Longest horizontal run, and how far it may be extended.");
+            "Search range of horizontal runs: longest run, and limit of its extension.");
 }
 
 template <class Visitor>
 void describe(Build& p, Visitor& v) {
-  v.choice("lanes", p.lanes, kLanesNames, "Pixels a clock.");
+  v.choice("lanes", p.lanes, kLanesNames, "Pixels per cycle.");
   v.integer("line_pixels", p.line_pixels, 1, kMaxFrameSize, "pixel",
-            "Widest frame that the line buffers hold.");
-  v.integer(
-      "descriptor_fifo", p.descriptor_fifo, 2, 4096, "record",
-      "Runs waiting for a predictor, for each axis and lane; a tenth of a row bears a burst.");
+            "Maximum frame width of the line buffers.");
+  v.integer("descriptor_fifo", p.descriptor_fifo, 2, 4096, "record",
+            "Run descriptors waiting for a predictor, for each axis and lane; a tenth of a row is "
+            "enough for a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides at a time.");
   v.integer("trial_cycles", p.trial_cycles, 1, 8, "clock",
-            "Cycles from one trial of a predictor to its next; below 4 stages weight a clock.");
-  v.integer(
-      "divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
-      "Latency of the divider: two cycles of products, then at most two of 24 quotient bits a "
-      "clock.");
+            "Cycles between two trials of a predictor; below 4 stages weight a cycle.");
+  v.integer("divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
+            "Latency of the divider: two cycles of products, then at most two of 24 quotient bits "
+            "per cycle.");
   v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
             "Initiation interval of the divider.");
   v.choice("storage", p.storage, kStorageNames,
-           "Where delayed pixels wait: on-chip line buffers, or memory (written, then read once).");
+           "Storage of delayed pixels: on-chip line buffers, or memory (written, then read once).");
   v.integer("memory.outstanding", p.memory_outstanding, 1, 256, "line",
-            "Lines in flight with storage = memory, each direction.");
+            "Lines in flight with storage = memory, in each direction.");
 }
 
 template <class Visitor>

@@ -50,21 +50,23 @@ namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "frames are taken", {}, 1};
+inline constexpr Field kEnable{
+    "enable", 0, 0, Access::kReadWrite, "enables the acceptance of frames", {}, 1};
 inline constexpr Field kClearCounters{"clear_counters", 1, 1, Access::kCommand,
                                       "sets every counter to 0"};
 inline constexpr std::array kFields = {kEnable, kClearCounters};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame inside", {}, 1};
-inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear, "a frame is done"};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no frame in progress", {}, 1};
+inline constexpr Field kFrameDone{"frame_done", 1, 1, Access::kWriteOneToClear,
+                                  "a frame has been completed"};
 inline constexpr Field kFraming{"framing", 2, 2, Access::kWriteOneToClear,
-                                "start of frame, end of row or lane count are not as SIZE says"};
+                                "start of frame, end of row or lane count contradicts SIZE"};
 inline constexpr Field kMemoryError{"memory_error", 3, 3, Access::kWriteOneToClear,
-                                    "memory answered with an error"};
+                                    "a memory response had an error"};
 inline constexpr Field kWrittenWhileBusy{
     "written_while_busy", 4, 4, Access::kWriteOneToClear,
-    "a register was written while a frame was inside; the write is ignored"};
+    "a register was written while a frame was in progress; the write is ignored"};
 inline constexpr std::array kFields = {kIdle, kFrameDone, kFraming, kMemoryError,
                                        kWrittenWhileBusy};
 }  // namespace status
@@ -84,29 +86,29 @@ inline constexpr Field kLocalContrast{"local_contrast",   6,  5,
 inline constexpr Field kPredictor{"predictor", 8, 7, Access::kReadWrite, {}, kPredictorNames};
 inline constexpr Field kSteps{"steps", 13, 9, Access::kReadWrite, "0..16"};
 inline constexpr Field kContiguous{"contiguous", 14, 14, Access::kReadWrite,
-                                   "off where it is not built"};
+                                   "off if it is not built"};
 inline constexpr Field kSafe{"safe", 15, 15, Access::kReadWrite,
-                             "1: both sides grow in lockstep, while one line fits"};
+                             "1: both sides extend in lockstep while one line fits"};
 inline constexpr Field kLinearLight{"linear_light", 16, 16, Access::kReadWrite,
                                     "1: blend in linear light"};
 inline constexpr Field kTrim{"trim", 17, 17, Access::kReadWrite,
-                             "1: a side that lost its line gives back steps"};
+                             "1: a side whose line was lost gives back steps"};
 inline constexpr Field kCrossings{
-    "ends", 18, 18, Access::kReadWrite, "gaps where crossings are not built", kEndsNames};
+    "ends", 18, 18, Access::kReadWrite, "gaps if crossings are not built", kEndsNames};
 inline constexpr Field kTable{"area_table", 19, 19, Access::kReadWrite,
-                              "1: areas from the table, where it is built"};
+                              "1: areas from the table, if it is built"};
 inline constexpr Field kDiagonals{"diagonals", 20, 20, Access::kReadWrite,
-                                  "off where they are not built"};
+                                  "off if they are not built"};
 inline constexpr Field kRoundCorners{"round_corners", 21, 21, Access::kReadWrite,
-                                     "off where they are not built"};
+                                     "off if they are not built"};
 inline constexpr Field kStrongest{"blend", 22, 22, Access::kReadWrite, {}, kBlendRuleNames};
 inline constexpr Field kLearned{"area_learned", 23, 23, Access::kReadWrite,
-                                "1: areas are learned, where the ROMs are built"};
+                                "1: learned areas, if the ROMs are built"};
 inline constexpr Field kBypass{"bypass", 26, 24, Access::kReadWrite, {}, kBypassNames};
-inline constexpr Field kBorder{
-    "border", 27, 27, Access::kReadWrite, "end where clamp is not built", kBorderNames};
+inline constexpr Field kBorder{"border",    27, 27, Access::kReadWrite, "end if clamp is not built",
+                               kBorderNames};
 inline constexpr Field kTextGuard{"text_guard", 28, 28, Access::kReadWrite,
-                                  "off where the guard is not built"};
+                                  "off if the guard is not built"};
 inline constexpr std::array kFields = {
     kSource,    kThresholdMode, kDynamicLuma, kLocalContrast, kPredictor, kSteps,     kContiguous,
     kSafe,      kLinearLight,   kTrim,        kCrossings,     kTable,     kDiagonals, kRoundCorners,
@@ -131,7 +133,7 @@ inline constexpr std::array kFields = {kAddress};
 namespace smaa {
 inline constexpr Field kSearchSteps{"search_steps", 6, 0, Access::kReadWrite, "1..112"};
 inline constexpr Field kDiagonalSteps{"diagonal_steps", 12, 8, Access::kReadWrite,
-                                      "0 for none, at most those built"};
+                                      "0: none; at most the number built"};
 inline constexpr Field kCornerRounding{"corner_rounding", 24, 16, Access::kReadWrite,
                                        "in 1/256, 0..256"};
 inline constexpr std::array kFields = {kSearchSteps, kDiagonalSteps, kCornerRounding};
@@ -142,8 +144,8 @@ inline constexpr Field kEntry{"entry", 11, 0, Access::kShared,
 inline constexpr std::array kFields = {kEntry};
 }  // namespace weights_address
 namespace weights_data {
-inline constexpr Field kWeight{"weight", 7,           0, Access::kShared, "S3.4; a reset leaves it",
-                               {},       std::nullopt};
+inline constexpr Field kWeight{"weight",          7,  0,           Access::kShared,
+                               "S3.4; not reset", {}, std::nullopt};
 inline constexpr std::array kFields = {kWeight};
 }  // namespace weights_data
 namespace weights_sum {
@@ -163,19 +165,19 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBu
 inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
-    {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
-    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
+    {reg::kControl, "CONTROL", "Enable bit and command.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State and events.", reg::status::kFields},
     {reg::kSize, "SIZE", "Size of the frame.", reg::size::kFields},
     {reg::kConfiguration, "CONFIG",
-     "The rules of the frame. Blocks that are not built count as off.",
+     "Configuration of the frame. Blocks that are not built count as off.",
      reg::configuration::kFields},
     {reg::kThreshold, "THRESHOLD", "T.", reg::threshold::kFields},
-    {reg::kThresholdOn, "THRESHOLD_ON", "T of predicated edges where depth has an edge.",
+    {reg::kThresholdOn, "THRESHOLD_ON", "T of predicated edges at a depth edge.",
      reg::threshold::kFields},
-    {reg::kThresholdOff, "THRESHOLD_OFF", "T of predicated edges where depth has none.",
+    {reg::kThresholdOff, "THRESHOLD_OFF", "T of predicated edges without a depth edge.",
      reg::threshold::kFields},
     {reg::kAlpha, "ALPHA", "Factor of the dynamic threshold.", reg::alpha::kFields},
-    {reg::kFloor, "FLOOR", "Smallest luma step of a dynamic threshold.", reg::threshold::kFields},
+    {reg::kFloor, "FLOOR", "Lower limit of the dynamic threshold.", reg::threshold::kFields},
     {reg::kDepthThreshold, "DEPTH_THRESHOLD", "Relative depth step that is an edge.",
      reg::depth_threshold::kFields},
     {reg::kPixelBase, "PIXEL_BASE", "Byte address of the frame with storage = memory.",
@@ -185,30 +187,32 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kEdgePixels, "EDGE_PIXELS", "Pixels with a left or a top edge.", kCounter},
     {reg::kHorizontalRuns, "HORIZONTAL_RUNS", "Maximal runs of top edges.", kCounter},
     {reg::kVerticalRuns, "VERTICAL_RUNS", "Maximal runs of left edges.", kCounter},
-    {reg::kLongRuns, "LONG_RUNS", "Runs of either axis that are longer than the reach.", kCounter},
-    {reg::kZRuns, "Z_RUNS", "Clean Z runs within the reach.", kCounter},
-    {reg::kExtendedRuns, "EXTENDED_RUNS", "Runs that keep at least one step.", kCounter},
-    {reg::kSteps, "STEPS", "Extensions kept.", kCounter},
+    {reg::kLongRuns, "LONG_RUNS", "Runs of either axis longer than the search range.", kCounter},
+    {reg::kZRuns, "Z_RUNS", "Clean Z runs within the search range.", kCounter},
+    {reg::kExtendedRuns, "EXTENDED_RUNS", "Runs extended by at least one step.", kCounter},
+    {reg::kSteps, "STEPS", "Extension steps kept.", kCounter},
     {reg::kProbes, "PROBES", "Corners tested.", kCounter},
     {reg::kDivides, "DIVIDES", "Divisions.", kCounter},
-    {reg::kBlendedPixels, "BLENDED_PIXELS", "Pixels that took a weight of a neighbour.", kCounter},
+    {reg::kBlendedPixels, "BLENDED_PIXELS", "Blended pixels: those with a blend weight above 0.",
+     kCounter},
     {reg::kFrameCycles, "FRAME_CYCLES",
-     "Cycles from the first input beat to the last output beat of the last frame, both counted.",
+     "Cycles of the last frame, from its first input beat to its last output beat, both included.",
      kCounter},
-    {reg::kDescriptorStalls, "DESCRIPTOR_STALLS", "Cycles in which the slot waited for records.",
-     kCounter},
+    {reg::kDescriptorStalls, "DESCRIPTOR_STALLS",
+     "Cycles in which a slot waited for run descriptors.", kCounter},
     {reg::kMemoryErrors, "MEMORY_ERRORS", "Memory responses with an error.", kCounter},
-    {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge took its weights from a diagonal.",
+    {reg::kDiagonals, "DIAGONALS", "Pixels whose top edge has the blend weights of a diagonal.",
      kCounter},
     {reg::kBypassedPixels, "BYPASSED_PIXELS",
-     "Pixels that would have taken a weight and took none, by the rules leave and text_guard.",
+     "Bypassed pixels: those whose blend weights the rules leave and text_guard set to 0.",
      kCounter},
     {reg::kWeightsAddress, "WEIGHTS_ADDRESS",
-     "Entry of the learned weights that WEIGHTS_DATA names.", reg::weights_address::kFields},
-    {reg::kWeightsData, "WEIGHTS_DATA", "The entry; a write moves WEIGHTS_ADDRESS on by one.",
+     "Index of the learned weight that WEIGHTS_DATA accesses.", reg::weights_address::kFields},
+    {reg::kWeightsData, "WEIGHTS_DATA",
+     "Learned weight at WEIGHTS_ADDRESS; a write increments WEIGHTS_ADDRESS.",
      reg::weights_data::kFields},
     {reg::kWeightsSum, "WEIGHTS_SUM",
-     "Sum over all entries of (index + 1) x the entry as an unsigned byte, mod 2^32.",
+     "Checksum: sum over all entries of (index + 1) x entry as an unsigned byte, mod 2^32.",
      reg::weights_sum::kFields},
 }};
 static_assert(fields_are_in_order(kRegisters));

@@ -31,29 +31,29 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.cache_ways); }},
     {{"cache.bytes", "cache.line_bytes", "cache.ways"},
-     "must hold one set at least, a line for each way",
+     "must hold at least one set, with a line for each way",
      [](const Parameters& p) { return p.cache_bytes >= p.cache_line_bytes * p.cache_ways; },
      [](const Parameters& p) {
        return "make it at least " + std::to_string(p.cache_line_bytes * p.cache_ways) +
               ", or lines or ways fewer";
      }},
     {{"cache.fifo_depth"},
-     "must be at least 2 places, since one is read and one written in every clock; 0 sizes it from "
-     "the latency of memory",
+     "must be at least 2 entries, since one is read and one is written per cycle; 0: derived from "
+     "the memory latency",
      [](const Parameters& p) { return p.cache_fifo_depth != 1; }},
     {{"axis_cycles"},
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.axis_cycles); }},
     {{"axis_cycles", "axes"},
-     "must be at most half of the directions, since at least two are measured in a clock",
+     "must be at most half of the directions, since at least two are measured per cycle",
      [](const Parameters& p) { return p.axis_cycles <= most_axis_cycles(p.axes); },
      [](const Parameters& p) {
        return "make it at most " + std::to_string(most_axis_cycles(p.axes)) + " for " +
               std::to_string(2 * most_axis_cycles(p.axes)) + " directions";
      }},
     {{"cache.bytes", "cache.line_bytes"},
-     "must be at most 512 lines, whose tags stand in flip-flops: four sets are read and written in "
-     "a clock, and more than 16 kbit of flip-flops is no memory",
+     "must be at most 512 lines: their tags are kept in flip-flops, because four sets are read and "
+     "written per cycle, and flip-flops are limited to 16 kbit per memory",
      [](const Parameters& p) { return p.cache_bytes <= kMostCacheLines * p.cache_line_bytes; },
      [](const Parameters& p) {
        return "make it at most " + std::to_string(kMostCacheLines * p.cache_line_bytes) +

@@ -73,25 +73,24 @@ struct Parameters : Configuration, Build {};
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
   v.choice("preset", p.preset, kPresetNames,
-           "Named set of the rules below; rules given beside it override it.");
-  v.choice(
-      "axes", p.axes, kAxesNames,
-      "Directions tried for the major axis: the pixel's row and column (the paper), or four or "
-      "eight, every 45 or 22.5 degrees.");
+           "Named configuration: sets the rules below. A rule that is given overrides it.");
+  v.choice("axes", p.axes, kAxesNames,
+           "Candidate directions of the major axis: the pixel's row and column (the paper), or "
+           "four or eight directions, every 45 or 22.5 degrees.");
   v.choice("footprint", p.footprint, kFootprintNames,
-           "Rule for the length of a footprint side from its two components.");
-  v.choice("log2", p.log2, kLog2Names, "Rule for the binary logarithm of a footprint side.");
+           "Formula for the length of a footprint side from its two components.");
+  v.choice("log2", p.log2, kLog2Names, "Formula for the binary logarithm of a footprint side.");
   v.choice("count", p.count, kCountNames,
-           "Sample count from L: N = 2^L with L rounded (floor is the paper), or any N of 1 to 16, "
-           "which has no steps.");
+           "Sample count: N = 2^L with L rounded (floor: the paper), or any: every N from 1 to 16, "
+           "without visible steps.");
   v.choice("count_cap", p.count_cap, kCountCapNames,
-           "texel: never place samples closer together than a texel of level 0.");
+           "texel: samples are at least a texel of level 0 apart.");
   v.choice("kernel", p.kernel, kKernelNames,
-           "Weights of the N samples: equal (the paper) or an integer tent.");
+           "Weights of the N samples: equal (box, the paper) or an integer tent.");
   v.integer("spread", p.spread, 0, 128, "1/64 axis",
             "Length over which the samples are spread, U2.6 of the major axis.");
   v.choice("srgb_output", p.srgb_output, kSrgbOutputNames,
-           "What leaves of an sRGB texture: linear light in 8 bits, or sRGB codes again.");
+           "Output format of sRGB textures: 8-bit linear light, or sRGB codes.");
 }
 
 template <class Visitor>
@@ -101,16 +100,15 @@ void describe(Build& p, Visitor& v) {
   v.integer("cache.line_bytes", p.cache_line_bytes, kLeastCacheLineBytes, kMostCacheLineBytes,
             "byte", "Size of a cache line; a power of two.");
   v.integer("cache.ways", p.cache_ways, 1, kMostCacheWays, "way", "Associativity; a power of two.");
-  v.choice("cache.replacement", p.cache_replacement, kReplacementNames,
-           "Which way of a full set is replaced.");
+  v.choice("cache.replacement", p.cache_replacement, kReplacementNames, "Replacement policy.");
   v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",
             "Line fills in flight: entries of the miss queue and of the fill buffer.");
   v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, kMostFifoDepth, "request",
-            "Depth of the latency FIFO between tag check and data read, 2 or more; 0 sizes it from "
-            "the latency of memory.");
+            "Depth of the latency FIFO between tag check and data read, at least 2; 0: derived "
+            "from the memory latency.");
   v.integer("axis_cycles", p.axis_cycles, 1, 4, "clk",
-            "Cycles in which the candidates of axes = four or eight are measured, fewer operators "
-            "at a time; a power of two, at most half the candidates.");
+            "Cycles for measuring the candidate directions of axes = four or eight; more cycles "
+            "need fewer operators. A power of two, at most half the candidates.");
 }
 
 template <class Visitor>

@@ -39,7 +39,8 @@ namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
 namespace control {
-inline constexpr Field kEnable{"enable", 0, 0, Access::kReadWrite, "quads are taken", {}, 1};
+inline constexpr Field kEnable{
+    "enable", 0, 0, Access::kReadWrite, "enables the acceptance of quads", {}, 1};
 inline constexpr Field kInvalidate{"invalidate", 1, 1, Access::kCommand,
                                    "empties the cache; when idle only"};
 inline constexpr Field kClearCounters{"clear_counters", 2, 2, Access::kCommand,
@@ -47,11 +48,11 @@ inline constexpr Field kClearCounters{"clear_counters", 2, 2, Access::kCommand,
 inline constexpr std::array kFields = {kEnable, kInvalidate, kClearCounters};
 }  // namespace control
 namespace status {
-inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "nothing is inside", {}, 1};
+inline constexpr Field kIdle{"idle", 0, 0, Access::kReadOnly, "no work in progress", {}, 1};
 inline constexpr Field kMemoryError{"memory_error", 1, 1, Access::kWriteOneToClear,
-                                    "memory answered with an error"};
+                                    "a memory response had an error"};
 inline constexpr Field kInvalidTexture{"invalid_texture", 2, 2, Access::kWriteOneToClear,
-                                       "a quad named an invalid descriptor"};
+                                       "a quad selected an invalid descriptor"};
 inline constexpr Field kWrittenWhileBusy{"written_while_busy", 3, 3, Access::kWriteOneToClear,
                                          "a descriptor was written while busy"};
 inline constexpr std::array kFields = {kIdle, kMemoryError, kInvalidTexture, kWrittenWhileBusy};
@@ -80,7 +81,8 @@ inline constexpr Field kWrapS{"wrap_s", 9, 8, Access::kReadWrite, {}, kWrapNames
 inline constexpr Field kWrapT{"wrap_t", 11, 10, Access::kReadWrite, {}, kWrapNames};
 inline constexpr Field kMinFilter{"min_filter", 14, 12, Access::kReadWrite, {}, kMinFilterNames};
 inline constexpr Field kMagFilter{"mag_filter", 16, 16, Access::kReadWrite, {}, kMagFilterNames};
-inline constexpr Field kLevels{"levels", 23, 20, Access::kReadWrite, "present, from 1 on"};
+inline constexpr Field kLevels{"levels", 23, 20, Access::kReadWrite,
+                               "number of levels, at least 1"};
 inline constexpr Field kMaxCount{"max_count_log2", 26, 24, Access::kReadWrite, "lb N_max, 0..4"};
 inline constexpr std::array kFields = {kFormat,    kLayout,    kWrapS,  kWrapT,
                                        kMinFilter, kMagFilter, kLevels, kMaxCount};
@@ -108,9 +110,9 @@ inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.m
 inline constexpr bool kBusyIgnoresWrites = false;
 inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
-    {reg::kControl, "CONTROL", "Switch and commands.", reg::control::kFields},
-    {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
-    {reg::kConfiguration, "CONFIG", "The variant built.", reg::configuration::kFields},
+    {reg::kControl, "CONTROL", "Enable bit and commands.", reg::control::kFields},
+    {reg::kStatus, "STATUS", "State and events.", reg::status::kFields},
+    {reg::kConfiguration, "CONFIG", "Variant as built.", reg::configuration::kFields},
     {reg::kFragments, "FRAGMENTS", "Colours delivered.", kCounter},
     {reg::kBilinears, "BILINEARS", "Bilinear requests sent to the cache.", kCounter},
     {reg::kLineFills, "LINE_FILLS", "Cache lines requested.", kCounter},
@@ -119,7 +121,7 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kSaturated, "SATURATED", "Covered fragments with a derivative beyond U15.16 texels.",
      kCounter},
     {reg::kMemoryErrors, "MEMORY_ERRORS",
-     "Line fills answered with an error; such a line reads as zero.", kCounter},
+     "Line fills with an error response; such a line reads as zero.", kCounter},
     {reg::kInvalidFragments, "INVALID_FRAGMENTS",
      "Covered fragments of quads with an invalid descriptor; their colour is zero.", kCounter},
 }};
@@ -128,7 +130,7 @@ static_assert(fields_are_in_order(kRegisters));
 // The registers of a descriptor before its bases, offsets from its start.
 inline constexpr std::array<RegisterInfo, 4> kDescriptorRegisters = {{
     {reg::kSize, "SIZE", "Size of level 0.", reg::size::kFields},
-    {reg::kMode, "MODE", "Texels, and how they are sampled.", reg::mode::kFields},
+    {reg::kMode, "MODE", "Texel format, layout and sampler state.", reg::mode::kFields},
     {reg::kLodBias, "LOD_BIAS", "Added to the level of detail.", reg::lod_bias::kFields},
     {reg::kLodClamp, "LOD_CLAMP", "Limits of the level of detail.", reg::lod_clamp::kFields},
 }};

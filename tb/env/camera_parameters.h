@@ -16,9 +16,9 @@ struct CameraParameters {
 template <class Visitor>
 void describe(CameraParameters& p, Visitor& v) {
   v.text("eye", p.eye, "x,y,z or list",
-         "Position of the camera instead of the scene's own; one a frame: a list.");
+         "Camera position that replaces the scene's own; a list gives one per frame.");
   v.text("target", p.target, "x,y,z or list",
-         "What the camera looks at instead of the scene's own; a list as of the eye.");
+         "Point that the camera looks at, instead of the scene's own; a list gives one per frame.");
   v.real("fov", p.fov, 0, 3.1, "radian", "Vertical field of view; 0: the scene's own.");
   v.real("roll", p.roll, -180, 180, "degree",
          "Turns the camera clockwise about its view direction.");

@@ -31,11 +31,10 @@ struct ProgramParameters {
 
 template <class Visitor>
 void describe(ProgramParameters& p, Visitor& v) {
-  v.choice(
-      "program", p.program, kProgramNames,
-      "registers: after each reset the driver writes the rules to an engine whose reset values "
-      "are others. reset: the engine is built with the rules as reset values. Must change "
-      "nothing.");
+  v.choice("program", p.program, kProgramNames,
+           "registers: after each reset the driver programs the rules into an engine with other "
+           "reset values. reset: the engine is built with the rules as reset values. Must not "
+           "change results.");
 }
 
 // Of docs/reference/datasheets.md: an engine's units.

@@ -29,25 +29,26 @@ struct MemoryParameters : MemoryTiming, MemoryErrors {};
 
 template <class Visitor>
 void describe(MemoryTiming& p, Visitor& v) {
-  v.integer("latency", p.latency, 1, 100000, "clk", "From a request to the first byte.");
+  v.integer("latency", p.latency, 1, 100000, "clk", "Latency from a request to its first byte.");
   v.integer("latency_max", p.latency_max, 0, 100000, "clk",
-            "Above latency: each latency is drawn evenly from latency to this; 0: fixed.");
+            "If above latency: each request has a uniformly random latency between latency and "
+            "this; 0: fixed latency.");
   v.integer("bytes_per_cycle", p.bytes_per_cycle, 0, 4096, "byte/clk",
             "Width of the data bus; 0: no limit.");
-  v.integer("banks", p.banks, 1, 1024, "bank", "Banks that interleaved addresses go round.");
+  v.integer("banks", p.banks, 1, 1024, "bank", "Number of banks, with interleaved addresses.");
   v.integer("interleave_bytes", p.interleave_bytes, 64, 1 << 20, "byte",
-            "Bytes in a row in one bank; a power of two.");
+            "Consecutive bytes in one bank; a power of two.");
   v.integer("bank_busy", p.bank_busy, 0, 100000, "clk",
-            "From a request until its bank takes another.");
+            "Cycles from a request until its bank accepts another.");
   v.integer("outstanding", p.outstanding, 1, 4096, "transaction", "Transactions in flight.");
 }
 
 template <class Visitor>
 void describe(MemoryErrors& p, Visitor& v) {
   v.integer("error_address", p.error_address, -1, std::int64_t{1} << 32, "byte",
-            "First address that answers with an error, such as 0x7fc0; -1: none.");
+            "First address with an error response, such as 0x7fc0; -1: none.");
   v.integer("error_bytes", p.error_bytes, 1, std::int64_t{1} << 32, "byte",
-            "Bytes from error_address that answer with an error.");
+            "Number of bytes from error_address with an error response.");
 }
 
 inline void add_memory(ParameterSet& set, std::string_view prefix, MemoryParameters& p) {

@@ -120,19 +120,18 @@ void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame)
 }
 
 void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before) {
+  result.work.push_back({"flicker", after.mean(), "1/255",
+                         "Flicker in runs of several frames (sequence.frames, lists): root mean "
+                         "square of a pixel's change from frame to frame, minus the change of its "
+                         "reference (without one, of the input)."});
   result.work.push_back(
-      {"flicker", after.mean(), "1/255",
-       "Root mean square of what a pixel changes from frame to frame more or "
-       "less than its reference (without a reference: than what went in), in runs of "
-       "several frames (sequence.frames, lists)."});
-  result.work.push_back(
-      {"flicker_worst", after.worst(), "1/255", "The same of the pair of frames with the most."});
+      {"flicker_worst", after.worst(), "1/255", "The same for the worst pair of frames."});
   const bool flickers = after.worst() > 0;
   result.work.push_back(
       {"flicker_worst_frame",
        flickers ? WorkValue(static_cast<std::uint64_t>(after.worst_frame())) : WorkValue(), "",
-       "The second frame of that pair, counted from 0; null where nothing flickers."});
-  result.work.push_back({"flicker_before", before.mean(), "1/255", "As flicker, of what went in."});
+       "Second frame of that pair, counted from 0; null without flicker."});
+  result.work.push_back({"flicker_before", before.mean(), "1/255", "Flicker of the input."});
 }
 
 }  // namespace deburr::tb

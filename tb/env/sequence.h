@@ -26,12 +26,13 @@ struct SequenceParameters {
 
 template <class Visitor>
 void describe(SequenceParameters& p, Visitor& v) {
-  v.integer("frames", p.frames, 1, 1000, "frame",
-            "Frames of a moving camera whose flicker is measured, by the golden model, against "
-            "their references; the hardware model runs the first. 1: none.");
+  v.integer(
+      "frames", p.frames, 1, 1000, "frame",
+      "Frames of a moving camera. The golden model renders them all and measures their flicker "
+      "against their reference images; the hardware model runs the first. 1: no flicker.");
   v.is_work("frames", GivenWork::kSetting);
   v.choice("motion", p.motion, kMotionNames,
-           "How the camera moves: zoom (1 % a frame), roll (3 degrees), pan (1/400 of the view).");
+           "Camera motion: zoom (1 % per frame), roll (3 degrees), pan (1/400 of the view).");
 }
 
 // What stands between the entries of a list.

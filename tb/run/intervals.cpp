@@ -77,29 +77,31 @@ std::span<const Statistic> interval_statistics() {
       Statistic{"schema", "", "Version of this file's layout."},
       Statistic{"asked_cycles", "clk", "run.interval_cycles."},
       Statistic{"interval_cycles", "clk",
-                "Length of a window, the last one may be shorter: asked_cycles, doubled until at "
-                "most 1023 windows hold the run."},
-      Statistic{"intervals", "", "How many there are: the length of every list below."},
-      Statistic{"from", "clk", "First cycle of each, counted as waves and --trace-from count."},
-      Statistic{"cycles", "clk", "Cycles of each."},
+                "Sampling interval; the last one may be shorter. It is asked_cycles, doubled until "
+                "at most 1023 intervals cover the run."},
+      Statistic{"intervals", "", "Number of intervals: the length of every list below."},
+      Statistic{"from", "clk",
+                "First cycle of each interval, numbered as in waves and by --trace-from."},
+      Statistic{"cycles", "clk", "Cycles of each interval."},
       Statistic{"throughput", "",
-                "Rates to look at: the series whose counts over cycles they are, unit, and bound "
-                "where there is one (0: none)."},
-      Statistic{"series.units.*.busy", "clk", "As in result.json, of each window."},
+                "Throughputs: the series to divide by cycles, unit, and bound (0: none)."},
+      Statistic{"series.units.*.busy", "clk", "As in result.json, per interval."},
       Statistic{"series.units.*.idle", "clk", "The same."},
       Statistic{"series.units.*.stalls.*", "clk", "The same, by cause."},
       Statistic{"series.work.*", "",
-                "Every counter of result.json that is a sum: none of largest values, and none "
-                "that began anew within the run."},
-      Statistic{"series.links.*.beats", "beat", "Beats that went in."},
-      Statistic{"series.links.*.occupancy", "beat x clk",
-                "Beats inside at the end of each clock, summed: over cycles, the mean."},
-      Statistic{"series.links.*.most", "beat", "Most beats inside at the end of a clock."},
+                "Every counter of result.json that is a sum; not maxima, nor counters that were "
+                "cleared during the run."},
+      Statistic{"series.links.*.beats", "beat", "Beats written."},
+      Statistic{
+          "series.links.*.occupancy", "beat x clk",
+          "Sum of the number of beats at the end of each cycle; divide by cycles for the mean."},
+      Statistic{"series.links.*.most", "beat", "Largest number of beats at the end of a cycle."},
       Statistic{"series.ports.*.outstanding", "transaction x clk",
-                "Transactions of a memory port that wait for their answer at the end of each "
-                "clock, summed: over cycles, the mean."},
-      Statistic{"series.ports.*.most", "transaction", "Most of them at the end of a clock."},
-      Statistic{"units", "", "Unit of each series by its key."},
+                "Sum of the transactions in flight at a memory port at the end of each cycle; "
+                "divide by cycles for the mean."},
+      Statistic{"series.ports.*.most", "transaction",
+                "Largest number in flight at the end of a cycle."},
+      Statistic{"units", "", "Unit of each series, by key."},
   };
   return kStatistics;
 }

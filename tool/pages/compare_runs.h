@@ -18,7 +18,7 @@ inline constexpr std::size_t kMostCompared = 16;
 std::string letter(std::size_t index);
 
 // Of directories, or of result.json in them. The comparison as JSON
-// (docs/reference/compare.md):
+// (docs/reference/run.md, "Comparing"):
 //   runs: name, path, title, summary, command, verdict, interrupted, images
 //   warnings: what makes it no fair one
 //   parameters: name, kind, unit, meaning, values

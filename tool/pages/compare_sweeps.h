@@ -26,7 +26,7 @@ using UnsaidValue = std::function<std::string(
     const std::string& engine, const std::vector<std::pair<std::string, std::string>>& base,
     const std::string& parameter)>;
 
-// The comparison as JSON (docs/reference/compare.md):
+// The comparison as JSON (docs/reference/run.md, "Comparing"):
 //   sweeps: name, path, sweep, title, commit, counts, front
 //   warnings
 //   parameters: of the bases, those that differ and are no axis: name, values

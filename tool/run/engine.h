@@ -56,59 +56,64 @@ template <class Visitor>
 void describe(RunParameters& p, Visitor& v) {
   v.choice("check", p.check, kCheckModeNames,
            "golden: compare every output and every memory access with the golden model.");
-  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "", "Seed of what goes in: textures made by formula.");
+  v.integer("seed", p.seed, 0, 0xFFFFFFFF, "", "Seed of the inputs, such as procedural textures.");
   v.integer("stall_seed", p.stall_seed, 0, 0xFFFFFFFF, "",
-            "Seed of what must change no pixel: random stalls, latency, shuffling and poison.");
-  v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz", "Clock that times and rates are quoted for.");
+            "Seed of everything that must not change a pixel: random stalls, latencies, evaluation "
+            "order and noise.");
+  v.real("clock_mhz", p.clock_mhz, 1, 10000, "MHz",
+         "Clock frequency for which times and rates are given.");
   v.is_work("clock_mhz", tb::GivenWork::kSetting);
   v.integer("max_cycles", p.max_cycles, 0, std::int64_t{1} << 40, "clk",
-            "Ends the run with an error after so many cycles; 0: no limit.");
+            "Cycle limit: the run ends with an error there; 0: no limit.");
   v.integer("watchdog_cycles", p.watchdog_cycles, 100, 1 << 30, "clk",
             "Cycles without any progress that count as a deadlock.");
   v.real("stalls", p.stalls, 0, 0.9, "probability",
-         "Random stalls: chance that a side of a link is held back in a cycle, on every link.");
-  v.integer(
-      "reset_after", p.reset_after, 0, std::int64_t{1} << 40, "clk",
-      "Resets the hardware once in mid-run, so many cycles into the first frame, which begins "
-      "again; must change nothing. 0: never.");
-  v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must change nothing.");
-  v.boolean("fast_path", p.fast_path, "Let the clock domain run on; must change nothing.");
-  v.boolean("check_links", p.check_links,
-            "Protocol checkers on every link; off by default where a fault is injected.");
-  v.boolean("poison", p.poison,
-            "Fields that nobody wrote hold noise in every link, and each must fit its width; must "
-            "change nothing.");
-  v.text("trace", p.trace, "glob", "Units and links whose waves go to trace.vcd; empty: none.");
-  v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First cycle traced.");
-  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
-            "Cycle after the last traced.");
-  v.integer("interval_cycles", p.interval_cycles, 0, std::int64_t{1} << 40, "clk",
-            "Cuts the run into windows of so many cycles and keeps what each unit, link and port "
-            "did in them: intervals.json, result.json's links, the report's curves; 0: none.");
-  v.boolean("maps", p.maps,
-            "Leave maps over the picture, in false colours and as values: what the hardware did "
-            "for each pixel.");
-  v.text("pixel", p.pixel, "X,Y",
-         "Keeps everything that happens to this pixel, golden and hardware side by side: pixel of "
-         "result.json, the report's table; columns from the left, rows from the top. Empty: none.");
+         "Random stalls: probability that one side of a link stalls in a cycle, for every link.");
+  v.integer("reset_after", p.reset_after, 0, std::int64_t{1} << 40, "clk",
+            "Cycle of the first frame in which the hardware is reset once; the frame then starts "
+            "again. Must not change results. 0: never.");
+  v.boolean("shuffle", p.shuffle, "Evaluate the units in a random order; must not change results.");
   v.boolean(
-      "coverage", p.coverage,
-      "Functional coverage: leave how often each bin of docs/reference/coverage.md was met, as "
-      "coverage.bins of result.json; with the golden model, which counts them.");
+      "fast_path", p.fast_path,
+      "Evaluate several cycles per SystemC activation where this is unobservable; must not change "
+      "results.");
+  v.boolean("check_links", p.check_links,
+            "Protocol checkers on every link; off by default if a fault is injected.");
+  v.boolean("poison", p.poison,
+            "Unwritten fields of every link hold noise, which must fit their width; must not "
+            "change results.");
+  v.text("trace", p.trace, "glob", "Units and links recorded in trace.vcd; empty: none.");
+  v.integer("trace_from", p.trace_from, 0, std::int64_t{1} << 40, "clk", "First recorded cycle.");
+  v.integer("trace_to", p.trace_to, 0, std::int64_t{1} << 40, "clk",
+            "Cycle after the last recorded one.");
+  v.integer(
+      "interval_cycles", p.interval_cycles, 0, std::int64_t{1} << 40, "clk",
+      "Sampling interval in cycles: records the activity of each unit, link and port per interval "
+      "in intervals.json, with link occupancies in result.json and curves in the report; 0: none.");
+  v.boolean("maps", p.maps,
+            "Write maps of the picture, in false colours and as values: what the hardware did for "
+            "each pixel.");
+  v.text("pixel", p.pixel, "X,Y",
+         "Records every step for this pixel, golden and hardware side by side, as pixel of "
+         "result.json and a table of the report; column from the left, row from the top. Empty: "
+         "none.");
+  v.boolean("coverage", p.coverage,
+            "Functional coverage: write the hits of each bin of docs/reference/coverage.md as "
+            "coverage.bins of result.json. Needs the golden model, which counts them.");
   v.boolean("timeline", p.timeline,
-            "Leave timeline.json for trace viewers (Perfetto, chrome://tracing): what each unit "
-            "did in each cycle, and transactions of memory.");
+            "Write timeline.json for trace viewers (Perfetto, chrome://tracing): the activity of "
+            "each unit in each cycle, and memory transactions.");
   v.integer("timeline_from", p.timeline_from, 0, std::int64_t{1} << 40, "clk",
             "First cycle of the timeline.");
   v.integer("timeline_to", p.timeline_to, 0, std::int64_t{1} << 40, "clk",
             "Cycle after the last of the timeline, at most 100000 after the first.");
   v.choice("line_trace", p.line_trace, tb::traces::kTraceChoiceNames,
-           "Leaves lines.trace: every line that is asked of memory (docs/reference/traces.md).");
+           "Writes lines.trace: every line requested from memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Plants a fault that the checks must catch (docs/reference/tests.md).");
+         "Injects a fault that the checks must catch (docs/reference/injected_faults.md).");
   v.boolean("reference", p.reference,
-            "Compare the picture with the scene's supersampled reference.");
-  v.boolean("images", p.images, "Leave pictures, and show them in the report.");
+            "Compare the picture with the supersampled reference image of the scene.");
+  v.boolean("images", p.images, "Write pictures, and show them in the report.");
 }
 
 // A command line option that stands for a parameter, or for two that are given as AxB. Without a

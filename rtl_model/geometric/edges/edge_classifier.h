@@ -40,20 +40,21 @@ class EdgeClassifier final : public Unit {
   void reset() override;
 
   Counter edges{"edges", "edges", "edges read"};
-  Counter boundary_edges{"boundary_edges", "edges", "edges of a single face"};
+  Counter boundary_edges{"boundary_edges", "edges", "boundary edges: edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",
-                           "edges between a face turned to the eye and one turned away"};
-  Counter back_edges{"back_edges", "edges", "edges of two faces turned away, which cull drops"};
+                           "silhouette edges: between a front face and a back face"};
+  Counter back_edges{"back_edges", "edges", "edges of two back faces, dropped by cull"};
   Counter crease_edges{"crease_edges", "edges",
-                       "creases between two faces turned to the eye, or not culled"};
+                       "creases between two front faces, or back faces that are not culled"};
   Counter flat_edges{
       "flat_edges", "edges",
-      "edges between two faces turned to the eye, or not culled, that are no crease"};
+      "flat edges between two front faces, or back faces that are not culled: not creases"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
-  Counter kept_edges{"kept_edges", "edges",
-                     "edges whose vertices are fetched; with records = split those that are to be"};
+  Counter kept_edges{
+      "kept_edges", "edges",
+      "edges whose vertices are fetched; with records = split, edges selected for it"};
   Counter unpaired_edges{"unpaired_edges", "edges",
-                         "records = split: edges to be kept beyond the pairs that there are"};
+                         "records = split: selected edges without an entry in their vertex array"};
 
   static Datasheet datasheet();
 

@@ -17,9 +17,9 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
       split_(p.records == spec::geometric::RecordsLayout::kSplit),
       in_line_(split_ ? spec::geometric::kSplitInLine : spec::geometric::kEdgesInLine),
       lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
-      buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "edges read ahead"),
-      stalled_facing_(declare_stall("facing", "the frame's begin is not over")),
-      stalled_edges_(declare_stall("edges", "the next line of edges has not come")) {}
+      buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "prefetched edges"),
+      stalled_facing_(declare_stall("facing", "the initial phase of the frame is not finished")),
+      stalled_edges_(declare_stall("edges", "the next line of edges has not arrived")) {}
 
 bool EdgeReader::ask(Cycle cycle) {
   const FrameConfiguration& configuration = configuration_in.read(cycle);

@@ -29,14 +29,14 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
     : Unit(name, clock),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.vertex_lines)],
               .ports = 2,
-              .tags = {"vertex_tags", "line of vertices, valid", kVertexTagBits},
+              .tags = {"vertex_tags", "address of a vertex line, valid", kVertexTagBits},
               .data = {"vertex_data", "four vertices: x, y, depth, usable",
                        kVertexBits * kVerticesInLine, MemoryKind::kSram,
                        // v1's line replaces the one of v0 in the clock that reads v0.
                        ReadDuringWrite::kOldWord},
-              .fills = {"vertex_fills", "vertices on their way", p.fills},
-              .no_line = declare_stall("vertices", "a line of vertices has not come"),
-              .no_fill = declare_stall("fills", "no place for a line of vertices is free")}),
+              .fills = {"vertex_fills", "vertices in flight", p.fills},
+              .no_line = declare_stall("vertices", "a line of vertices has not arrived"),
+              .no_fill = declare_stall("fills", "no entry for a line of vertices is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
 
 // Stages 2 and 1.

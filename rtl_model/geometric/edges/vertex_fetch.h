@@ -35,7 +35,7 @@ class VertexFetch final : public Unit {
   void reset() override;
 
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
-  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+  Counter misses{"misses", "lines", "lookups that requested a line"};
 
   static Datasheet datasheet();
 

@@ -36,7 +36,7 @@ MemoryShape rom_shape(std::uint32_t lanes) {
           .kind = MemoryKind::kRom,
           .read_ports = lanes,
           .write_ports = 0,
-          .content = "area that a line cuts off, by slope and distance"};
+          .content = "area cut off by a line, by slope and distance"};
 }
 
 }  // namespace

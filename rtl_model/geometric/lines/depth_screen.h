@@ -39,7 +39,7 @@ class DepthScreen final : public Unit {
 
   Counter groups{"groups", "groups", "groups whose tiles were looked up"};
   Counter lookups{"lookups", "lines", "lines of coarse depth looked up"};
-  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+  Counter misses{"misses", "lines", "lookups that requested a line"};
   Counter both_missed{"both_missed", "groups", "groups of which two look-ups ordered a line"};
   Counter dropped{"dropped", "pixels", "candidates that were dropped"};
   Counter kept_at_bound{"kept_at_bound", "pixels",

@@ -45,7 +45,7 @@ class DepthTest final : public Unit {
 
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
-  Counter misses{"misses", "lines", "look-ups that ordered a line"};
+  Counter misses{"misses", "lines", "lookups that requested a line"};
   Histogram group_lines{"group_lines", "lines", "lines of depth of a group"};
 
   static Datasheet datasheet();

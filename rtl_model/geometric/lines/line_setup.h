@@ -38,11 +38,11 @@ class LineSetup final : public Unit {
   std::function<void(const spec::geometric::LineRecord&)> observer;
 
   Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
-  Counter degenerate_edges{"degenerate_edges", "edges", "kept edges with both ends in one place"};
-  Counter empty_edges{"empty_edges", "edges", "kept edges without a column of the frame"};
+  Counter degenerate_edges{"degenerate_edges", "edges", "kept edges whose two ends coincide"};
+  Counter empty_edges{"empty_edges", "edges", "kept edges that cover no column of the frame"};
   Counter lines{"lines", "lines", "lines set up"};
   Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
-  Counter divider_cycles{"divider_cycles", "clk", "cycles of dividers in use, all dividers"};
+  Counter divider_cycles{"divider_cycles", "clk", "occupied cycles, summed over dividers"};
 
   static Datasheet datasheet(const spec::geometric::Parameters& parameters);
 

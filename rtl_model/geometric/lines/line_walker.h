@@ -30,7 +30,7 @@ class LineWalker final : public Unit {
   void reset() override { line_.count = 0; }
 
   Counter columns{"columns", "columns", "columns walked"};
-  Counter groups{"groups", "groups", "cycles in which the walkers stepped"};
+  Counter groups{"groups", "groups", "cycles in which the walkers step"};
   Histogram line_columns{"line_columns", "columns", "columns of a line"};
 
   static Datasheet datasheet();

@@ -23,11 +23,11 @@ BlockFetch::BlockFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
       tag_port_(tags),
       data_port_(weights),
       weights_("resolve_weights", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
-               "weights on their way to the resolve"),
+               "weights in flight to the resolve"),
       colours_(colours),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.resolve_lines / 2)),
-      stalled_weights_(declare_stall("weights", "a block of weights has not come")),
-      stalled_colours_(declare_stall("colours", "no place for a line of colours is free")) {}
+      stalled_weights_(declare_stall("weights", "a block of weights has not arrived")),
+      stalled_colours_(declare_stall("colours", "no entry for a line of colours is free")) {}
 
 // Stages 2 and 1.
 Activity BlockFetch::look_up(Cycle cycle) {

@@ -40,10 +40,10 @@ class BlockFetch final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
-  Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
-  Counter lines_kept{"lines_kept", "lines", "lines of colours that were kept, and not read again"};
-  Counter lines_replaced{"lines_replaced", "lines", "lines read that took the place of a kept one"};
+  Counter weights_read{"weights_read", "lines", "weight blocks read from memory"};
+  Counter lines_read{"lines_read", "lines", "colour lines read, from the frame or its copy"};
+  Counter lines_kept{"lines_kept", "lines", "colour lines reused without a read"};
+  Counter lines_replaced{"lines_replaced", "lines", "colour lines read that replaced a kept one"};
 
   static Datasheet datasheet();
 

@@ -16,7 +16,7 @@ BlockScanner::BlockScanner(const sc_core::sc_module_name& name, ClockDomain& clo
                                .word_bits = kBlocksInWord,
                                .kind = MemoryKind::kFlops,
                                .latency = 0,
-                               .content = "touched words of the block row above"}) {}
+                               .content = "touched bits of the block row above"}) {}
 
 // Stage 2.
 void BlockScanner::load(Cycle cycle) {

@@ -76,7 +76,7 @@ class ColourStore final {
 
   explicit ColourStore(const spec::geometric::Parameters& p)
       : fills_("resolve_colours", p.resolve_lines / 2, 8 * spec::geometric::kLineBytes,
-               "colours on their way to the resolve") {
+               "colours in flight to the resolve") {
     if (p.colour_lines > 0) kept_ = std::make_unique<Kept>(p);
   }
 

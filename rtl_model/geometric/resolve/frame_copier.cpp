@@ -13,7 +13,7 @@ FrameCopier::FrameCopier(const sc_core::sc_module_name& name, ClockDomain& clock
       buffer_("copy_buffer", p.copy_lines, 8 * kLineBytes, "lines between read and write",
               MemoryBase::kind_for(std::uint64_t{8} * kLineBytes *
                                    static_cast<std::uint64_t>(p.copy_lines))),
-      stalled_memory_(declare_stall("memory", "the next line has not come")) {}
+      stalled_memory_(declare_stall("memory", "the next line has not arrived")) {}
 
 Activity FrameCopier::tick(Cycle cycle) {
   const Phase phase = phase_in.read(cycle);

@@ -35,7 +35,7 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
            .word_bits = 100,
            // A block is looked up beside the one that is written, which may be its neighbour.
            .read_during_write = ReadDuringWrite::kNewWord,
-           .content = "four pixels before they were blended, and whether",
+           .content = "four original pixels, and whether they were blended",
            .columns = static_cast<std::uint64_t>(p.line_pixels)}),
       linear_rom_("linear_rom",
                   {.words = spec::geometric::kLinear12FromSrgb.size(),
@@ -53,7 +53,7 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .write_ports = 0,
                    .content = "code of a linear light"},
                   spec::geometric::kSrgbFromLinear12),
-      stalled_colours_(declare_stall("colours", "a line of colours has not come")) {
+      stalled_colours_(declare_stall("colours", "a line of colours has not arrived")) {
   for (std::uint32_t lane = 0; lane < lanes_; ++lane)
     for (const char* const channel : {"r", "g", "b"}) {
       const std::string at = std::to_string(lane) + "." + channel;

@@ -44,8 +44,8 @@ class Resolver final : public Unit {
   std::function<void(const spec::geometric::BlockRecord&)> observer;
 
   Counter blocks{"blocks", "blocks", "touched blocks"};
-  Counter blended_pixels{"blended_pixels", "pixels", "pixels that were blended"};
-  Counter lines_written{"lines_written", "lines", "lines of colours written"};
+  Counter blended_pixels{"blended_pixels", "pixels", "blended pixels"};
+  Counter lines_written{"lines_written", "lines", "colour lines written"};
 
   static Datasheet datasheet();
 

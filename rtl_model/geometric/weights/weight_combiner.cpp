@@ -32,26 +32,26 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
                            .word_bits = spec::geometric::kBlocksInWord,
                            // Marks of one word follow each other, each on those before.
                            .read_during_write = ReadDuringWrite::kNewWord,
-                           .content = "a bit a block: a line has cut it"}),
+                           .content = "touched bits, one per block"}),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)],
               .ports = 1,
-              .tags = {"weight_tags", "x, y of a block, valid", WeightPlaces::kTagBits},
+              .tags = {"weight_tags", "block position x, y, valid", WeightPlaces::kTagBits},
               .data = {"weight_data", "sixteen pixels of four weights",
                        8 * spec::geometric::kLineBytes, MemoryKind::kSram,
                        // Groups of one block follow each other, each on the weights before.
                        ReadDuringWrite::kNewWord},
-              .fills = {"weight_fills", "weights on their way", p.fills},
-              .no_line = declare_stall("weights", "a block of weights has not come"),
-              .no_fill = declare_stall("fills", "no place for a block of weights is free")}),
+              .fills = {"weight_fills", "weights in flight", p.fills},
+              .no_line = declare_stall("weights", "a block of weights has not arrived"),
+              .no_fill = declare_stall("fills", "no entry for a block of weights is free")}),
       spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
                        .word_bits = WeightPlaces::kTagBits,
                        .kind = MemoryKind::kFlops,
                        .read_ports = static_cast<std::uint32_t>(p.fills),
                        .write_ports = 2,
                        .latency = 0,
-                       .content = "blocks on their way out, compared at once"}),
+                       .content = "blocks being written, compared in parallel"}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo), lookup_shape(p)),
-      stalled_spill_(declare_stall("spill", "a block is still on its way out")),
+      stalled_spill_(declare_stall("spill", "a block is still being written")),
       spilled_(static_cast<std::size_t>(p.fills), 0) {
   if (p.write_buffer > 0) buffer_ = std::make_unique<WriteBuffer>(p.write_buffer);
 }

@@ -54,10 +54,10 @@ class WeightCombiner final : public Unit {
   ReadPort<TouchedWord> touched_port() const { return touched_port_; }
 
   Counter lookups{"lookups", "blocks", "blocks looked up"};
-  Counter misses{"misses", "blocks", "look-ups of a block that is not in the cache"};
-  Counter blocks_read{"blocks_read", "blocks", "blocks that came back from memory"};
-  Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
-  Counter buffer_hits{"buffer_hits", "blocks", "blocks that came back from the write buffer"};
+  Counter misses{"misses", "blocks", "lookups of a block that is not in the cache"};
+  Counter blocks_read{"blocks_read", "blocks", "evicted blocks read back from memory"};
+  Counter blocks_written{"blocks_written", "blocks", "evicted blocks written to memory"};
+  Counter buffer_hits{"buffer_hits", "blocks", "evicted blocks returned by the write buffer"};
   Histogram buffered_blocks{"buffered_blocks", "blocks",
                             "in the write buffer of a frame when its edges are drawn"};
   Histogram edge_latency{"edge_latency", "clk",

@@ -59,9 +59,11 @@ class AreaUnit final : public Unit {
   void reset() override;
 
   Counter descriptors{"records", "records", "lines stored"};
-  Counter horizontal_edges{"horizontal_edges", "edges", "edges evaluated in horizontal records"};
-  Counter vertical_edges{"vertical_edges", "edges", "edges evaluated in vertical records"};
-  Counter bank_conflicts{"bank_conflicts", "clk", "lines waited for the write port of their bank"};
+  Counter horizontal_edges{"horizontal_edges", "edges",
+                           "edges evaluated for horizontal run descriptors"};
+  Counter vertical_edges{"vertical_edges", "edges", "edges evaluated for vertical run descriptors"};
+  Counter bank_conflicts{"bank_conflicts", "clk",
+                         "stores that waited for the write port of their bank"};
 
   // For checks: every line as it is stored.
   void observe_lines(std::function<void(const spec::morphological::LineDescriptor&)> observer) {

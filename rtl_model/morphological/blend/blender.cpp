@@ -49,7 +49,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                 .kind = MemoryKind::kRom,
                 .read_ports = static_cast<std::uint32_t>(lanes_),
                 .write_ports = 0,
-                .content = "2^20 over a sum of weights"},
+                .content = "2^20 / sum of blend weights"},
                mix_words()),
       linear_rom_("linear_rom",
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
@@ -248,7 +248,7 @@ void Blender::deliver(Cycle cycle, const FrameConfiguration& configuration, cons
   if (configuration.bypass != Bypass::kNone)
     for (std::size_t i = 0; i < out.count; ++i) out.pixel[i][3] |= 1;
   pixels += out.count;
-  beat_latency.descriptor(probe_.leaves(cycle));
+  beat_latency.record(probe_.leaves(cycle));
   if (beat.last) frames_done_out.push(cycle, {beat.slot});
 }
 

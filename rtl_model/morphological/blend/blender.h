@@ -47,8 +47,10 @@ class Blender final : public Unit {
   }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
-  Counter blended_pixels{"blended_pixels", "pixels", "pixels that took a weight of a neighbour"};
-  Counter bypassed_pixels{"bypassed_pixels", "pixels", "pixels that a rule left without a weight"};
+  Counter blended_pixels{"blended_pixels", "pixels",
+                         "blended pixels: those with a blend weight above 0"};
+  Counter bypassed_pixels{"bypassed_pixels", "pixels",
+                          "bypassed pixels: those whose blend weights a rule set to 0"};
   Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
 
   static Datasheet datasheet();

@@ -100,14 +100,15 @@ DescriptorStore::DescriptorStore(const sc_core::sc_module_name& name,
       row_("row",
            axis_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
                       std::max<std::size_t>(1, lanes_ >> pair_bits_),
-                      has_crossings(p) ? "a horizontal record a column, two rows"
-                                       : "a horizontal record a pair of columns, two rows"),
+                      has_crossings(p)
+                          ? "a horizontal record a column, two rows"
+                          : "horizontal run descriptors of two rows, one per pair of columns"),
            kRowMarkBits, descriptor_bits(p)),
       column_("column",
               axis_shape(columns << entry_bits_, static_cast<std::size_t>(p.line_pixels),
                          lanes_ << entry_bits_,
                          has_crossings(p) ? "two vertical records a column"
-                                          : "a vertical record a column"),
+                                          : "vertical run descriptors, one per column"),
               kColumnMarkBits, descriptor_bits(p)),
       counters_(counters) {}
 

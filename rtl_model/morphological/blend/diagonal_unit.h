@@ -46,7 +46,7 @@ class DiagonalUnit final : public Unit {
   void reset() override;
 
   Counter diagonal_pixels{"diagonal_pixels", "pixels",
-                          "pixels whose top edge took its weights from a diagonal"};
+                          "pixels whose top edge has the blend weights of a diagonal"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
 

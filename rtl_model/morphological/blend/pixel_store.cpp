@@ -38,8 +38,10 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                 ? kLines
                 : (search_range_rows_of(p) + 7 + kLines - 1) / kLines * kLines),
       stride_(stride_of(p.line_pixels, lanes_)),
-      memory_stall_(declare_stall("memory", "a line of memory has not come, or cannot be sent")),
-      rows_stall_(declare_stall("rows", "the place of a beat still holds a pixel to be blended")) {
+      memory_stall_(
+          declare_stall("memory", "a line from memory has not arrived, or a line cannot be sent")),
+      rows_stall_(
+          declare_stall("rows", "the entry of a beat still holds a pixel that has to be blended")) {
   const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
   const std::uint32_t banks = in_memory ? kStoreWords : 2;
   for (std::int32_t i = 0; i < kLines; ++i)
@@ -51,7 +53,7 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                     .read_during_write = ReadDuringWrite::kOldWord,
                     .banks = banks,
                     .span = banks,
-                    .content = "every fourth row of the pixels to be blended",
+                    .content = "every fourth row of the delayed pixels",
                     .columns = static_cast<std::uint64_t>(p.line_pixels)}));
   if (!in_memory) return;
   memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));

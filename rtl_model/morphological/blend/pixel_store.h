@@ -53,8 +53,8 @@ class PixelStore final : public Unit {
   // Bits of a request's tag.
   static constexpr std::uint32_t kTagBits = 19;
 
-  Counter lines_written{"lines_written", "lines", "lines of 64 bytes sent to memory"};
-  Counter lines_read{"lines_read", "lines", "lines of 64 bytes asked of memory"};
+  Counter lines_written{"lines_written", "lines", "lines of 64 bytes written to memory"};
+  Counter lines_read{"lines_read", "lines", "lines of 64 bytes requested from memory"};
   Counter memory_errors{"memory_errors", "lines", "memory responses with an error"};
 
   static Datasheet datasheet();

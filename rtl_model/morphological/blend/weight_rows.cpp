@@ -21,7 +21,7 @@ WeightRows::WeightRows(const sc_core::sc_module_name& name,
                                .read_during_write = ReadDuringWrite::kNewWord,
                                .banks = static_cast<std::uint32_t>(2 * lanes_),
                                .span = static_cast<std::uint32_t>(lanes_ + 1),
-                               .content = "weights of a column's edges in the row above",
+                               .content = "blend weights of the edges of the row above, by column",
                                .columns = static_cast<std::uint64_t>(p.line_pixels)}),
       words_(columns / lanes_) {}
 

@@ -78,7 +78,7 @@ WeightsRom::WeightsRom(int lanes)
                    .kind = MemoryKind::kRom,
                    .read_ports = static_cast<std::uint32_t>(4 * lanes),
                    .write_ports = 0,
-                   .content = "weight of a sum of learned words"},
+                   .content = "blend weight for a sum of learned words"},
                   spec::morphological::kWeightOfSum) {
   for (int port = 0; port < 4 * lanes; ++port) {
     const std::string user = "lane " + std::to_string(port / 4) +

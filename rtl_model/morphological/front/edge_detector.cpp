@@ -49,7 +49,7 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
              .span = lanes_ + 1,
-             .content = "a column of the last three rows of luma or colour, and marks",
+             .content = "last three rows of luma or colour and marks, one word per column",
              .columns = static_cast<std::uint64_t>(p.line_pixels)},
             lanes_) {
   if (p.edge_source == spec::morphological::EdgeSource::kLuma ||

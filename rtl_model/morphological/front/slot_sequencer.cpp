@@ -8,7 +8,7 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
     : Unit(name, clock),
       lanes_(built_lanes(p)),
       probe_(probe),
-      upstream_(declare_stall("upstream", "inside a frame, and no beat has come")) {
+      upstream_(declare_stall("upstream", "within a frame, no beat is available")) {
   if (p.text_guard) guard_slots_out.emplace("guard_slots_out");
 }
 

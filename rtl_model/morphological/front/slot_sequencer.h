@@ -47,9 +47,10 @@ class SlotSequencer final : public Unit {
 
   Counter frames{"frames", "frames", "frames delivered"};
   Counter beats{"beats", "beats", "beats taken"};
-  Counter framing_errors{"framing_errors", "beats", "beats whose marks are not as SIZE says"};
-  Counter frame_cycles{"frame_cycles", "clk",
-                       "from first beat in to last beat out of the last frame, both counted"};
+  Counter framing_errors{"framing_errors", "beats", "beats whose frame marks contradict SIZE"};
+  Counter frame_cycles{
+      "frame_cycles", "clk",
+      "cycles of the last frame, from its first input beat to its last output beat, both included"};
 
   static Datasheet datasheet();
 

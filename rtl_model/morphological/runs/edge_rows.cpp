@@ -35,7 +35,7 @@ MemoryShape shape(const spec::morphological::Parameters& p) {
   shape.read_during_write = ReadDuringWrite::kForbidden;
   shape.span = words;
   shape.columns = static_cast<std::uint64_t>(p.line_pixels);
-  shape.content = "left and top edges of every second row, 64 columns a word";
+  shape.content = "left and top edges of every second row, 64 columns per word";
   return shape;
 }
 

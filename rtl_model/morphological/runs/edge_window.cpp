@@ -62,7 +62,7 @@ MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) 
   // Readers know by the beat whether a column has moved on.
   shape.read_during_write = ReadDuringWrite::kOldWord;
   shape.banks = shape.span = columns;
-  shape.content = "left and top edges of window_rows + 1 rows, a word a column";
+  shape.content = "left and top edges of window_rows + 1 rows, one word per column";
   return shape;
 }
 

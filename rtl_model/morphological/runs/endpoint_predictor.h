@@ -43,11 +43,11 @@ class EndpointPredictor final : public Unit {
   }
   void reset() override;
 
-  Counter extended_runs{"extended_runs", "runs", "runs that keep at least one step"};
-  Counter steps{"steps", "steps", "extensions kept"};
+  Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
+  Counter steps{"steps", "steps", "extension steps kept"};
   Counter probes{"probes", "corners", "corners tested"};
-  Counter iterations{"iterations", "trials", "trials, of one side or both"};
-  Counter occupancy{"occupancy", "clk", "cycles in which a predictor held a record, summed"};
+  Counter iterations{"iterations", "trials", "trials, of one side or of both"};
+  Counter occupancy{"occupancy", "clk", "occupied cycles, summed over predictors"};
 
   static Datasheet datasheet();  // of a record that is not extended and has no class to be found
   // Of a record that is extended by one step of both sides.

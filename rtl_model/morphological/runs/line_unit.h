@@ -45,7 +45,7 @@ class LineUnit final : public Unit {
   Counter divides{"divides", "divisions", "divisions started"};
   // Against lanes x cycles: how full the dividers are.
   Counter occupancy{"occupancy", "clk",
-                    "cycles in which a divider could not start another, summed"};
+                    "cycles in which a divider could not start a division, summed over dividers"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
   static Datasheet learned_datasheet();  // of a record without a line

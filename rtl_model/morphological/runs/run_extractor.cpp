@@ -38,8 +38,8 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       descriptors_(
           declare_stall("records",
-                        "a record FIFO is full, or records of two slot rows before are not "
-                        "finished")),
+                        "a descriptor FIFO is full, or run descriptors of the second slot row "
+                        "before are not finished")),
       about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {
   if (p.diagonals) {
     columns_out.emplace("columns_out");

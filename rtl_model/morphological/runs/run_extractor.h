@@ -66,13 +66,15 @@ class RunExtractor final : public Unit {
 
   Counter horizontal_runs{"horizontal_runs", "runs", "maximal runs of top edges"};
   Counter vertical_runs{"vertical_runs", "runs", "maximal runs of left edges"};
-  Counter long_runs{"long_runs", "runs", "runs longer than the reach of their axis"};
-  Counter z_runs{"z_runs", "runs", "clean Z runs within the reach"};
-  Counter descriptors_sent{"records", "records", "records put into the FIFOs"};
-  Counter interlock_stalls{"interlock_stalls", "clk",
-                           "slot waited for records of two slot rows before"};
-  Counter descriptor_stalls{"descriptor_stalls", "clk",
-                            "slot waited for records, FIFO or interlock"};
+  Counter long_runs{"long_runs", "runs", "runs longer than the search range of their axis"};
+  Counter z_runs{"z_runs", "runs", "clean Z runs within the search range"};
+  Counter descriptors_sent{"records", "records", "run descriptors written to the FIFOs"};
+  Counter interlock_stalls{
+      "interlock_stalls", "clk",
+      "cycles in which a slot waited for run descriptors of the second slot row before it"};
+  Counter descriptor_stalls{
+      "descriptor_stalls", "clk",
+      "cycles in which a slot waited for run descriptors, by a full FIFO or the interlock"};
 
   std::function<void(const spec::morphological::RunDescriptor&)> observer;
 

@@ -15,50 +15,48 @@ namespace {
 
 constexpr std::array kGroups = {
     CoverageGroup{"geometric/class",
-                  "Edges by the rules (select, crease) and their class. In tests alone: invalid "
-                  "ones, which name what is not there, and all with off, which no run asks for."},
-    CoverageGroup{"geometric/turned-away",
-                  "Edges of two faces turned away by what cull makes of them."},
+                  "Edges by rules (select, crease) and class. Only in tests: invalid edges, which "
+                  "name a missing vertex or face, and all with off, which no run uses."},
+    CoverageGroup{"geometric/turned-away", "Edges of two back faces, by the effect of cull."},
     CoverageGroup{"geometric/line", "Lines by octant and length."},
-    CoverageGroup{"geometric/fate", "Kept edges by what becomes of them."},
-    CoverageGroup{"geometric/columns", "Lines by the ends that the frame cuts off."},
-    CoverageGroup{"geometric/rows", "Lines by how they cross the frame's rows."},
+    CoverageGroup{"geometric/fate", "Kept edges by outcome."},
+    CoverageGroup{"geometric/columns", "Lines by the ends clipped by the frame."},
+    CoverageGroup{"geometric/rows", "Lines by their position relative to the frame's rows."},
     CoverageGroup{"geometric/tie", "Lines exactly through a pixel's centre."},
-    CoverageGroup{"geometric/border", "Candidates whose neighbour is outside of the frame."},
+    CoverageGroup{"geometric/border", "Candidates whose neighbour is outside the frame."},
     CoverageGroup{"geometric/depth",
-                  "Tests against the farther pixel, by which that is and the outcome."},
-    CoverageGroup{
-        "geometric/crease",
-        "Candidates of creases that the other test passed: near enough, or too far before "
-        "what is compared."},
+                  "Depth tests against the farther pixel, by which pixel is farther and outcome."},
+    CoverageGroup{"geometric/crease",
+                  "Crease candidates that passed the other depth test: near enough, or too far "
+                  "before the compared depth."},
     CoverageGroup{"geometric/second",
-                  "Second candidates of a column: in the first one's block, or in another."},
-    CoverageGroup{"geometric/weight", "Weights by direction and what became of the one before."},
+                  "Second candidates of a column: in the block of the first, or in another."},
+    CoverageGroup{"geometric/weight",
+                  "Weights by direction and what happened to the previous weight."},
     CoverageGroup{"geometric/group", "Groups of columns by what ended them."},
-    CoverageGroup{"geometric/group-lines",
-                  "Groups by layout and the lines of depth that they look up."},
-    CoverageGroup{"geometric/fetch", "The golden model's look-ups by cache and outcome."},
+    CoverageGroup{"geometric/group-lines", "Groups by layout and number of depth lines looked up."},
+    CoverageGroup{"geometric/fetch", "Lookups of the golden model, by cache and outcome."},
     CoverageGroup{"geometric/coarse",
-                  "The golden model's coarse test of depth (coarse_lines): what it drops by "
-                  "direction, what is just not dropped, and which of two tiles hides less."},
-    CoverageGroup{"geometric/screen", "The hardware's, the same."},
-    CoverageGroup{"geometric/look-up", "The hardware's look-ups by cache and outcome."},
+                  "Coarse depth test of the golden model (coarse_lines): candidates dropped by "
+                  "direction, candidates just not dropped, and which of two tiles hides less."},
+    CoverageGroup{"geometric/screen", "The same for the hardware."},
+    CoverageGroup{"geometric/look-up", "Lookups of the hardware, by cache and outcome."},
     CoverageGroup{"geometric/pair-look-up",
-                  "The hardware's look-ups of pairs by array and outcome (records = split). In "
-                  "tests alone: a vertex out of range, and a number beyond the array."},
-    CoverageGroup{"geometric/block", "What the weights of a block met in their cache."},
+                  "Pair lookups of the hardware, by array and outcome (records = split). Only in "
+                  "tests: a vertex out of range, and a number beyond the array."},
+    CoverageGroup{"geometric/block", "Weight blocks by the state of their cache entry."},
     CoverageGroup{"geometric/write-buffer",
-                  "What blocks met in the write buffer, and how full it was at the end."},
-    CoverageGroup{"geometric/colour", "What lines of colours met among those that are kept."},
-    CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours that are taken."},
-    CoverageGroup{"geometric/original", "Where the colour before blending was taken from."},
-    CoverageGroup{"geometric/lines", "Blocks by layout and the lines of colours that they read."},
-    CoverageGroup{"geometric/stall", "Cycles that a unit lost, by cause."},
+                  "Blocks by the state of the write buffer, and its fill level at the end."},
+    CoverageGroup{"geometric/colour", "Colour lines by the state of the kept lines."},
+    CoverageGroup{"geometric/resolve", "Blended pixels by the neighbours used."},
+    CoverageGroup{"geometric/original", "Source of the colour before blending."},
+    CoverageGroup{"geometric/lines", "Blocks by layout and number of colour lines read."},
+    CoverageGroup{"geometric/stall", "Stall cycles of a unit, by cause."},
     CoverageGroup{"geometric/error",
-                  "Lines that memory answered with an error, by region (memory.error_address). "
-                  "Such a run fails, so that only tests ask for all of them."},
+                  "Lines with an error response, by region (memory.error_address). Such a run "
+                  "fails, so only tests cover all regions."},
     CoverageGroup{"geometric/rejection",
-                  "Starts that are rejected, in tests alone: a run is checked before it starts."}};
+                  "Rejected starts; only in tests, since a run is checked before it starts."}};
 
 // Causes that a unit can lose a clock to, as docs/reference/geometric/hardware.md has them. The
 // sequencer never stalls, and the port is the fabric's.

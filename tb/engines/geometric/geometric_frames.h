@@ -38,19 +38,18 @@ struct GeometricSceneParameters : CameraParameters {
 template <class Visitor>
 void describe(GeometricSceneParameters& p, Visitor& v) {
   v.text("source", p.source, "name | file or list",
-         "A scene made by formula (cube, wheelcover, wing, canopy, sphere, terrain, plane, quad, "
-         "tunnel, object, road, cylinders) or a mesh file (.obj, .gltf, .glb); a mesh a frame: a "
-         "list or a pattern.");
+         "A procedural scene (cube, wheelcover, wing, canopy, sphere, terrain, plane, quad, "
+         "tunnel, object, road, cylinders) or a mesh file (.obj, .gltf, .glb); for one mesh per "
+         "frame, a list or a pattern.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the frame.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of the frame.");
   describe(static_cast<CameraParameters&>(p), v);
-  v.boolean("crossings", p.crossings,
-            "Draw the lines, too, along which faces pass through each other.");
+  v.boolean("crossings", p.crossings, "Also draw the lines along which faces intersect.");
   v.choice("edge_order", p.edge_order, kEdgeOrderNames,
            "Order of the edge table: its own, or shuffled by run.seed.");
   v.integer("reference_samples", p.reference_samples, 1, 32, "",
-            "N of the N x N samples a pixel of the reference.");
-  v.integer("count", p.count, 1, 100, "frame", "How often the frame is smoothed.");
+            "N of the N x N samples per pixel of the reference image.");
+  v.integer("count", p.count, 1, 100, "frame", "Number of times the frame is smoothed.");
   v.is_work("source", GivenWork::kSource);
   for (const char* const name : {"width", "height", "reference_samples", "count"})
     v.is_work(name, GivenWork::kSetting);

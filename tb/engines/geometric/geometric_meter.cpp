@@ -121,9 +121,9 @@ void GeometricMeter::collect_traffic(Result& result) const {
        {Region::kDepth, Region::kCoarse, Region::kWeights, Region::kColour, Region::kCopy})
     frame_bytes += kLine * lines.read[index_of(region)];
   add(result, "edge_cycles", e.frame_sequencer.edge_cycles.value(), "clk",
-      "Of the last frame, from its start until every edge was drawn.");
+      "Cycles of the last frame, from its start until all edges are drawn.");
   add(result, "resolve_cycles", e.frame_sequencer.resolve_cycles.value(), "clk",
-      "Of the last frame: the rest.");
+      "Remaining cycles of the last frame.");
   for (std::size_t i = 0; i < spec::geometric::kRegionNames.size(); ++i)
     add(result, fmt::format("lines_read_{}", spec::geometric::kRegionNames[i]), lines.read[i],
         "line", fmt::format("Lines of the region {} read.", spec::geometric::kRegionNames[i]));
@@ -135,29 +135,29 @@ void GeometricMeter::collect_traffic(Result& result) const {
   add(result, "bytes_per_blended_pixel",
       ratio(e.memory_port.bytes_read.value() + e.memory_port.bytes_written.value(),
             work.blended_pixels),
-      kBytes, "All bytes read and enabled in writes over blended pixels.");
+      kBytes, "Bytes read and written, per blended pixel.");
   add(result, "frame_bytes_per_blended_pixel", ratio(frame_bytes, work.blended_pixels), kBytes,
-      "The same of depth, weights, colours and copy alone: without the mesh.");
+      "The same for depth, weights, colours and copy only, without the mesh.");
 }
 
 void GeometricMeter::collect_hits(Result& result) const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const spec::geometric::Work work = e.work();
   add(result, "columns_per_cycle", ratio(work.columns, work.groups), "column/clk",
-      "Columns over the cycles in which the walkers stepped.");
+      "Columns per cycle in which the walkers step.");
   const auto hits = [&](const char* name, const rtl::Counter& lookups, const rtl::Counter& misses,
                         const char* meaning) {
     add(result, name, 100 * ratio(lookups.value() - misses.value(), lookups.value()), "%", meaning);
   };
   hits("vertex_hits_percent", e.vertex_fetch.lookups, e.vertex_fetch.misses,
-       "Look-ups of lines of vertices that ordered none.");
+       "Lookups of vertex lines without a line request.");
   hits("depth_hits_percent", e.depth_test.lookups, e.depth_test.misses,
-       "Look-ups of lines of depth that ordered none.");
+       "Lookups of depth lines without a line request.");
   if (e.depth_screen)
     add(result, "dropped_early", e.depth_screen->dropped.value(), "pixel",
         "Candidates that the coarse test of depth dropped before they looked depth up.");
   hits("weight_hits_percent", e.weight_combiner.lookups, e.weight_combiner.misses,
-       "Look-ups of blocks of weights that were in the cache.");
+       "Lookups of weight blocks that hit the cache.");
   const auto kept = [&](const char* name, const rtl::Counter& found, const rtl::Counter& read,
                         const char* meaning) {
     add(result, name, 100 * ratio(found.value(), found.value() + read.value()), "%", meaning);
@@ -184,12 +184,12 @@ void GeometricMeter::collect(Result& result) const {
       p.pipelined ? kDividerCycles : static_cast<std::uint64_t>(p.dividers);
   add(result, "divider_occupancy_percent",
       100 * ratio(e.line_setup.divider_cycles.value(), dividers * edge_cycles_), "%",
-      "Cycles of dividers (of their stages, if pipelined) in use over those of the edges' phase; "
+      "Occupied cycles of the dividers (of their stages, if pipelined) / cycles of the edge phase; "
       "at 100 % they are the limit.");
   add(result, "port_occupancy_percent",
       100 * ratio(e.memory_port.reads.value() + e.memory_port.writes.value(),
                   edge_cycles_ + resolve_cycles_),
-      "%", "Requests to memory over cycles; at 100 % the port is the limit.");
+      "%", "Memory requests per cycle; at 100 % the port is the limit.");
   add_counters(result, e);
 }
 
@@ -228,14 +228,14 @@ void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
       "Edges over the cycles of the begin and of both phases, each as its slowest unit or the port "
       "needs for this work.";
 
-  add(result, "frame_cycles", frame_cycles, "clk", "Of the last frame, from its start to its end.");
+  add(result, "frame_cycles", frame_cycles, "clk", "Cycles of the last frame, from start to end.");
   add(result, "frame_cycles_bound", frame_cycles_bound(), "clk",
-      "The bound of the throughput, in cycles of a frame.");
+      "Bound of the throughput, as cycles per frame.");
   add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
-      "Frames like this a second at the stated clock.");
+      "Frames like this one per second, at the given clock frequency.");
   add(result, "clock_for_60_frames",
       frame_cycles ? WorkValue(clock_for_60(frame_cycles)) : WorkValue(), "MHz",
-      "Clock that 60 frames like this a second need.");
+      "Clock frequency for 60 frames like this one per second.");
 
   result.figures.clear();
   if (frame_cycles)

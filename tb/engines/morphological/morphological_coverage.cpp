@@ -12,45 +12,42 @@ using golden::morphological::CoverageBin;
 
 constexpr std::array kGroups = {
     CoverageGroup{"morphological/shape", "Runs by axis, shape and length."},
-    CoverageGroup{"morphological/long-end", "Ends of runs beyond the reach, by axis and crossing."},
+    CoverageGroup{"morphological/long-end",
+                  "Ends of runs longer than the search range, by axis and crossing."},
     CoverageGroup{"morphological/prediction",
                   "Predictions of a step by axis, side, outcome (late, early: by one pixel) and "
                   "length of the run."},
-    CoverageGroup{"morphological/prediction-end", "What stopped a side, by axis."},
+    CoverageGroup{"morphological/prediction-end", "Extension ends, by axis and reason."},
     CoverageGroup{"morphological/border", "Runs that touch the frame's border."},
     CoverageGroup{"morphological/decision", "Decisions of the blender."},
     CoverageGroup{"morphological/table",
-                  "Pixels by axis, the shape that their searches leave and the longer of their "
-                  "distances."},
+                  "Pixels by axis, shape within the searches and the longer of their distances."},
     CoverageGroup{"morphological/table-entry",
-                  "Distances 0, and beyond the last root but one, by tile of the table."},
-    CoverageGroup{"morphological/search", "Searches that end at their limit, and beyond it."},
-    CoverageGroup{
-        "morphological/endless",
-        "Runs that go on beyond the border with border = clamp, by axis and end; repeated: "
-        "runs of one pixel whose crossings the border repeats."},
-    CoverageGroup{
-        "morphological/corner",
-        "Pixels of runs with sharp corners, by axis and the nearer end; cut: the corners lie "
-        "beyond the limit of the searches."},
-    CoverageGroup{"morphological/diagonal", "Diagonals by direction and codes of their ends."},
-    CoverageGroup{"morphological/diagonal-ends", "Ends of diagonals that are open."},
+                  "Distances of 0, and above the second-last root, by tile of the table."},
+    CoverageGroup{"morphological/search", "Searches that end at their limit, and beyond."},
+    CoverageGroup{"morphological/endless",
+                  "Runs that continue outside the frame (border = clamp), by axis and end; "
+                  "repeated: runs of one pixel whose crossings the border repeats."},
+    CoverageGroup{"morphological/corner",
+                  "Pixels of runs with sharp corners, by axis and nearer end; cut: the corners are "
+                  "beyond the search limit."},
+    CoverageGroup{"morphological/diagonal", "Diagonals by direction and end codes."},
+    CoverageGroup{"morphological/diagonal-ends", "Open ends of diagonals."},
     CoverageGroup{"morphological/diagonal-length", "Diagonals by direction and pixels."},
     CoverageGroup{"morphological/diagonal-beyond",
-                  "Diagonals that follow repeated edges beyond the border, by direction."},
-    CoverageGroup{"morphological/threshold", "Edges by what decided their threshold."},
-    CoverageGroup{"morphological/left", "Pixels that keep their colour by the rule of marks."},
+                  "Diagonals that follow repeated edges outside the frame, by direction."},
+    CoverageGroup{"morphological/threshold", "Edges by the term that sets their threshold."},
+    CoverageGroup{"morphological/left", "Pixels bypassed by their marks (rule leave)."},
     CoverageGroup{"morphological/leave-border",
-                  "With leave = beside, pixels on the frame's border."},
-    CoverageGroup{"morphological/half", "Weights that a mark halves."},
+                  "Pixels on the frame's border, with leave = beside."},
+    CoverageGroup{"morphological/half", "Blend weights halved by a mark."},
     CoverageGroup{"morphological/class",
-                  "Lines with learned weights, by axis, end and class of what lies beside it."},
-    CoverageGroup{
-        "morphological/text",
-        "With text_guard, pixels by what guards them or what alone is missing for it; "
-        "just: by the number of strokes that decides; kept: guarded ones that had a "
-        "weight. In tests alone: those that leave keeps, too, since what geometry marks has "
-        "a colour of its own."},
+                  "Lines with learned weights, by axis, end and class of its surroundings."},
+    CoverageGroup{"morphological/text",
+                  "Pixels with text_guard: by the strokes that guard them, or the only condition "
+                  "missing; just: by the number of strokes that decides; kept: guarded pixels that "
+                  "had a blend weight. Only in tests: pixels that leave also bypasses, since "
+                  "pixels marked by the geometric engine have their own colour."},
     CoverageGroup{"morphological/text-border", "Guarded pixels on the frame's border."}};
 
 }  // namespace

@@ -35,26 +35,24 @@ template <class Visitor>
 void describe(FrameParameters& p, Visitor& v) {
   v.text("source", p.source, "name | file or list",
          "An image file, or a scene (plane, quad, tunnel, object, road, cylinders, or a mesh file) "
-         "rendered without anti-aliasing; one a frame: a list or a pattern, as of all files here.");
+         "rendered without anti-aliasing; for one per frame, a list or a pattern. So for all files "
+         "here.");
   v.text("depth", p.depth, "file or list",
-         "Depth of an image: 24 bits in R, G, B, 16 bits of grey, or one float channel; grows "
-         "towards the "
-         "eye.");
+         "Depth buffer of an image: 24 bits in R, G, B, 16 bits of grey, or one float channel; "
+         "larger is nearer.");
   v.text("reference", p.reference, "file or list",
-         "Anti-aliased picture that an image is compared with.");
+         "Reference image: the anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file or list",
-         "Pixels to leave as they are, where red is 128 or more: bit 0 of their alpha becomes 0, "
-         "that of "
-         "all others 1, and the rule leave becomes masked.");
-  v.text(
-      "weights", p.weights, "file",
-      "Learned weights in place of those that the engine was built with, as `deburr train` writes "
-      "them; they are loaded through its registers.");
+         "Mask: pixels with red of 128 or more are bypassed. Bit 0 of their alpha becomes 0, of "
+         "all other pixels 1, and the rule leave becomes masked.");
+  v.text("weights", p.weights, "file",
+         "Learned weights, as written by `deburr train`, that replace the built-in ones; they are "
+         "loaded through the registers.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of a rendered scene.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of a rendered scene.");
   v.integer("reference_samples", p.reference_samples, 0, 32, "",
-            "N of the N x N samples a pixel of a scene's reference; 0: no reference.");
-  v.integer("count", p.count, 1, 1000, "frame", "How often the frame is sent.");
+            "N of the N x N samples per pixel of a scene's reference image; 0: no reference.");
+  v.integer("count", p.count, 1, 1000, "frame", "Number of times the frame is sent.");
   v.is_work("source", GivenWork::kSource);
   for (const char* const name : {"width", "height", "count", "reference_samples"})
     v.is_work(name, GivenWork::kSetting);

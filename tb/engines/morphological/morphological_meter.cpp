@@ -37,15 +37,15 @@ void MorphologicalMeter::collect(Result& result) const {
   add(result, "edge_pixels_percent", 100 * ratio(work.edge_pixels, work.pixels), "%",
       "Pixels with a left or a top edge.");
   add(result, "blended_pixels_percent", 100 * ratio(work.blended_pixels, work.pixels), "%",
-      "Pixels that took a weight of a neighbour.");
+      "Blended pixels: those with a blend weight above 0.");
   for (const auto* divider : {&engine.line_unit_h, &engine.line_unit_v}) {
     const double cycles =
         number(divider->busy_cycles() + divider->idle_cycles() + divider->stalled_cycles());
     add(result, name_within(engine, *divider) + "_occupancy_percent",
         100 * ratio(number(divider->occupancy.value()), lanes() * cycles), "%",
-        "Occupancy: divisions x divider.interval over cycles x lanes, the cycles in which a "
-        "divider could not start another; at 100 % it is the limit. The unit is busy for longer, "
-        "while a division is under way.");
+        "Occupancy: divisions x divider.interval / (cycles x lanes). These are the cycles in which "
+        "a divider cannot start another division; at 100 % it is the limit. The unit is busy for "
+        "longer, while a division is in progress.");
   }
   add_counters(result, engine);
 }
@@ -87,30 +87,29 @@ void MorphologicalMeter::collect_cycles(Result& result, double clock_mhz) const 
   const std::uint64_t frame_cycles = engine_.sequencer.frame_cycles.value();
   const std::uint64_t by_formula = frame_cycles_by_formula(p, width, height);
   add(result, "frame_cycles", frame_cycles, "clk",
-      "Of the last frame, from its first input beat to its last output beat.");
-  add(result, "frame_cycles_by_formula", by_formula, "clk", "The same if nothing stalls.");
+      "Cycles of the last frame, from its first input beat to its last output beat.");
+  add(result, "frame_cycles_by_formula", by_formula, "clk", "The same without stalls, by formula.");
   add(result, "latency_by_formula", latency_by_formula(p, width), "clk",
-      "From a pixel going in to it coming out if nothing stalls: (R + 5) rows and the cycles of "
-      "the pipe.");
+      "Latency of a pixel without stalls: (R + 5) rows and the pipeline stages.");
   add(result, "input_pixels_per_cycle",
       progress_.source->done()
           ? ratio(number(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height)),
                   number(progress_.input_cycles()))
           : 0.0,
-      "pixel/clk", "Pixels of the last frame over cycles from its first to its last input beat.");
+      "pixel/clk", "Pixels of the last frame per cycle, from its first to its last input beat.");
   add(result, "memory_bytes_per_pixel",
       ratio(number(result.bytes_read + result.bytes_written), number(progress_.delivered)),
-      "byte/pixel", "Written and read again; 0 with line buffers.");
+      "byte/pixel", "Pixel bytes written and read again; 0 with line buffers.");
   add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
-      "Frames of this size a second at the stated clock.");
+      "Frames of this size per second at the given clock frequency.");
   // As slow for its cycles as this frame was, if that was slower than the formula; unknown before
   // the first frame is through.
   const double slowness = std::max(1.0, ratio(number(frame_cycles), number(by_formula)));
   const double hd = slowness * clock_for_60(frame_cycles_by_formula(p, 1920, 1080));
   add(result, "clock_for_1080p60", frame_cycles ? WorkValue(hd) : WorkValue(), "MHz",
-      "Clock that 60 frames of 1920 x 1080 need, stalls of this run in proportion.");
+      "Clock frequency for 60 frames of 1920 x 1080 per second, with stalls scaled from this run.");
   add(result, "pixel_clock_of_1080p60", kPixelClock1080p60, "MHz",
-      "Of the standard, blanking included.");
+      "Pixel clock of 1080p60, including blanking.");
   add(result, "fits_1080p60", frame_cycles ? WorkValue(hd <= kPixelClock1080p60) : WorkValue(), "",
       "Whether clock_for_1080p60 is at most the pixel clock of 1080p60, 148.5 MHz.");
 }

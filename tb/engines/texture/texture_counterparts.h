@@ -28,8 +28,8 @@ struct CounterpartParameters {
 template <class Visitor>
 void describe(CounterpartParameters& p, Visitor& v) {
   v.text("hdl", p.units, "list of address, cache, filter, all",
-         "Units that run as SystemVerilog, verilated, where the build has them "
-         "(docs/explanation/hdl.md); must change nothing. Empty: none.");
+         "Units that run as SystemVerilog (through Verilator), if the build has them "
+         "(docs/explanation/hdl.md); must not change results. Empty: none.");
 }
 
 // A verilated model of a unit.

@@ -16,16 +16,14 @@ constexpr std::array kGroups = {
                   "layout of the texels."},
     CoverageGroup{"texture/format", "Fragments by the format of the texels."},
     CoverageGroup{"texture/magnified", "Magnified fragments, by the filter for them."},
-    CoverageGroup{"texture/output",
-                  "Fragments of sRGB textures, by what the unit gives out for them."},
+    CoverageGroup{"texture/output", "Fragments of sRGB textures, by output format."},
     CoverageGroup{"texture/samples", "Fragments by their number of samples N."},
     CoverageGroup{"texture/major",
-                  "Fragments by the number of directions tried and the one that is longest."},
+                  "Fragments by number of candidate directions, and the longest of them."},
     CoverageGroup{"texture/tent",
-                  "Fragments with the kernel tent: of fewer than four samples, which it leaves as "
-                  "they are, and of more."},
-    CoverageGroup{"texture/cache",
-                  "Look-ups by outcome, and cycles in which the miss queue was full."}};
+                  "Fragments with the kernel tent: narrow with fewer than four samples, which it "
+                  "does not change, and wide."},
+    CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."}};
 
 constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
 constexpr int kMaxSamples = 16;

@@ -20,20 +20,20 @@ void TextureMeter::collect(Result& result) const {
     texel_bytes =
         spec::texture::kFormatBytes[static_cast<std::size_t>(textures_.descriptors()[0].format)];
   add(result, "fragments", fragments, "fragment", "Colours delivered.");
-  add(result, "bilinears", bilinears, "request", "Bilinear requests, one a sample and level.");
+  add(result, "bilinears", bilinears, "request", "Bilinear requests, one per sample and level.");
   add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",
-      "Cost of a fragment in cycles while nothing stalls.");
+      "Cycles per fragment without stalls.");
   add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
-      "Line fills over texels asked for.");
+      "Line fills per requested texel.");
   const double texel_hits = 100 - 100 * ratio(number(lines), 4 * number(bilinears));
   add(result, "texel_hits_percent", texel_hits, "%",
-      "Texels asked for that ordered no line: 100 - 100 x misses_per_texel.");
+      "Requested texels that caused no line fill: 100 - 100 x misses_per_texel.");
   if (looks_up()) collect_lookups(result, texel_hits);
   add(result, "texels_fetched_per_fragment",
       ratio(number(lines) * unit_.parameters().cache_line_bytes / texel_bytes, number(fragments)),
-      "texel/fragment", "Texels of all lines fetched over fragments.");
+      "texel/fragment", "Texels of all fetched lines per fragment.");
   add(result, "fifo_depth", static_cast<std::uint64_t>(unit_.parameters().cache_fifo_depth),
-      "request", "Entries of the latency FIFO, as ordered or as the latency of memory asks for.");
+      "request", "Entries of the latency FIFO, as configured or derived from the memory latency.");
   add_counters(result, unit_);
 }
 
@@ -44,11 +44,11 @@ void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
     return 100 * ratio(count.value(), lookups);
   };
   add(result, "lookup_hits_percent", of_lookups(tags.hits), "%",
-      "Look-ups of tags, one a line of a request, that found their line in the data banks.");
+      "Tag lookups, one per line of a request, that found their line in the data banks.");
   add(result, "lookup_merged_percent", of_lookups(tags.merged), "%",
-      "Look-ups that found the fill of their line under way: they order none, and wait for it.");
+      "Lookups that found a fill of their line in flight; they wait for it without a request.");
   add(result, "lookup_misses_percent", of_lookups(tags.misses), "%",
-      "Look-ups that ordered a fill.");
+      "Lookups that requested a fill.");
   result.terminal.push_back(
       {"hits",
        fmt::format("{:.2f} % of look-ups, {:.2f} % more merged with a fill under way; {:.2f} "

@@ -42,18 +42,18 @@ struct SceneParameters : CameraParameters {
 template <class Visitor>
 void describe(SceneParameters& p, Visitor& v) {
   v.text("source", p.source, "name | file or list",
-         "A scene made by formula (plane, quad, tunnel, object, road, cylinders) or a mesh file "
-         "(.obj, .gltf, .glb); a mesh a frame: a list or a pattern.");
+         "A procedural scene (plane, quad, tunnel, object, road, cylinders) or a mesh file (.obj, "
+         ".gltf, .glb); for one mesh per frame, a list or a pattern.");
   v.text("texture", p.texture, "name | file",
-         "Texture instead of the scene's own: checker, road, brick, stones, zone_plate, gradient, "
-         "noise, or an image file.");
+         "Texture that replaces the scene's own: checker, road, brick, stones, zone_plate, "
+         "gradient, noise, or an image file.");
   v.integer("texture_size", p.texture_size, 1, spec::texture::kMaxTextureSize, "texel",
-            "Side of a texture made by formula.");
+            "Width and height of a procedural texture.");
   v.integer("width", p.width, 1, 8192, "pixel", "Width of the picture.");
   v.integer("height", p.height, 1, 8192, "pixel", "Height of the picture.");
-  v.choice("traversal", p.traversal, kTraversalNames, "Order of a triangle's quads.");
+  v.choice("traversal", p.traversal, kTraversalNames, "Order of the quads of a triangle.");
   v.choice("visibility", p.visibility, kVisibilityNames,
-           "visible: one fragment a pixel, as after a depth pre-pass; overdraw: all of them.");
+           "visible: one fragment per pixel, as after a depth pre-pass; overdraw: all fragments.");
   for (const char* const name : {"source", "texture"}) v.is_work(name, GivenWork::kSource);
   for (const char* const name : {"width", "height", "texture_size"})
     v.is_work(name, GivenWork::kSetting);
@@ -79,16 +79,18 @@ struct SamplerParameters {
 
 template <class Visitor>
 void describe(SamplerParameters& p, Visitor& v) {
-  v.choice("mode", p.mode, spec::texture::kMinFilterNames,
-           "Minification filter, one of GL's six modes; trilinear: linear_mipmap_linear.");
+  v.choice(
+      "mode", p.mode, spec::texture::kMinFilterNames,
+      "Minification filter, one of the six modes of OpenGL; trilinear is linear_mipmap_linear.");
   v.choice("magnification", p.magnification, spec::texture::kMagFilterNames,
            "Magnification filter.");
   v.choice("anisotropy", p.anisotropy, kAnisotropyNames, "Largest number of samples, N_max.");
-  v.choice("wrap", p.wrap, kWrapChoiceNames, "Wrap mode of both axes; scene: what the mesh says.");
+  v.choice("wrap", p.wrap, kWrapChoiceNames,
+           "Wrap mode of both axes; scene: as the mesh specifies.");
   v.choice("format", p.format, spec::texture::kFormatNames, "Texel format in memory.");
   v.choice("layout", p.layout, spec::texture::kLayoutNames, "Order of the texels in memory.");
   v.integer("levels", p.levels, 1, spec::texture::kMaxLevels, "level",
-            "Mip levels kept, at most those that the size has.");
+            "Number of mip levels, limited by the size of the texture.");
   v.integer("lod_bias", p.lod_bias, -32768, 32767, "1/256 level", "Added to the level of detail.");
   v.integer("min_lod", p.min_lod, 0, 65535, "1/256 level", "Lower limit of the level of detail.");
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");

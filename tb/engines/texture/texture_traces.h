@@ -16,7 +16,7 @@ struct LookupTrace {
 template <class Visitor>
 void describe(LookupTrace& p, Visitor& v) {
   v.boolean("line_trace_lookups", p.lookups,
-            "lines.trace has every look-up of the texture cache too, and what came of it.");
+            "lines.trace also lists every lookup of the texture cache and its outcome.");
 }
 
 struct FragmentTraceOut {
@@ -26,7 +26,7 @@ struct FragmentTraceOut {
 template <class Visitor>
 void describe(FragmentTraceOut& p, Visitor& v) {
   v.choice("fragment_trace", p.fragments, traces::kTraceChoiceNames,
-           "Leaves fragments.trace: every quad that the texture unit is given.");
+           "Writes fragments.trace: every quad sent to the texture unit.");
 }
 
 struct FragmentTraceIn {
@@ -36,8 +36,8 @@ struct FragmentTraceIn {
 template <class Visitor>
 void describe(FragmentTraceIn& p, Visitor& v) {
   v.text("fragments", p.file, "file",
-         "Fragments of another rasteriser instead of the scene's own, which then gives the "
-         "textures alone (docs/reference/traces.md).");
+         "Fragment trace of another rasteriser, instead of the scene's own fragments; the scene "
+         "then only provides the textures (docs/reference/traces.md).");
 }
 
 }  // namespace deburr::tb

@@ -354,7 +354,7 @@ TEST(ImageFormats, EveryFormatIsCoveredHereOrOnThePage) {
   const std::string covered =
       " openexr tiff bmp dds dpx gif heif ico iff jpeg2000 png psd rla sgi softimage targa webp"
       " jpeg hdr pnm fits ";
-  // Without alpha but for films, which keep it apart: docs/reference/scenes.md.
+  // Without alpha, or films, which keep it apart.
   const std::string others = " cineon dicom ffmpeg null openvdb raw zfile ";
   std::istringstream list(OIIO::get_string_attribute("input_format_list"));
   for (std::string format; std::getline(list, format, ',');)

@@ -18,12 +18,11 @@ FrameBuffer::FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& 
       colours_in_(ends.colours("colours_in")),
       pixels_out_(ends.rows ? ends.rows("pixels_out") : nullptr),
       when_released_(pixels_out_ && !ends.mesh.empty()),
-      waiting_(
-          declare_stall(std::string(ends.drawer).c_str(), "the next row still lacks fragments")),
+      waiting_(declare_stall(std::string(ends.drawer).c_str(), "the next row is incomplete")),
       sky_(tb::FrameAssembler(scene.stream(), scene.scene()).frame()) {
   if (when_released_)
     held_ = declare_stall(std::string(ends.mesh).c_str(),
-                          fmt::format("the {} engine is at the frame", ends.mesh).c_str());
+                          fmt::format("the {} engine is processing the frame", ends.mesh).c_str());
   reset();
 }
 

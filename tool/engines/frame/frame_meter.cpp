@@ -25,8 +25,7 @@ void FrameMeter::collect(tb::Result& result) const {
   add(result, "frame_buffer_bytes_written", parts_.buffer.bytes_written);
   add(result, "frame_buffer_bytes_read", parts_.buffer.bytes_read);
   add(result, "frame_buffer_bytes", std::uint64_t{FrameBuffer::kPixelBytes} * pixels(), "byte",
-      "Size of the frame buffer, which is not among the memories: what is drawn into it and read "
-      "of it is not modelled in time.");
+      "Size of the frame buffer. It is not one of the memories, and its accesses are not timed.");
 }
 
 void FrameMeter::show_parts(tb::Observer& observer) const {
@@ -83,20 +82,20 @@ void FrameMeter::collect_cycles(tb::Result& result, const Cycles& c) const {
       fmt::format("From the first {} to the last colour.", words_.from));
   if (parts_.mesh)
     add(result, "drawing_cycles", c.drawing, "clk",
-        fmt::format("From the last colour in the frame buffer until the {} is done.",
+        fmt::format("Cycles from the last colour in the frame buffer until the {} is done.",
                     parts_.mesh_title));
   if (parts_.rows) {
     add(result, "smoothing_cycles", c.smoothing, "clk",
-        "From the first row out of the frame buffer to the last pixel.");
+        "Cycles from the first row read from the frame buffer to the last pixel.");
     add(result, "smoothing_cycles_by_formula", c.smoothing_bound, "clk",
-        fmt::format("Of the {} alone, if nothing stalls.", parts_.rows_title));
+        fmt::format("Cycles of the {} without stalls.", parts_.rows_title));
   }
   if (!parts_.mesh)
     add(result, "overlapped_cycles", c.together() - std::min(c.together(), result.cycles), "clk",
-        "Cycles in which both engines were at this frame.");
+        "Cycles in which both engines processed this frame.");
   add(result, parts_.mesh ? "engine_cycles_bound" : "slower_engine_cycles", bound(c), "clk",
-      parts_.mesh ? "Of all engines, one after the other, if nothing stalls."
-                  : fmt::format("Of the slower engine alone if nothing stalls: {}, or "
+      parts_.mesh ? "Cycles of all engines in sequence, without stalls."
+                  : fmt::format("Cycles of the slower engine without stalls: {}, or "
                                 "smoothing_cycles_by_formula.",
                                 words_.bound_meaning));
 }

@@ -29,7 +29,7 @@ struct FrameChoice {
 template <class Visitor>
 void describe(FrameChoice& p, Visitor& v) {
   v.choice("smoothing", p.smoothing, p.names,
-           "What smooths the frame that was drawn: an engine, or one after another.");
+           "Engines that smooth the drawn frame: one, or two in sequence.");
 }
 
 std::vector<std::unique_ptr<CompositionRole>> roles_of_engines() {

@@ -129,7 +129,7 @@ std::vector<Shorthand> edge_shorthands() {
       {"--preset", "geometric.preset",
        preset_help(spec::geometric::kPresetNames, spec::geometric::Configuration().preset)},
       {"--layout", "geometric.layout",
-       "Order of pixels in colour and depth buffer: tiled (default) or raster"},
+       "Pixel order of the colour and depth buffers: tiled (default) or raster"},
       {"--walkers", "geometric.walkers", "Pixels of a line walked a clock: 1, 2 or 4 (default)"}};
 }
 

@@ -28,7 +28,7 @@ struct DrawnEdges {
 template <class Visitor>
 void describe(DrawnEdges& p, Visitor& v) {
   v.boolean("crossings", p.crossings,
-            "Draw the lines, too, along which faces of the mesh pass through each other.");
+            "Also draw the lines along which faces of the mesh intersect.");
 }
 
 std::vector<tb::geometric::Frame> frames_of(const tb::DrawnScene& scene, Image image,

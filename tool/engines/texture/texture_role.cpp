@@ -67,7 +67,7 @@ class TextureStage final : public DrawingStage {
   }
   void collect(tb::Result& result) const override {
     const rtl::Histogram& latency = environment_.unit().fragment_latency;
-    constexpr const char* kMeaning = "Of the texture unit.";
+    constexpr const char* kMeaning = "Latency of the texture unit.";
     result.work.push_back(
         {"texture_fragment_latency_p50", latency.percentile(50), "clk", kMeaning});
     result.work.push_back({"texture_fragment_latency_max", latency.max(), "clk", kMeaning});

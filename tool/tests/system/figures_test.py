@@ -99,9 +99,9 @@ class Texture(Figures):
         self.assert_row("Texels without a line fill", work["texel_hits_percent"], "%")
         self.assert_row("Look-ups that hit", work["lookup_hits_percent"], "%")
         self.assert_row("Look-ups of a line under way", work["lookup_merged_percent"], "%")
-        self.assert_row("Mean rate of reads at clock_mhz, over the whole run; 10^9 bytes a second",
+        self.assert_row("Mean read rate at clock_mhz, over the whole run; 10^9 bytes per second",
                         r["memory"]["read_gb_per_s"], "GB/s")
-        self.assert_row("Mean rate of writes at clock_mhz, over the whole run; 10^9 bytes a second", 0, "GB/s")
+        self.assert_row("Mean write rate at clock_mhz, over the whole run; 10^9 bytes per second", 0, "GB/s")
         self.assertIn(f'<td class="muted">byte/clk, {64 * 166.67 / 1000:.4g} GB/s</td>', self.page)
         self.assertEqual(work["texels_fetched_per_fragment"], lines * 16 / 1024)
         self.assertEqual(r["memory"]["bytes_read"], 64 * lines)

@@ -562,7 +562,7 @@ TEST(NamedErrors, OfParameters) {
             "morphological.window_rows = 65: must be an even number of rows");
   EXPECT_EQ(error_of([](P& p) { p.window_rows = 18; }),
             "morphological.steps = 8 with window_rows = 18: must be at most window_rows / 2 - 2, "
-            "beyond which no row is in the window; make it at most 7, or give window_rows of at "
+            "the limit of the edge window; make it at most 7, or give window_rows of at "
             "least 20");
   EXPECT_EQ(error_of([](P& p) {
               p.window_rows = 18;
@@ -597,8 +597,8 @@ TEST(NamedErrors, OfParameters) {
   EXPECT_EQ(
       error_of(too_far),
       "morphological.diagonal_steps = 10 with window_rows = 20: must be at most window_rows / "
-      "2 - 1 with diagonals, beyond which no row is in the window; make it at most 9, or "
-      "give window_rows of at least 22");
+      "2 - 1 with diagonals, the limit of the edge window; make it at most 9, or give "
+      "window_rows of at least 22");
   EXPECT_EQ(error_of([](P& p) {
               p.steps = 4;
               p.diagonals = true;

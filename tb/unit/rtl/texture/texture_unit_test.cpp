@@ -401,11 +401,11 @@ TEST(TextureRtlUnit, RejectsImpossibleParameters) {
                       p.cache_bytes = 256;
                       p.cache_ways = 8;
                     }),
-              HasSubstr("must hold one set"));
+              HasSubstr("must hold at least one set"));
   EXPECT_THAT(error("g", [](auto& p) { p.cache_ways = 16; }),
               HasSubstr("cache.ways = 16 is outside 1..8"));
   EXPECT_THAT(error("h", [](auto& p) { p.cache_bytes = 65536; }), HasSubstr("at most 32768"));
-  EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 places"));
+  EXPECT_THAT(error("i", [](auto& p) { p.cache_fifo_depth = 1; }), HasSubstr("at least 2 entries"));
   EXPECT_EQ(error("j", [](auto& p) { p.cache_fifo_depth = 0; }), "none");
   EXPECT_THAT(error("k", [](auto& p) { p.axis_cycles = 3; }), HasSubstr("power of two"));
   EXPECT_THAT(error("l",

@@ -13,28 +13,29 @@ namespace {
 using Parameters = spec::texture::Parameters;
 
 BuildChecks<Parameters, rtl::texture::TextureUnit> checks() {
-  return {"texture",
-          {
-              {{{"cache.bytes", "3000"}}, "cache.bytes", "power of two"},
-              {{{"cache.line_bytes", "48"}}, "cache.line_bytes", "power of two"},
-              {{{"cache.ways", "3"}}, "cache.ways", "power of two"},
-              {{{"cache.bytes", "256"}, {"cache.ways", "8"}},
-               "cache.bytes",
-               "with cache.line_bytes = 64, cache.ways = 8: must hold one set at least, a line for "
-               "each way; make it at least 512"},
-              {{{"cache.fifo_depth", "1"}}, "cache.fifo_depth", "at least 2 places"},
-              {{{"axes", "eight"}, {"axis_cycles", "3"}}, "axis_cycles", "power of two"},
-              {{{"axis_cycles", "4"}},
-               "axis_cycles",
-               "with axes = four: must be at most half of the directions"},
-              {{{"preset", "paper"}, {"axis_cycles", "2"}},
-               "axis_cycles",
-               "make it at most 1 for 2 directions"},
-              {{{"cache.bytes", "65536"}}, "cache.bytes", "make it at most 32768, or lines longer"},
-              {{{"cache.bytes", "32768"}, {"cache.line_bytes", "32"}, {"cache.ways", "8"}},
-               "cache.bytes",
-               "at most 512 lines"},
-          }};
+  return {
+      "texture",
+      {
+          {{{"cache.bytes", "3000"}}, "cache.bytes", "power of two"},
+          {{{"cache.line_bytes", "48"}}, "cache.line_bytes", "power of two"},
+          {{{"cache.ways", "3"}}, "cache.ways", "power of two"},
+          {{{"cache.bytes", "256"}, {"cache.ways", "8"}},
+           "cache.bytes",
+           "with cache.line_bytes = 64, cache.ways = 8: must hold at least one set, with a line "
+           "for each way; make it at least 512"},
+          {{{"cache.fifo_depth", "1"}}, "cache.fifo_depth", "at least 2 entries"},
+          {{{"axes", "eight"}, {"axis_cycles", "3"}}, "axis_cycles", "power of two"},
+          {{{"axis_cycles", "4"}},
+           "axis_cycles",
+           "with axes = four: must be at most half of the directions"},
+          {{{"preset", "paper"}, {"axis_cycles", "2"}},
+           "axis_cycles",
+           "make it at most 1 for 2 directions"},
+          {{{"cache.bytes", "65536"}}, "cache.bytes", "make it at most 32768, or lines longer"},
+          {{{"cache.bytes", "32768"}, {"cache.line_bytes", "32"}, {"cache.ways", "8"}},
+           "cache.bytes",
+           "at most 512 lines"},
+      }};
 }
 
 TEST(TextureCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
