@@ -61,7 +61,7 @@ struct Disturbance {
   BenchOptions bench = {};
   std::uint32_t scatter = 0;  // answers of memory come up to so many cycles later
   // The driver writes the rules after each reset to an engine that is built with others
-  // (other_rules.h); else they are its reset values.
+  // (other_configuration.h); else they are its reset values.
   bool program = false;
   sc_core::sc_time period = unit_bench::period();
 };

@@ -33,7 +33,7 @@ using golden::ideal::SmaaEdges;
 using golden::ideal::SmaaPixelWeights;
 using golden::ideal::SmaaSettings;
 using golden::ideal::SmaaWeights;
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::MorphologicalGolden;
 using spec::morphological::AreaValues;
 using spec::morphological::Border;
@@ -218,7 +218,7 @@ struct Differences {
   int edges = 0, over_1 = 0, over_3 = 0;
   int sums_over_3 = 0;  // of the areas of two diagonals
   double largest = 0;
-  void add(const SmaaWeights& published, EdgeShares found, bool two_diagonals = false) {
+  void add(const SmaaWeights& published, EdgeWeights found, bool two_diagonals = false) {
     ++edges;
     const double off = 255 * std::max(std::abs(published.first - found.first / 256.0),
                                       std::abs(published.second - found.second / 256.0));
@@ -253,8 +253,8 @@ Differences differences(Quality quality, const std::vector<Image>& frames,
       for (int x = 0; x < image.width; ++x) {
         if (!edges.top(x, y) && !edges.left(x, y)) continue;
         const SmaaPixelWeights weights = smaa_weights(edges, ideal, x, y);
-        if (edges.top(x, y)) found.add(weights.top, golden.top_shares(x, y), two_diagonals(x, y));
-        if (edges.left(x, y)) found.add(weights.left, golden.left_shares(x, y));
+        if (edges.top(x, y)) found.add(weights.top, golden.top_weights(x, y), two_diagonals(x, y));
+        if (edges.left(x, y)) found.add(weights.left, golden.left_weights(x, y));
       }
   }
   return found;

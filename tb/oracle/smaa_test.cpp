@@ -27,7 +27,7 @@ using golden::ideal::SmaaMargins;
 using golden::ideal::SmaaPixelWeights;
 using golden::ideal::SmaaSettings;
 using golden::ideal::SmaaWeights;
-using golden::morphological::EdgeShares;
+using golden::morphological::EdgeWeights;
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::preset_parameters;
 using spec::morphological::Border;
@@ -199,8 +199,8 @@ struct WeightComparison {
         if (!edge_map.top(x, y) && !edge_map.left(x, y)) continue;
         const SmaaPixelWeights weights = smaa_weights(edge_map, ideal, x, y);
         taken += weights.diagonal;
-        compare(weights.top, golden.top_shares(x, y));
-        compare(weights.left, golden.left_shares(x, y));
+        compare(weights.top, golden.top_weights(x, y));
+        compare(weights.left, golden.left_weights(x, y));
       }
     }
     diagonals += static_cast<int>(taken);
@@ -208,7 +208,7 @@ struct WeightComparison {
   }
 
  private:
-  void compare(const SmaaWeights& ideal, EdgeShares found) {
+  void compare(const SmaaWeights& ideal, EdgeWeights found) {
     ++edges;
     const double off = 255 * std::max(std::abs(ideal.first - found.first / 256.0),
                                       std::abs(ideal.second - found.second / 256.0));

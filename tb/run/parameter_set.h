@@ -90,7 +90,7 @@ class ParameterSet {
   // can be built with (spec/check_build.h).
   template <class P>
   void add_engine(std::string_view prefix, P& values) {
-    add(prefix, ParameterKind::kRule, static_cast<typename P::Rules&>(values));
+    add(prefix, ParameterKind::kRule, static_cast<typename P::Configuration&>(values));
     add(prefix, ParameterKind::kBuild, static_cast<typename P::Build&>(values));
     for (const spec::BuildRule<P>& rule : build_rules(values)) add_build_rule(prefix, rule);
     build_checks_.push_back(

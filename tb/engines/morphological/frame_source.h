@@ -6,7 +6,7 @@
 #include <systemc>
 
 #include "rtl_model/fabric/unit.h"
-#include "rtl_model/platform/morphological_descriptors.h"
+#include "rtl_model/platform/morphological_records.h"
 #include "spec/morphological/packets.h"
 #include "tb/engines/morphological/morphological_input.h"
 

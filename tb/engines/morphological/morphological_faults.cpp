@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "rtl_model/platform/morphological_descriptors.h"
+#include "rtl_model/platform/morphological_records.h"
 #include "spec/error.h"
 
 namespace deburr::tb {

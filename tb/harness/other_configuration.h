@@ -14,9 +14,9 @@ namespace deburr::tb {
 
 // A visitor of describe() (spec/parameters.h): every parameter gets another value of its range, but
 // those in `kept`, by their names.
-class OtherRules {
+class OtherConfiguration {
  public:
-  explicit OtherRules(std::span<const std::string_view> kept = {}) : kept_(kept) {}
+  explicit OtherConfiguration(std::span<const std::string_view> kept = {}) : kept_(kept) {}
 
   void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t /*max*/,
                std::string_view /*unit*/, std::string_view /*meaning*/) {
