@@ -51,7 +51,7 @@ class StressSuite {
     }
   }
 
-  void written_rules_give_the_same_run_as_reset_values() {
+  void written_configuration_gives_the_same_run_as_reset_values() {
     for (const std::uint32_t permille : {0u, 200u}) {
       Disturbance disturbance = disturbed(permille, 7, permille != 0);
       const std::string built = see(disturbance).all;

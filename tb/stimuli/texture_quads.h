@@ -27,12 +27,12 @@ Enum any_code(Random& random, const std::array<std::string_view, N>&) {
 }
 
 // The defaults with the rules of the paper.
-inline spec::texture::Parameters paper_rules() {
+inline spec::texture::Parameters paper_configuration() {
   return preset_parameters(spec::texture::Preset::kPaper);
 }
 
 // Every rule and kernel; the cache stays as it is.
-inline spec::texture::Parameters random_rules(Random& random) {
+inline spec::texture::Parameters random_configuration(Random& random) {
   spec::texture::Parameters p;
   p.axes = any_code<spec::texture::Axes>(random, spec::texture::kAxesNames);
   p.axis_cycles = 1 << random.below(1 + static_cast<std::uint32_t>(p.axes));

@@ -142,7 +142,7 @@ inline Parameters preset(Preset which,
 struct MorphologicalOutcome {
   std::uint64_t cycles = 0, frame_cycles = 0, input_cycles = 0, hash = 0, pixels = 0,
                 activations = 0;
-  std::uint64_t record_stalls = 0, edge_pixels = 0, latency_min = 0, latency_max = 0;
+  std::uint64_t descriptor_stalls = 0, edge_pixels = 0, latency_min = 0, latency_max = 0;
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
 };
 
@@ -168,7 +168,7 @@ inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& fram
           environment.pixel_hash(),
           environment.delivered_in_all(),
           simulation.activations(),
-          engine.extractor.record_stalls.value(),
+          engine.extractor.descriptor_stalls.value(),
           engine.edges.edge_pixels.value(),
           engine.beat_latency.min(),
           engine.beat_latency.max(),

@@ -409,7 +409,7 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
     return grey(((x + y) / 2 % 2 != 0) != ((h >> 7) % 17 == 0) ? 255 : 0);
   });
   const MorphologicalOutcome outcome = expect_identical({frame, noise(97, 61), frame}, options);
-  EXPECT_GT(outcome.record_stalls, 0u) << "no record is late";
+  EXPECT_GT(outcome.descriptor_stalls, 0u) << "no record is late";
 }
 INSTANTIATE_TEST_SUITE_P(
     Morphological, LateRecords,
@@ -442,7 +442,7 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
       platform::beats_a_row(640, spec::morphological::kLaneCount[static_cast<std::size_t>(lanes)]) *
           120);
   EXPECT_EQ(outcome.frame_cycles, frame_cycles_by_formula(options.morphological, 640, 120));
-  EXPECT_EQ(outcome.record_stalls, 0u);
+  EXPECT_EQ(outcome.descriptor_stalls, 0u);
 }
 
 // All pixels on edges: it takes longer, says so, and drops nothing.
@@ -455,7 +455,7 @@ TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
   options.morphological.divider_interval = 4;
   const MorphologicalOutcome outcome = expect_identical({noise(400, 60)}, options);
   EXPECT_GT(outcome.frame_cycles, frame_cycles_by_formula(options.morphological, 400, 60));
-  EXPECT_GT(outcome.record_stalls, 0u);
+  EXPECT_GT(outcome.descriptor_stalls, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
@@ -482,13 +482,13 @@ TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
   for (const int first : {0, 601, 1920 * 3 / 5}) {
     const MorphologicalOutcome within = run(first, 200);  // 100 records an axis and row
     EXPECT_EQ(within.mismatches, 0u);
-    EXPECT_EQ(within.record_stalls, 0u);
+    EXPECT_EQ(within.descriptor_stalls, 0u);
     EXPECT_EQ(within.frame_cycles, formula);
     const MorphologicalOutcome fifth = run(first, 1920 * 2 / 5 - 4);
     EXPECT_EQ(fifth.mismatches, 0u);
     EXPECT_GE(fifth.edge_pixels * 1000, fifth.pixels * 195);
-    EXPECT_GT(fifth.record_stalls, 0u);
-    EXPECT_EQ(fifth.frame_cycles, formula + fifth.record_stalls);
+    EXPECT_GT(fifth.descriptor_stalls, 0u);
+    EXPECT_EQ(fifth.frame_cycles, formula + fifth.descriptor_stalls);
   }
 }
 INSTANTIATE_TEST_SUITE_P(

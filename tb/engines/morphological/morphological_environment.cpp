@@ -118,7 +118,7 @@ std::unique_ptr<platform::MemoryModel> MorphologicalEnvironment::memory_for(
     bytes = std::max(bytes, platform::frame_bytes(frame.image.width, frame.image.height));
   platform::MemoryModelParameters m = memory_model_parameters(
       setup_.memory, setup_.pixel_base + bytes, simulation().options().seed);
-  m.descriptor_writes = true;
+  m.record_writes = true;
   return std::make_unique<platform::MemoryModel>(memory_name().c_str(),
                                                  simulation().clock().period(), m);
 }

@@ -85,7 +85,7 @@ void add_descriptors(const std::string& step, const std::string& item,
   std::stable_sort(here.begin(), here.end(),
                    [&](const auto& a, const auto& b) { return before(a.first, b.first); });
   std::stable_sort(expected.begin(), expected.end(), before);
-  all.compare_descriptors(
+  all.compare_records(
       expected.size(), here.size(),
       [&](std::size_t g, std::size_t h) { return expected[g] == here[h].first; },
       [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {
@@ -173,7 +173,7 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
   // A part of what is delivered, once.
   const auto add_delivered = [&](const std::string& step, const std::string& item, bool known,
                                  const auto& expected, const auto& got) {
-    all.compare_descriptors(
+    all.compare_records(
         known ? 1 : 0, delivered_.size(),
         [&](std::size_t, std::size_t h) { return expected() == got(delivered_[h]); },
         [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rtl_model/platform/morphological_descriptors.h"
+#include "rtl_model/platform/morphological_records.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {

@@ -153,9 +153,9 @@ def unregistered(tests, source):
 def classes_without_a_test_are_caught():
     text = ("class Support:\n    def helper(self):\n        pass\n"
             "class Faults(Support):\n    def test_one(self):\n        pass\n    def test_two(self):\n        pass\n"
-            "class SharesFaults(Faults):\n    pass\n")
-    runs = {"": 0, "Faults SharesFaults": 0, "Faults": 1, "SharesFaults": 1, "Faults.test_two SharesFaults": 1,
-            "Faults.test_one Faults.test_two SharesFaults": 0, None: 1}
+            "class WeightsFaults(Faults):\n    pass\n")
+    runs = {"": 0, "Faults WeightsFaults": 0, "Faults": 1, "WeightsFaults": 1, "Faults.test_two WeightsFaults": 1,
+            "Faults.test_one Faults.test_two WeightsFaults": 0, None: 1}
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder)
         for file in ("tool/tests/negative/a_test.py", "tb/hdl/b_test.py", "tool/tests/system/python_c_test.py"):

@@ -28,7 +28,7 @@ SHARED = {
     "LatencyProbe": "an instrument",
 }
 # Parts of one unit, the first of which addresses the memories of the second.
-PARTS = {"RecordWalk": "RecordStore"}
+PARTS = {"DescriptorWalk": "DescriptorStore"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
 ANY_CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::\s*([^{;]*))?\{")

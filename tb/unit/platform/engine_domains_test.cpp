@@ -304,7 +304,7 @@ TEST(DomainFaults, LinkOfAnotherDomainIsRejected) {
                   "no link of faulty.clock is named watched.quads; there are:\n  faulty.in")));
 }
 
-void watch(WindowRecorder& recorder, const Placed& placed) {
+void watch(IntervalRecorder& recorder, const Placed& placed) {
   for (const rtl::Unit* unit : const_cast<Placed&>(placed).engine().units()) {
     std::vector<std::string> activities;
     for (int i = 0; i < unit->activities(); ++i)
@@ -317,7 +317,7 @@ TEST(DomainWindows, CountTheCyclesOfTheirOwnClock) {
   const auto windows = [](bool together) {
     return in_child([&] {
       const auto placed = place(kGeometric, "watched", at_period(kPeriods[0]));
-      WindowRecorder recorder(placed->clock(), {.cycles = 500, .lose = {}});
+      IntervalRecorder recorder(placed->clock(), {.cycles = 500, .lose = {}});
       watch(recorder, *placed);
       const auto other =
           together ? place(kMorphological, "reset", at_period(kPeriods[2])) : nullptr;
@@ -336,7 +336,7 @@ TEST(DomainWindows, CountTheCyclesOfTheirOwnClock) {
 TEST(DomainWindows, UnitOfAnotherDomainIsRejected) {
   const auto one = place(kTexture, "one", at_period(kPeriods[0]));
   const auto two = place(kTexture, "two", at_period(kPeriods[1]));
-  WindowRecorder recorder(one->clock(), {.cycles = 500, .lose = {}});
+  IntervalRecorder recorder(one->clock(), {.cycles = 500, .lose = {}});
   EXPECT_THAT(([&] { watch(recorder, *two); }),
               testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
                   "belongs to two.clock, but is watched in the cycles of one.clock")));

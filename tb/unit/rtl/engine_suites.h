@@ -69,7 +69,7 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
   each("Stress", "TheSameSeedGivesTheSameClocks", &Stress::the_same_seed_gives_the_same_cycles);
   if constexpr (Kit::kPrograms)
     each("Stress", "WrittenRulesGiveTheSameRunAsResetValues",
-         &Stress::written_configuration_give_the_same_run_as_reset_values);
+         &Stress::written_configuration_gives_the_same_run_as_reset_values);
   using Registers = RegisterSuite<Kit>;
   each("RegisterFile", "EveryFieldIsAsTheExportedFileSays",
        &Registers::every_field_is_as_the_exported_file_says);

@@ -11,7 +11,7 @@
 #include "spec/error.h"
 #include "spec/geometric/records.h"
 #include "tb/run/amount.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/preset_help.h"
 
 namespace deburr::tool {

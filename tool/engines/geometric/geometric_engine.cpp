@@ -19,7 +19,7 @@
 #include "tool/engines/geometric/geometric_pictures.h"
 #include "tool/engines/geometric/geometric_role.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/pictures.h"
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"

@@ -12,7 +12,7 @@
 #include "tb/scene/depth_codes.h"
 #include "tool/engines/geometric/geometric_configuration.h"
 #include "tool/engines/geometric/geometric_pictures.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 
 namespace deburr::tool {
 

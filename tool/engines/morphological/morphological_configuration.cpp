@@ -6,7 +6,7 @@
 #include <initializer_list>
 
 #include "spec/check_build.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/preset_help.h"
 
 namespace deburr::tool {

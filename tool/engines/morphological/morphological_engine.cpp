@@ -22,7 +22,7 @@
 #include "tool/engines/morphological/morphological_pictures.h"
 #include "tool/engines/morphological/morphological_role.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/pictures.h"
 #include "tool/run/shorthands.h"
 #include "tool/run/simulate.h"

@@ -13,7 +13,7 @@
 #include "tb/scene/depth_codes.h"
 #include "tool/engines/morphological/morphological_configuration.h"
 #include "tool/engines/morphological/morphological_pictures.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 
 namespace deburr::tool {
 

@@ -8,7 +8,7 @@
 
 #include "spec/check_build.h"
 #include "spec/error.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 
 namespace deburr::tool {
 namespace {

@@ -28,7 +28,7 @@
 #include "tool/engines/texture/texture_reference.h"
 #include "tool/engines/texture/texture_role.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/pictures.h"
 #include "tool/run/preset_help.h"
 #include "tool/run/shorthands.h"

@@ -10,7 +10,7 @@
 #include "tool/engines/texture/texture_configuration.h"
 #include "tool/engines/texture/texture_reference.h"
 #include "tool/run/flicker.h"
-#include "tool/run/input_configuration.h"
+#include "tool/run/input_rules.h"
 #include "tool/run/shorthands.h"
 
 namespace deburr::tool {

@@ -136,7 +136,7 @@ TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
         const MorphologicalGolden golden = worked_on(frame, p);
         std::string text;
         for (const tb::Rgba8& pixel : golden.pixels()) text.append(pixel.begin(), pixel.end());
-        for (const spec::morphological::BlendTap& tap : golden.probes())
+        for (const spec::morphological::BlendProbe& tap : golden.probes())
           text += std::to_string(tap.first) + " " + std::to_string(tap.second) + " " +
                   std::to_string(tap.edges) + (tap.horizontal ? "-" : "|");
         for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
