@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine: smooths jagged edges of a finished frame
-// (docs/reference/morphological/index.md; slots, latency, memories:
-// docs/reference/morphological/hardware.md).
+// Morphological anti-aliasing engine: smooths jagged edges of a finished frame. Contract:
+// docs/reference/morphological/index.md; timing and memories: hardware.md there.
 //
 //                                                                                      pixels_out
 //                                                                                           ^
@@ -28,19 +27,20 @@
 //                       |
 //                       +- words --> tables of the AreaUnit
 //
-//   wires: ParameterStore -- rules --> units of the pipe
+//   wires: ParameterStore -- rules --> units of the pipeline
 //          SlotSequencer -- first_beat, latch, framing, frame_done,
 //          PixelStore -- memory_error --> ParameterStore
 //          ParameterStore -- enabled, latched --> SlotSequencer
 //
-// DiagonalUnit, TextGuard, MemoryPort and WeightsLoader are there if diagonals, text_guard, storage
-// = memory and learned weights are built.
+// DiagonalUnit, TextGuard, MemoryPort and WeightsLoader exist only with diagonals, text_guard,
+// storage = memory and learned weights.
 //
-// A frame is a sequence of slots, one a clock at most. Unstalled, beat j popped in clock c is
-// pushed out in clock c + (R + 5) x BPR + kPipelineLatency; one beat (1, 2 or 4 pixels) a clock.
-// Stalls: `records` (extractor), `upstream` (sequencer), `memory` and `rows` (pixel store),
-// `downstream`.
-// Source: Reshetov 2009; paper 000.
+// Latency   A beat popped in cycle c is pushed in cycle c + (R + 5) x BPR + kPipelineLatency if
+//           nothing stalls.
+// Interval  1 beat (1, 2 or 4 pixels) per cycle; one slot per cycle.
+// Stalls    `records` (RunExtractor), `upstream` (SlotSequencer), `memory` and `rows` (PixelStore),
+//           `downstream`.
+// Source    Reshetov 2009; paper 000.
 #pragma once
 
 #include <functional>
@@ -78,7 +78,7 @@ class MorphologicalEngine final : public Engine {
   In<spec::morphological::PixelBeat> pixels_in{"pixels_in"};
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
 
-  // ConfigError for what cannot be built (spec/morphological/check_build.h).
+  // Throws ConfigError if the parameters cannot be built (spec/morphological/check_build.h).
   MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                       const spec::morphological::Parameters& parameters);
   const char* kind() const override { return "deburr_morphological_engine"; }
@@ -88,7 +88,7 @@ class MorphologicalEngine final : public Engine {
   LatencyProbe probe_;
 
  public:
-  // In the order of the pipe.
+  // In pipeline order.
   ParameterStore parameter_store;
   EdgeWindow window;
   EdgeRows rows;
@@ -106,24 +106,24 @@ class MorphologicalEngine final : public Engine {
   Blender blender;
   std::unique_ptr<MemoryPort> memory_port;  // only with storage = memory
 
-  // No frame is inside and no beat waits in front. Between edges.
+  // No frame is inside and no beat waits at the input. Call between clock edges.
   bool idle() const override;
-  // Counts since the last reset or clear command; of one frame if there was one.
+  // Counts since the last reset or clear command: those of one frame if only one was processed.
   spec::morphological::Work work() const;
-  // Cycles from a beat being popped to the same beat being pushed.
+  // Cycles from popping a beat to pushing it.
   const Histogram& beat_latency = blender.beat_latency;
 
-  // For checks: every run as it is found, every line as it is stored (canonical order is the
-  // receiver's business). Costs nothing when not set. A line is made for records with a side
-  // only, and for learned ones.
+  // For checks: called for each run when it is found and for each line when it is stored. The
+  // caller sorts into canonical order. Only descriptors with a side, or with learned weights, get a
+  // line.
   void observe_runs(std::function<void(const spec::morphological::RunDescriptor&)> observer);
   void observe_lines(std::function<void(const spec::morphological::LineDescriptor&)> observer);
 
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
-  // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
+  // Configuration from the registers to the units, and the events that set sticky bits.
+  Wire<FrameConfiguration> configuration_{"configuration", FrameConfiguration{},
                                           configuration_shape(parameters_)};
   Pulse first_beat_{"first_beat"}, latch_{"latch"};
   CombinationalWire<bool> enabled_{"enabled"};
@@ -139,7 +139,7 @@ class MorphologicalEngine final : public Engine {
                                   area_slot_shape(parameters_, built_lanes(parameters_))};
   Link<FetchToken> fetches_{"fetches"};
   Link<WeightToken> weights_{"weights", 2, built_lanes_};
-  // The pixels of a slot wait here for its weights.
+  // Deep enough to hold a slot's pixels until its weights are ready.
   Link<PixelToken> pixels_{
       "pixels", spec::morphological::kAreaLatency - spec::morphological::kPixelStoreLatency + 2,
       built_lanes_};

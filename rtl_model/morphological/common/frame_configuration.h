@@ -87,7 +87,7 @@ struct Decoded {
   friend bool operator==(const Decoded&, const Decoded&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
-    visit("rules", self.configuration);
+    visit("configuration", self.configuration);
     visit("valid", self.valid);
   }
 };

@@ -37,14 +37,14 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       descriptors_(
-          declare_stall("records",
-                        "a descriptor FIFO is full, or run descriptors of the second slot row "
-                        "before are not finished")),
+          declare_stall("descriptors",
+                        "a descriptor FIFO is full, or descriptors of two slot rows before are not "
+                        "finished")),
       about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {
   if (p.diagonals) {
     columns_out.emplace("columns_out");
     diagonals_ =
-        declare_stall("diagonals", "a short row waits for the diagonals of the one before");
+        declare_stall("diagonals", "a short row waits for the diagonals of the previous row");
   }
   const auto depth = static_cast<std::uint32_t>(p.descriptor_fifo);
   const PayloadShape shape = descriptor_shape(p, "", "run.");
@@ -69,8 +69,8 @@ inline bool RunExtractor::take_slot(Cycle cycle, const FrameConfiguration& confi
   return true;
 }
 
-// In a row of fewer beats than a diagonal takes nothing else would bring the row before to an end
-// before it is needed: behind it columns are shifted only where no slot comes.
+// After a row, columns are shifted only in cycles without a slot. A row shorter than the delay must
+// therefore wait, or the previous row would not be finished in time.
 bool RunExtractor::waits_for_diagonals(Cycle cycle, const FrameConfiguration& configuration) const {
   return configuration.diagonal_steps != 0 && configuration.beats < diagonal_delay_ &&
          edges_in.front(cycle).slot.beat == 0 && cycle <= passed_ + diagonal_delay_;
@@ -87,7 +87,7 @@ Activity RunExtractor::work(Cycle cycle) {
   if ((h_.count | v_.count) != 0) {
     drain(h_, cycle);
     drain(v_, cycle);
-    // Records without room in their FIFOs hold all that is behind them.
+    // Descriptors without room in their FIFOs stall everything upstream.
     if (std::max(h_.count, v_.count) > spare_) {
       if (arrives) ++descriptor_stalls;
       return descriptors_;
@@ -136,7 +136,6 @@ void RunExtractor::begin_row(const FrameConfiguration& configuration) {
     about_[static_cast<std::size_t>(k)] = window_.beats(row + k - most);
 }
 
-// The words of the slot's columns are here.
 template <bool kSmaa>
 [[gnu::always_inline]] inline void RunExtractor::pass(Cycle cycle,
                                                       const FrameConfiguration& configuration) {
@@ -167,7 +166,7 @@ template <bool kSmaa>
   }
   if (searched_ == nullptr) return;
   here_ = searched_[slot.beat];
-  // One column more is in hand where corners are looked at a column behind.
+  // With corners, the search is one column late: the column before the beat is also a candidate.
   const bool behind = kSmaa && corners_ && first != 0 && window_.left(first - 1, row_);
   if (!open_ && !behind && (here_.left | here_.top) == 0) return;
 
@@ -185,7 +184,7 @@ template <bool kSmaa>
   ++found_;
 }
 
-// Row y - 1 and the rows about it.
+// Row y - 1 and M rows above and below it.
 void RunExtractor::send_columns(Cycle cycle) {
   DiagonalColumnsToken& token = columns_out->emplace(cycle);
   token.slot = token_.slot;
@@ -200,7 +199,7 @@ void RunExtractor::send_columns(Cycle cycle) {
   }
 }
 
-// Columns first..end - 1 of row y, and the end of the row.
+// Columns first .. end - 1 of row y; also closes the run at the end of the row.
 void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) {
   const bool crossings = configuration_->crossings;
   for (std::int32_t x = first; x < end; ++x) {
@@ -218,7 +217,7 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
         start_ = x;
         start_corner_ = corner;
       } else if (x - start_ == search_columns_) {
-        // One edge longer than the reach: the head is known.
+        // One edge longer than the search range: the head is complete.
         found(find,
               {Axis::kHorizontal, RunPart::kHead, u16(row_), u16(start_), u16(search_columns_ / 2)},
               start_corner_, {});
@@ -230,14 +229,14 @@ void RunExtractor::horizontal(Find& find, std::int32_t first, std::int32_t end) 
   if (open_ && end == configuration_->width) close(find, end, right_border());
 }
 
-// The corner behind the last column, whose edges are those of that column.
+// Corner to the right of the last column: with border = clamp its edges repeat that column.
 RunExtractor::Corner RunExtractor::right_border() const {
   if (!configuration_->clamp) return {};
   const Corner corner = corner_of_row(configuration_->width - 1);
   return corner.code != 0 ? corner : Corner{.endless = true};
 }
 
-// The run ends in front of column `end`.
+// The open run ends before column `end`.
 void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
   open_ = false;
   const std::int32_t length = end - start_, half = search_columns_ / 2;
@@ -249,7 +248,7 @@ void RunExtractor::close(Find& find, std::int32_t end, Corner corner) {
           start_corner_, corner);
 }
 
-// Corner (x, y) of the row in hand: from its column.
+// Corner (x, y) of a horizontal run.
 RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
   const FrameConfiguration& configuration = *configuration_;
   Corner corner{code(window_.left(x, row_ - 1), window_.left(x, row_))};
@@ -262,8 +261,8 @@ RunExtractor::Corner RunExtractor::corner_of_row(std::int32_t x) const {
   return corner;
 }
 
-// Corner (x, y) of a column's run: from the columns beside it. A second pixel beyond the frame is
-// nothing, with border = clamp the first one again.
+// Corner (x, y) of a vertical run. A second pixel outside the frame has no edge; with border =
+// clamp it repeats the first pixel.
 RunExtractor::Corner RunExtractor::corner_of_column(std::int32_t x, std::int32_t y,
                                                     bool far) const {
   const FrameConfiguration& configuration = *configuration_;
@@ -286,7 +285,7 @@ void RunExtractor::vertical(Find& find, std::int32_t first) {
     const std::int32_t half = search_rows_ / 2;
     const auto edge = [&](std::int32_t below) { return window_.left(x, row_ + below); };
     const bool starts = !edge(-1);
-    // A tail ends where its half of the reach ends, and the run began at least R rows before that.
+    // A tail ends where its half of the search range ends, if the run began at least R rows before.
     const bool ends = edge(half - 1) && !edge(half);
     if (starts || ends) vertical_at(find, x, starts);
   }
@@ -296,7 +295,7 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
   const FrameConfiguration& configuration = *configuration_;
   const bool crossings = configuration.crossings, far = configuration.corners;
   const std::int32_t half = search_rows_ / 2;
-  // Does the run go on from the pixel above corner `below` to the one beneath it, or back?
+  // Does the run continue from row offset `below` to row offset `to`?
   const auto goes_on = [&](std::int32_t below, std::int32_t to) {
     return window_.left(x, row_ + to) && !(crossings && crosses(x, row_ + below));
   };
@@ -319,15 +318,14 @@ void RunExtractor::vertical_at(Find& find, std::int32_t x, bool starts) {
     }
   } else {
     while (length <= search_rows_ && goes_on(half - length, half - 1 - length)) ++length;
-    if (length <= search_rows_) return;  // the end of a run that is not long
+    if (length <= search_rows_) return;  // not a long run
     run.part = RunPart::kTail;
     found(find, run, {}, corner(half));
   }
 }
 
-// The same where crossings end runs, or corners need the column to the right: runs are looked for a
-// column behind then, in the last slot of a row at its last column as well. In which entry a run
-// lies is known with its own column.
+// As vertical(), with crossings or corners. With corners, runs are searched one column late, and
+// the last slot of a row also searches the last column. The entry toggles in the run's own column.
 void RunExtractor::smaa_vertical(Find& find, std::int32_t first, std::int32_t end) {
   const bool crossings = configuration_->crossings;
   const std::int32_t half = search_rows_ / 2;
@@ -367,7 +365,7 @@ void RunExtractor::deliver(const Find& find) {
     const bool horizontal = run.axis == Axis::kHorizontal;
     const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
     if (observer) observer(run);
-    // A long run counts once: by its tail, which ends it, or by its head, which begins it.
+    // A long run counts once: horizontal by its tail, vertical by its head.
     if (run.part != (horizontal ? RunPart::kHead : RunPart::kTail)) {
       ++(horizontal ? horizontal_runs : vertical_runs);
       if (run.part != RunPart::kWhole) ++long_runs;
@@ -383,7 +381,7 @@ void RunExtractor::deliver(const Find& find) {
   }
 }
 
-// The oldest first, each to the next FIFO in turn, one a FIFO and clock.
+// Oldest first, in rotation over the FIFOs; one per FIFO and cycle.
 void RunExtractor::drain(AxisSide& from, Cycle cycle) {
   std::size_t sent = 0;
   while (sent < from.count && from.fifo[from.turn].can_push(cycle)) {
@@ -410,39 +408,37 @@ Datasheet RunExtractor::slot_datasheet() {
   return {
       .unit = "RunExtractor",
       .variant = "slots",
-      .does = "Finds the runs of edges of both axes while the raster passes.",
+      .does = "Finds runs of edges in both axes during the raster scan.",
       .latency = {2},
-      .stages = {{"1", "address of the columns"},
+      .stages = {{"1", "address of the beat's columns"},
                  {"2",
-                  "they come, move on by a row and go back; edges of the row that is blended, a "
-                  "row for `edge_rows`",
+                  "columns arrive, are shifted by one row and written back; edges of the row being "
+                  "blended, one row for `edge_rows`",
                   "SRAM read"}}};
 }
 
 Datasheet RunExtractor::descriptor_datasheet() {
   return {
       .unit = "RunExtractor",
-      .variant = "records",
+      .variant = "descriptors",
       .does = slot_datasheet().does,
-      .latency = {6, "6, from their slot"},
-      .interval = {1, "1 a FIFO"},
-      .stages = {{"1, 2", "as slots; end of a horizontal run or beginning of a vertical one"},
-                 {"3, 4",
-                  "length of a vertical run: first gap below row y, in groups of 16 rows; choice "
-                  "of a group, and of each group the code at its first gap (border = clamp: below "
-                  "the frame that of its last row)",
-                  "choice of 1 in 9 groups (window_rows of 258; 3 by default)"},
-                 {"5", "code of its end: choice of a group; shape; side or none",
-                  "16 : 1 table of shapes"},
-                 {"6", "into the FIFOs of the lanes in rotation, one a FIFO and clock"}},
+      .latency = {6, "6, measured from the slot"},
+      .interval = {1, "1 per FIFO"},
+      .stages =
+          {{"1, 2", "as for slots; end of a horizontal run or beginning of a vertical run"},
+           {"3, 4",
+            "length of a vertical run: first gap below row y, in groups of 16 rows; select "
+            "a group, and in each group the code at its first gap (border = clamp: rows below "
+            "the frame repeat the last row)",
+            "9 : 1 mux of groups (window_rows = 258; default 3 groups)"},
+           {"5", "code at the end: select a group; shape; side or none", "16 : 1 table of shapes"},
+           {"6", "pushed to the lanes' FIFOs in rotation, one per FIFO and cycle"}},
       .cost =
-          "a lane: a first-gap circuit of R + 1 bits, two choices of R + 1 : 1, two "
-          "counters, 3 columns of flip-flops (window_rows + 1 pairs of bits; with corners 5, "
-          "and a circuit more); registers of 12 records that are being looked for and of 4 "
-          "that wait for their FIFOs; with border = clamp a register of R + 1 bits that says "
-          "where the frame ends, and a gate of each code below it. Memory: descriptor_fifo entries "
-          "an "
-          "axis and lane."};
+          "per lane: a first-gap circuit of R + 1 bits, two R + 1 : 1 muxes, two counters, 3 "
+          "columns of flip-flops (window_rows + 1 pairs of bits; with corners 5 columns and one "
+          "more circuit); registers for 12 descriptors being searched and 4 waiting for their "
+          "FIFOs; with border = clamp a register of R + 1 bits that marks the end of the frame, "
+          "and a gate for each code below it. Memory: descriptor_fifo entries per axis and lane."};
 }
 
 }  // namespace deburr::rtl::morphological
