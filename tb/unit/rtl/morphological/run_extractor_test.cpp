@@ -484,7 +484,7 @@ TEST(DescriptorStalls, CountOnlyWhereASlotWaits) {
   bool arrives = false;
   rtl::Activity descriptors{};
   for (int code = 0; code < extractor.activities(); ++code)
-    if (extractor.activity_name({static_cast<std::uint8_t>(code)}) == "records")
+    if (extractor.activity_name({static_cast<std::uint8_t>(code)}) == "descriptors")
       descriptors = {static_cast<std::uint8_t>(code)};
   std::uint64_t lost = 0;
   bench.bench->run(
