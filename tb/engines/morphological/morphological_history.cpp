@@ -88,7 +88,7 @@ void add_descriptors(const std::string& step, const std::string& item,
   all.compare_records(
       expected.size(), here.size(),
       [&](std::size_t g, std::size_t h) { return expected[g] == here[h].first; },
-      [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {
+      [&](PixelHistory::Record g, PixelHistory::Record h) {
         PixelStep row{.part = {},
                       .step = step,
                       .item = item,
@@ -176,7 +176,7 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
     all.compare_records(
         known ? 1 : 0, delivered_.size(),
         [&](std::size_t, std::size_t h) { return expected() == got(delivered_[h]); },
-        [&](PixelHistory::Descriptor g, PixelHistory::Descriptor h) {
+        [&](PixelHistory::Record g, PixelHistory::Record h) {
           PixelStep row{.part = {},
                         .step = step,
                         .item = item,
