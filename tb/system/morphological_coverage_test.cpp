@@ -141,7 +141,7 @@ void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
   add_text(coverage, forked_text([&] {
              MorphologicalRunOptions options;
              options.morphological = parameters;
-             options.records = true;
+             options.descriptors = true;
              Simulation simulation(options);
              MorphologicalEnvironment environment(simulation, frames, options);
              simulation.elaborate(environment);

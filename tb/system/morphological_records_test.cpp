@@ -27,7 +27,7 @@ Checked checked(const std::string& fault) {
   MorphologicalRunOptions options;
   options.morphological = preset(Preset::kDeburr);
   options.morphological.line_pixels = 256;
-  options.records = true;
+  options.descriptors = true;
   options.check_links = false;
   if (!fault.empty()) options.faults = {fault};
   const std::vector<MorphologicalInput> frames = {fans(16), blocks(60, 50)};

@@ -149,7 +149,7 @@ class EveryVariant : public testing::TestWithParam<Variant> {
     o.morphological.storage = storage;
     o.morphological.line_pixels = 1024;
     o.memory.latency = 40;
-    o.records = true;
+    o.descriptors = true;
     return o;
   }
 };
@@ -190,7 +190,7 @@ TEST_P(Widest, IsIdenticalToGolden) {
   MorphologicalRunOptions options;
   options.morphological = preset(which, spec::morphological::Lanes::kFour);
   options.morphological.storage = storage;
-  options.records = true;
+  options.descriptors = true;
   expect_identical({noise(8192, 3), blocks(8192, 9)}, options);
 }
 
@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Morphological, TheHighestFrameIsIdenticalToGolden) {
   MorphologicalRunOptions options;
   options.morphological.line_pixels = 64;
-  options.records = true;
+  options.descriptors = true;
   expect_identical({noise(2, 8192), blocks(11, 8192, 2)}, options);
 }
 
@@ -237,7 +237,7 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
   p.window_rows = line == 1 ? 10 : 2 * p.steps + 4 + (line == 5 ? 200 : 30);
   p.search_columns = line == 1 ? 4 : 60 + 100 * line;
   p.line_pixels = 400;
-  options.records = true;
+  options.descriptors = true;
   if (p.window_rows > 258) p.window_rows = 258;
   expect_identical(
       {blocks(170, 140, static_cast<std::uint64_t>(edges + 1)), fans(20), noise(60, 60)}, options);
@@ -258,7 +258,7 @@ TEST_P(EveryQuality, IsIdenticalToGolden) {
   options.morphological = quality(which, how);
   options.morphological.lanes = lanes;
   options.morphological.line_pixels = 1024;
-  options.records = true;
+  options.descriptors = true;
   expect_identical({fans(40, 3), noise(131, 77), blocks(150, 120, 4), noise(5, 90, 3)}, options);
 }
 
@@ -316,7 +316,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   else
     p.border = spec::morphological::Border::kEnd;
   if (table || p.diagonals) p.area_values = static_cast<spec::morphological::AreaValues>(below(2));
-  options.records = true;
+  options.descriptors = true;
   const auto seed = static_cast<std::uint64_t>(GetParam());
   expect_identical({blocks(97, 80, seed + 1), fans(13, seed), noise(60, 50, seed),
                     noise(1 + below(24), 40, seed), blocks(1 + below(24), 90, seed)},
@@ -353,7 +353,7 @@ TEST_P(MarkedFrames, AreIdenticalToGolden) {
   p.line_pixels = 512;
   if (bypass == spec::morphological::Bypass::kBeside)
     p.storage = spec::morphological::Storage::kMemory;
-  options.records = true;
+  options.descriptors = true;
   expect_identical({marked(blocks(133, 90, 5), 1), marked(fans(15, 2), 2), marked(noise(67, 50), 3),
                     marked(noise(3, 40), 4), marked(noise(90, 2), 5)},
                    options);
@@ -402,7 +402,7 @@ TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
   p.predictor_units = 1;
   p.descriptor_fifo = 4096;
   p.line_pixels = 128;
-  options.records = true;
+  options.descriptors = true;
   const MorphologicalInput frame = draw(97, 61, [](int x, int y) {
     const std::uint32_t h =
         static_cast<std::uint32_t>(x) * 73856093u ^ static_cast<std::uint32_t>(y) * 19349663u;

@@ -46,7 +46,7 @@ Picture smoothed(const MorphologicalInput& frame, Lanes lanes, bool sideways, bo
     options.morphological.window_rows = 34;
     options.morphological.search_columns = 20;
     options.morphological.line_pixels = 128;
-    options.records = true;
+    options.descriptors = true;
     const std::vector<MorphologicalInput> frames = {mirrored(frame, sideways, upright)};
     Simulation simulation(options);
     MorphologicalEnvironment environment(simulation, frames, options);
@@ -105,7 +105,7 @@ Seen seen(const spec::morphological::Parameters& parameters,
       }
       all.gaps += query.a[0] == 63 && query.b[0] == 31 && query.c[0] == 31;
     };
-    environment.engine().observe_lines([&](const spec::morphological::LineRecord& line) {
+    environment.engine().observe_lines([&](const spec::morphological::LineDescriptor& line) {
       const auto axis = static_cast<std::size_t>(line.run.axis);
       const auto part = static_cast<std::size_t>(line.run.part);
       ++all.parts[(axis * 3 + part) * 2 + line.learned];

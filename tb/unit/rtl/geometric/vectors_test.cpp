@@ -101,8 +101,8 @@ class Codes : public ::testing::TestWithParam<Code> {};
 TEST_P(Codes, ThatNoChoiceHasCountAsThePageSays) {
   const auto& [name, field, code] = GetParam();
   const FrameVector v = geometric::frame_vector(name);
-  const std::uint32_t configuration = spec::geometric::configuration_word(configuration(name).p);
-  EXPECT_EQ(differences(v.result, result_of(v, (configuration & ~field.mask()) | field.in(code))),
+  const std::uint32_t word = spec::geometric::configuration_word(configuration(name).p);
+  EXPECT_EQ(differences(v.result, result_of(v, (word & ~field.mask()) | field.in(code))),
             "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Codes,
