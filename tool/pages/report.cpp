@@ -134,8 +134,8 @@ class ReportBuilder {
            : interrupted ? ""
                          : "good");
     const double cycles = number(result_, "cycles");
-    const auto time = [&](double cycles) {
-      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", cycles / mhz / 1e3, mhz) : "";
+    const auto time = [&](double count) {
+      return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", count / mhz / 1e3, mhz) : "";
     };
     // What an engine shows among the tiles takes the place of what all of them have.
     bool own_cycles = false, own_latency = false, own_memory = false;

@@ -30,11 +30,11 @@ std::optional<double> value_of(double measure) {
 
 }  // namespace
 
-tb::Quality measure_quality(std::string reference, const Image& before, const Image& after,
+tb::Quality measure_quality(std::string name, const Image& before, const Image& after,
                             const Image& reference, const tb::DepthImage* depth) {
   const tb::Mask edges = tb::edge_mask(reference, before);
   tb::Quality quality;
-  quality.reference = std::move(reference);
+  quality.reference = std::move(name);
   quality.psnr_db = value_of(psnr(after, reference));
   quality.psnr_before_db = value_of(psnr(before, reference));
   quality.psnr_edge_db = value_of(psnr(after, reference, edges));

@@ -17,7 +17,7 @@ inline constexpr int kDifferenceGain = 4;
 
 // `after` and what went in, `before`, against the reference: PSNR over the frame, over edge pixels
 // and, with a depth, over silhouettes; FLIP and SSIM over the frame.
-tb::Quality measure_quality(std::string reference, const tb::Image& before, const tb::Image& after,
+tb::Quality measure_quality(std::string name, const tb::Image& before, const tb::Image& after,
                             const tb::Image& reference, const tb::DepthImage* depth);
 
 // What became of `before`; where there is a reference, of its right pixels too.
