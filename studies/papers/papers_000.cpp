@@ -296,7 +296,7 @@ PaperTable probes(const PaperOptions& options) {
         golden.process({frame.pixels, frame.width, frame.height});
         waiting.update();
         for (const auto& run : golden.runs()) {
-          const spec::morphological::LineRecord& line = run.line;
+          const spec::morphological::LineDescriptor& line = run.line;
           if (line.run.axis != spec::morphological::Axis::kHorizontal || line.left_steps != loops ||
               line.right_steps != loops)
             continue;

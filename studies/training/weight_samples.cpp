@@ -38,7 +38,7 @@ Sources sources_of(const gm::MorphologicalGolden& golden) {
     }
   }
   for (const gm::PredictedRun& run : golden.runs()) {
-    const spec::morphological::LineRecord& line = run.line;
+    const spec::morphological::LineDescriptor& line = run.line;
     const bool horizontal = line.run.axis == Axis::kHorizontal;
     const gm::LearnedEnds first(line, spec::morphological::Side::kFirst);
     const gm::LearnedEnds second(line, spec::morphological::Side::kSecond);

@@ -59,8 +59,8 @@ class Pixel {
  public:
   Pixel(const Encoding& encoding, const Recipe& recipe) : encoding_(encoding), recipe_(recipe) {}
 
-  // Adds `weight` times the gradient, if there is a place for it.
-  double operator()(const WeightSample& s, const Weights& weights, double weight,
+  // Adds `factor` times the gradient, if there is a place for it.
+  double operator()(const WeightSample& s, const Weights& weights, double factor,
                     Weights* gradient) const {
     std::array<double, 4> weight{}, slope{}, by_weight{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -115,7 +115,7 @@ class Pixel {
     }
     for (std::size_t i = 0; i < 4; ++i) {
       if (s.source[i] != Source::kLearned) continue;
-      const double g = weight * by_weight[i] * slope[i];
+      const double g = factor * by_weight[i] * slope[i];
       (*gradient)[s.indices[i].codes] += g;
       (*gradient)[kA + s.indices[i].near] += g;
       (*gradient)[kA + kB + s.indices[i].far] += g;

@@ -25,7 +25,7 @@ struct MadeBuild {
   std::int32_t lanes = 4, depth = 8;
 };
 struct MadeParameters : MadeRules, MadeBuild {
-  using Rules = MadeRules;
+  using Configuration = MadeRules;
   using Build = MadeBuild;
 };
 template <class Visitor>

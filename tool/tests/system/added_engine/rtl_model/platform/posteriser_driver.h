@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The posteriser as software sees it: it has no memory, and rules by its parameters alone.
+// The posteriser as software sees it: it has no memory, and configuration by its parameters alone.
 #pragma once
 
 #include "rtl_model/platform/engine_driver.h"

@@ -15,17 +15,17 @@ namespace deburr::spec::posteriser {
 enum class Rounding : std::uint8_t { kTruncate, kNearest };
 inline constexpr std::array<std::string_view, 2> kRoundingNames = {"truncate", "nearest"};
 
-struct Rules {
+struct Configuration {
   std::int32_t bits = 3;
   Rounding rounding = Rounding::kNearest;
 };
 struct Build {
   std::int32_t link_depth = 2;
 };
-struct Parameters : Rules, Build {};
+struct Parameters : Configuration, Build {};
 
 template <class Visitor>
-void describe(Rules& p, Visitor& v) {
+void describe(Configuration& p, Visitor& v) {
   v.integer("bits", p.bits, 1, 8, "bit", "Levels of a colour, as a power of two.");
   v.choice("rounding", p.rounding, kRoundingNames, "To which level a code goes.");
 }
@@ -35,7 +35,7 @@ void describe(Build& p, Visitor& v) {
 }
 template <class Visitor>
 void describe(Parameters& p, Visitor& v) {
-  describe(static_cast<Rules&>(p), v);
+  describe(static_cast<Configuration&>(p), v);
   describe(static_cast<Build&>(p), v);
 }
 

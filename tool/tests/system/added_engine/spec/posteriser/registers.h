@@ -14,7 +14,7 @@ namespace reg {
 inline constexpr std::uint32_t kId = 0x00;
 inline constexpr std::uint32_t kControl = 0x04;
 inline constexpr std::uint32_t kStatus = 0x08;
-inline constexpr std::uint32_t kRules = 0x0C;
+inline constexpr std::uint32_t kConfiguration = 0x0C;
 inline constexpr std::uint32_t kPixels = 0x10;
 inline constexpr std::uint32_t kChanged = 0x14;
 inline constexpr std::uint32_t kIdValue = 0xDEB000FF;
@@ -33,11 +33,11 @@ inline constexpr Field kWrittenWhileBusy{"written_while_busy", 1, 1, Access::kWr
                                          "a register was written while busy; the write is ignored"};
 inline constexpr std::array kFields = {kIdle, kWrittenWhileBusy};
 }  // namespace status
-namespace rules {
+namespace configuration {
 inline constexpr Field kBits{"bits", 3, 0, Access::kReadWrite, "0 as 1, 9 and more as 8"};
 inline constexpr Field kRounding{"rounding", 4, 4, Access::kReadWrite, {}, kRoundingNames};
 inline constexpr std::array kFields = {kBits, kRounding};
-}  // namespace rules
+}  // namespace configuration
 }  // namespace reg
 
 // Writes while it is busy are ignored, but those to CONTROL and STATUS.
@@ -46,15 +46,15 @@ inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit.", reg::id::kFields},
     {reg::kControl, "CONTROL", "Switch and command.", reg::control::kFields},
     {reg::kStatus, "STATUS", "State, and what has happened.", reg::status::kFields},
-    {reg::kRules, "CONFIG", "Loaded from the parameters.", reg::rules::kFields},
+    {reg::kConfiguration, "CONFIG", "Loaded from the parameters.", reg::configuration::kFields},
     {reg::kPixels, "PIXELS", "Pixels delivered.", kCounter},
     {reg::kChanged, "CHANGED", "Pixels that it changed.", kCounter},
 }};
 
 // What a reset loads from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
-  return {{{reg::kRules, reg::rules::kBits.in(static_cast<std::uint32_t>(p.bits)) |
-                             reg::rules::kRounding.in(static_cast<std::uint32_t>(p.rounding))}}};
+  return {{{reg::kConfiguration, reg::configuration::kBits.in(static_cast<std::uint32_t>(p.bits)) |
+                             reg::configuration::kRounding.in(static_cast<std::uint32_t>(p.rounding))}}};
 }
 
 }  // namespace deburr::spec::posteriser
