@@ -17,7 +17,7 @@ spec::texture::Format format_of(const TexelQuadToken& token) {
   return static_cast<spec::texture::Format>(token.control.format);
 }
 
-// Channels are widened to eight bits by repeating their high bits: wires. U8.4.
+// Widens channels to eight bits by repeating their high bits (wires). Result U8.4.
 constexpr std::uint32_t unorm8(std::uint32_t v) { return (v & 255) << 4; }
 constexpr std::uint32_t unorm6(std::uint32_t v) { return unorm8((v & 63) << 2 | (v & 63) >> 4); }
 constexpr std::uint32_t unorm5(std::uint32_t v) { return unorm8((v & 31) << 3 | (v & 31) >> 2); }
@@ -36,7 +36,7 @@ std::vector<std::uint16_t> weight_words(spec::texture::Kernel kernel) {
   return words;
 }
 
-// What of the U8.20 sum is dropped for a channel as it leaves, and for one that is encoded, U8.4.
+// Bits dropped from the U8.20 sum: for an output channel, and for U8.4 light to be encoded.
 constexpr unsigned kToByte = 20, kToLight = 16;
 
 }  // namespace
@@ -62,7 +62,7 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
              .read_ports = kCodedChannels,
              .write_ports = 0,
              .latency = 1,
-             .content = "linear light of a coded channel"},
+             .content = "linear light of an sRGB channel"},
             spec::texture::kSrgbToLinear) {
   for (std::uint32_t i = 0; i < kCodedChannels; ++i)
     linear_.emplace_back(srgb_, "texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]);
@@ -89,14 +89,13 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
                     .read_ports = 3,
                     .write_ports = 0,
                     .latency = 1,
-                    .content = "code of a channel of linear light"},
+                    .content = "linear light to sRGB channel"},
         spec::texture::kLinearToSrgb);
     for (const char* user : {"r", "g", "b"}) code_reads_.emplace_back(*codes_, user);
   }
 }
 
-// From the last stage to the first, so that each reads its predecessor's registers of the last
-// clock.
+// Last stage first, so that each stage reads its predecessor's registers from the previous cycle.
 Activity FilterPipeline::tick(Cycle cycle) {
   const bool arrives = texels_in.can_pop(cycle);
   if (requests_.empty() && !has_sample_ && !has_total_ && !has_rounded_ && !arrives) return kIdle;
@@ -117,7 +116,7 @@ Activity FilterPipeline::tick(Cycle cycle) {
   return kBusy;
 }
 
-// What each stage has before it in this clock.
+// Counts the stages that have a token in this cycle.
 inline void FilterPipeline::count_stages(bool arrives) {
   occupancy[6] += has_sample_;
   occupancy[7] += has_total_;
@@ -131,7 +130,7 @@ inline void FilterPipeline::count_stages(bool arrives) {
     occupancy[stage - 1] += requests_.at(stage - 1) != nullptr;
 }
 
-// Stage 1: the coded channels go into their ROM, and the sample into its own.
+// Stage 1: ROM addresses for sRGB channels and for the weight of the sample.
 inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
   if (weight_read_ && token.control.last_of_sample)
     weight_read_->read(cycle, weight_address(token.control.last_index, token.control.index));
@@ -141,8 +140,8 @@ inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
       linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 3 to 5: what is between them cannot be seen from outside. Texels come with so many bits
-// below the point: 4, or none where these are 0.
+// Stages 3 to 5; nothing in between is observable. kFractionBits of the texels: 4, or 0 if those
+// bits are all 0.
 template <unsigned kFractionBits, class Unpack>
 inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
   const FilterControl& control = request.token.control;
@@ -155,7 +154,7 @@ inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
   request.row = (upper * up + lower * down).rounded(kFractionBits + 4);
 }
 
-// Stage 2. A fragment of an invalid descriptor has one sample of no weight.
+// Stage 2. A fragment with an invalid descriptor has one sample of weight 0.
 inline std::uint32_t FilterPipeline::weight(Cycle cycle, const TexelQuadToken& token) const {
   if (!token.ticket.valid) return 0;
   if (!weight_read_) return 256U >> std::bit_width(unsigned{token.control.last_index});
@@ -205,7 +204,8 @@ FilterPipeline::Channels FilterPipeline::unpack_srgb(Cycle cycle, const TexelQua
   return Channels::of(linear(0), linear(1), linear(2), unorm8(raw >> 24));
 }
 
-// Stage 6: the levels of a sample in U8.20, rounded once to U8.12; on with the last of them.
+// Stage 6: sums the levels of a sample in U8.20, rounds once to U8.12, forwards after the last
+// level.
 void FilterPipeline::lerp_levels(const Request& request) {
   const FilterControl& control = request.token.control;
   level_sum_ = level_sum_ + request.row * control.level_weight;
@@ -216,7 +216,7 @@ void FilterPipeline::lerp_levels(const Request& request) {
   level_sum_ = {};
 }
 
-// Stage 7: U8.20; on with the last sample of the fragment.
+// Stage 7: sums samples in U8.20, forwards after the last sample of the fragment.
 void FilterPipeline::accumulate() {
   has_sample_ = false;
   kernel_sum_ = kernel_sum_ + sample_.value * sample_.weight;
@@ -231,7 +231,7 @@ bool FilterPipeline::coded(const Total& total) const {
          total.format == static_cast<std::uint8_t>(spec::texture::Format::kSrgb8A8);
 }
 
-// Stage 8: the weights sum to 1. With `encoded` light goes into the ROM.
+// Stage 8: the weights sum to 1. With `encoded`, light addresses the ROM.
 inline void FilterPipeline::round(Cycle cycle) {
   has_total_ = false;
   if (!codes_) return deliver(cycle, total_.ticket, total_.value.rounded(kToByte).each());
@@ -274,26 +274,26 @@ Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "FilterPipeline",
       .variant = "`srgb_output = linear`",
-      .does = "Filters four texels a clock to the colour of a fragment.",
+      .does = "Filters four texels per cycle to the colour of a fragment.",
       .latency = {8},
       .stages = {{"1", "fields"},
                  {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
                  {"3", "horizontal products", "12 x 9 multiply"},
                  {"4", "horizontal sums"},
                  {"5", "vertical lerp",
-                  "two 20 x 9 multiplies and their sum (18 rows of partial products, 24 x 24 has "
-                  "24), rounded in it"},
-                 {"6", "level lerp", "20 x 9 multiply and a 28-bit addition"},
-                 {"7", "rounding of the level lerp, product with the weight, accumulate",
+                  "two 20 x 9 multiplies and their sum (18 rows of partial products; 24 x 24 has "
+                  "24), including rounding"},
+                 {"6", "level lerp", "20 x 9 multiply and 28-bit addition"},
+                 {"7", "round the level lerp, multiply by the weight, accumulate",
                   "28-bit addition, then a 20 x 9 multiply and a 28-bit addition"},
                  {"8", "round, pack"}},
       .formats =
           "U8.4 after stage 2, U8.12 after 4 and 5, U8.20 in 6 and 7, U8.0 out (`encoded`: U8.4 "
           "after 8); rounded in 5, 7 and 8.",
       .cost =
-          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, and three times 20 x 9), 24 "
-          "adders, the ROM `srgb`, 256 x 12 bits, 12R, one word a coded channel; `weights`, "
-          "256 x 9 bits, 1R; `encoded`: the ROM `codes`, 4096 x 8 bits, 3R, three adders."};
+          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, the others 20 x 9), 24 adders, the "
+          "ROM `srgb`, 256 x 12 bits, 12R, one read per sRGB channel; ROM `weights`, 256 x 9 bits, "
+          "1R; `encoded`: ROM `codes`, 4096 x 8 bits, 3R, three adders."};
   if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
     sheet.variant = "`srgb_output = encoded`";
     sheet.latency = {9};

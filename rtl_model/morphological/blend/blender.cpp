@@ -21,7 +21,7 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
     visit(static_cast<std::size_t>(std::countr_zero(left)));
 }
 
-// By the geometric engine.
+// Mark set by the geometric engine.
 bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
 // More than those of weights as they come: of weights as they are blended, U0.12.
@@ -57,7 +57,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .kind = MemoryKind::kRom,
                    .read_ports = static_cast<std::uint32_t>(9 * lanes_),
                    .write_ports = 0,
-                   .content = "linear light of a code"},
+                   .content = "linear light of an sRGB code"},
                   spec::morphological::kLinear12FromSrgb),
       encode_rom_("encode_rom",
                   {.words = spec::morphological::kSrgbFromLinear12.size(),
@@ -65,7 +65,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .kind = MemoryKind::kRom,
                    .read_ports = static_cast<std::uint32_t>(3 * lanes_),
                    .write_ports = 0,
-                   .content = "code of a linear light"},
+                   .content = "linear light to sRGB code"},
                   spec::morphological::kSrgbFromLinear12) {
   for (int lane = 0; lane < lanes_; ++lane) {
     mix_.emplace_back(mix_rom_, std::to_string(lane));
@@ -89,7 +89,7 @@ void Blender::choose(Cycle cycle, const FrameConfiguration& configuration, const
   beat.last = end && slot.row + 1u == configuration.rows;
   beat.blend = beat.left = 0;
   spec::morphological::BlendedBeat& result = beat.result;
-  result = {};  // what leaves the engine is defined in every lane
+  result = {};  // defines every lane of the output
   result.count = static_cast<std::uint8_t>(count);
   result.end_of_row = end;
   result.start_of_frame = slot.row == first_row_ && slot.beat == 0;
@@ -305,16 +305,15 @@ Datasheet Blender::datasheet() {
                      {"2", "address of linear_rom; word of mix_rom, squares of both weights"},
                      {"3", "linear light, differences; squares x word, rounded",
                       "21 x 16 multiply + 37-bit add"},
-                     {"4", "products, their sum", "signed 13 x 13 multiply"},
-                     {"5", "rounding, new value, address of encode_rom"},
+                     {"4", "products, sum", "signed 13 x 13 multiply"},
+                     {"5", "rounding, new value, encode_rom address"},
                      {"6", "codes", "ROM read"}},
           .formats = "weights U0.8, as blended U0.12; linear light U0.12, its differences S13.",
           .cost =
-              "a lane: nine reads of linear_rom, 256 x 12 bits (three a channel, after the "
-              "choice of the axis), three of encode_rom, 4096 x 8 bits (two reads a copy), two "
-              "signed multipliers 13 x 13 a channel, one of mix_rom, 511 x 21 bits, two "
-              "multipliers 8 x 8 and two 21 x 16, nine comparators, five bits of marks, two "
-              "shifts."};
+              "per lane: nine reads of linear_rom, 256 x 12 bits (three per channel, after the "
+              "axis is chosen), three of encode_rom, 4096 x 8 bits (two reads per copy), two "
+              "signed 13 x 13 multipliers per channel, one read of mix_rom, 511 x 21 bits, two "
+              "8 x 8 and two 21 x 16 multipliers, nine comparators, five mark bits, two shifts."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -130,7 +130,7 @@ TEST(WeightSamples, AreWhatTheEngineBlends) {
                               : left_right == 0 ? false
                               : s.longer != 0   ? s.longer < 0
                                                 : left_right > up_down;
-      const auto& tap = golden.taps()[frame.frame.index(x, y)];
+      const auto& tap = golden.probes()[frame.frame.index(x, y)];
       ASSERT_EQ(tap.horizontal, horizontal) << x << ' ' << y;
       ASSERT_EQ(tap.first, weight[horizontal ? 2 : 0]);
       ASSERT_EQ(tap.second, weight[horizontal ? 3 : 1]);
