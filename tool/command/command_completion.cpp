@@ -148,7 +148,7 @@ _deburr() {
   for ((i = 1; i < COMP_CWORD; ++i)); do
     word=${COMP_WORDS[i]} before=${COMP_WORDS[i - 1]}
     case "$place $word" in
-      @ENTRIES@) place="$place $word" ;;
+      @PLACES@) place="$place $word" ;;
       *) [[ $word == -* || $word == = || $before == = ]] || _deburr_words "$place:$before" >/dev/null || ((++count)) ;;
     esac
   done
@@ -190,7 +190,7 @@ _deburr() {
   for ((i = 2; i < CURRENT; ++i)); do
     word=${words[i]} before=${words[i - 1]}
     case "$place $word" in
-      (@ENTRIES@) place="$place $word" ;;
+      (@PLACES@) place="$place $word" ;;
       (*) [[ $word == -* ]] || _deburr_words "$place:$before" >/dev/null || ((++count)) ;;
     esac
   done
@@ -237,7 +237,7 @@ function __deburr_complete
   set -l before deburr
   set -l count 0
   for token in $tokens[2..-1]
-    if contains -- "$place $token" @ENTRIES@
+    if contains -- "$place $token" @PLACES@
       set place "$place $token"
     else if not string match -q -- '-*' $token; and not __deburr_words "$place:$before" >/dev/null
       set count (math $count + 1)
