@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasheets of the morphological engine's units.
+// Datasheets of the morphological engine's units.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace deburr::rtl::morphological {
 
-// Of every unit that is built with these parameters, in the order of the pipe.
+// Units built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::morphological::Parameters& parameters);
-// Of every unit in each of its builds.
+// All units, each in every variant.
 std::vector<Datasheet> datasheets();
 
 }  // namespace deburr::rtl::morphological

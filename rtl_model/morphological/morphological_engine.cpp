@@ -148,7 +148,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
       {reg::kDescriptorStalls, &extractor.descriptor_stalls},
       {reg::kMemoryErrors, &pixel_store.memory_errors}};
   for (const auto& [offset, counter] : shown) control.show(offset, *counter);
-  // Both axes count for themselves; the register shows the sum.
+  // Counted per axis; the registers show the sum.
   control.show_sum(reg::kExtendedRuns,
                    {&endpoint_predictor_h.extended_runs, &endpoint_predictor_v.extended_runs});
   control.show_sum(reg::kSteps, {&endpoint_predictor_h.steps, &endpoint_predictor_v.steps});

@@ -13,7 +13,7 @@ RegisterSection register_section(const spec::morphological::Parameters& paramete
   RegisterSection section{"MorphologicalEngine", "DEBURR_MORPHOLOGICAL", {}};
   section.loaded.assign(loaded.begin(), loaded.end());
   section.busy_ignores_writes = spec::morphological::kBusyIgnoresWrites;
-  // Without learned weights their registers read 0 and keep nothing.
+  // Without learned weights their registers read 0 and ignore writes.
   static constexpr std::array kNotBuilt = spec::number(spec::Access::kConstant);
   const bool learned = parameters.area == spec::morphological::AreaSource::kLearned;
   for (spec::RegisterInfo info : spec::morphological::kRegisters) {

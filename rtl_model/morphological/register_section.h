@@ -6,7 +6,7 @@
 
 namespace deburr::rtl::morphological {
 
-// With the reset values of a build.
+// Reset values are those of the given build parameters.
 RegisterSection register_section(const spec::morphological::Parameters& parameters = {});
 
 }  // namespace deburr::rtl::morphological

@@ -43,12 +43,9 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
 
 Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
   const bool two = p.axes == spec::texture::Axes::kTwo;
-  Datasheet sheet = {
-      .unit = "AddressUnit",
-      .does =
-          "From quads to bilinear requests: the blocks above, one after the "
-          "other.",
-      .interval = {1, "N x (1 or 2) cycles a fragment, or `axis_cycles` if that is more"}};
+  Datasheet sheet = {.unit = "AddressUnit",
+                     .does = "From quads to bilinear requests: the units above in series.",
+                     .interval = {1, "max(N x (1 or 2), `axis_cycles`) cycles per fragment"}};
   for (const Datasheet& block :
        {DerivativeUnit::datasheet(), two ? FootprintUnit::datasheet(p) : AxisUnit::datasheet(p),
         Log2Unit::datasheet(p), LevelUnit::datasheet(), SampleWalker::datasheet(p),

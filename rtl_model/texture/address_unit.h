@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// From quads of texture coordinates to bilinear requests: the address calculation module of the
+// Converts quads of texture coordinates to bilinear requests: address calculation module of the
 // paper (2.2, figure 4).
 //
 //     quads_in -> DerivativeUnit -> FootprintUnit -> Log2Unit -> LevelUnit -> SampleWalker
 //                                 or AxisUnit      -> TexelAddresser -> texels_out
 //
-// The AxisUnit stands there with `axes = four | eight`. Every block is stalled by `downstream`
-// only, and links of two places stand between them. Source: paper 2.2, figure 4.
+// Structure `axes = four` or `eight` builds the AxisUnit instead of the FootprintUnit. Links with
+//           two entries connect the units.
+// Stalls    downstream
+// Source    Paper 2.2, figure 4.
 #pragma once
 
 #include <memory>
@@ -35,7 +37,7 @@ class AddressUnit final : public sc_core::sc_module {
               const Descriptors& descriptors, LatencyProbe& probe);
 
   DerivativeUnit derivative;
-  // One of the two.
+  // Exactly one of the two is built.
   std::unique_ptr<FootprintUnit> footprint;
   std::unique_ptr<AxisUnit> axis;
   Log2Unit log2;

@@ -12,16 +12,15 @@ namespace {
 
 constexpr unsigned kDirections = 8;  // in half a turn
 
-// 0, 49, 90, 118 and 128 times a value: what sine and cosine of 0, 22.5, 45, 67.5 and 90 degrees
-// are in 1/128.
+// 0, 49, 90, 118 and 128 times v: sine and cosine of 0, 22.5, 45, 67.5 and 90 degrees in 1/128.
 using Multiples = std::array<std::int64_t, 5>;
 Multiples multiples(std::int64_t v) {
   return {0, (v << 5) + (v << 4) + v, (v << 6) + (v << 4) + (v << 3) + (v << 1),
           (v << 7) - (v << 3) - (v << 1), v << 7};
 }
 
-// cos x along the row + sin x along the column, with 7 bits below the point. The sine is the
-// multiple of the angle's distance from 0 or 180 degrees, the cosine that from 90.
+// cos x along the row + sin x along the column, with 7 fraction bits. The sine is indexed by the
+// distance of the angle from 0 or 180 degrees, the cosine by that from 90.
 std::int64_t rotated(const Multiples& row, const Multiples& column, unsigned direction) {
   constexpr unsigned kUpright = kDirections / 2;
   return direction <= kUpright ? column[direction] + row[kUpright - direction]
@@ -33,10 +32,10 @@ std::uint64_t magnitude(std::int64_t v) {
   constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;  // U15.16
   return std::min(static_cast<std::uint64_t>(v < 0 ? -v : v) >> 7, kLargest);
 }
-// In coordinates: the magnitude is rounded, so halves of negative numbers go down.
+// In coordinates: rounds the magnitude, so negative halves round down.
 std::int64_t coordinate(std::int64_t v) { return (v + (v < 0 ? 63 : 64)) >> 7; }
 
-// The derivative in texels with the sign of its difference.
+// Derivative in texels with the sign of the coordinate difference.
 std::int64_t with_sign(std::uint32_t size, std::int64_t difference) {
   return difference < 0 ? -std::int64_t{size} : std::int64_t{size};
 }
@@ -91,7 +90,7 @@ void AxisUnit::turn(const DerivativeToken& in, FootprintToken& out) const {
   out.axis_t = coordinate(rotated(multiples(in.t_x), multiples(in.t_y), major.direction));
 }
 
-// Stages 1 to 6. Of equals the first stays, in a clock and from one to the next.
+// Stages 1 to 6. On ties the first candidate wins, within a cycle and across cycles.
 AxisUnit::Candidate AxisUnit::longest(const DerivativeToken& in) const {
   const Multiples row_s = multiples(with_sign(in.size_s_x, in.s_x)),
                   row_t = multiples(with_sign(in.size_t_x, in.t_x)),
@@ -117,7 +116,7 @@ void AxisUnit::reset() {
   root_stages_.reset();
 }
 
-// Stages 1 and 2: U15.8 each, U31.16.
+// Stages 1 and 2: factors U15.8, area U31.16.
 std::uint64_t AxisUnit::area(const DerivativeToken& in) {
   const auto product = [](std::uint32_t s, std::uint32_t t) {
     return std::uint64_t{s >> 8} * (t >> 8);
@@ -136,53 +135,50 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
       .unit = "AxisUnit",
       .variant = exact ? "`footprint = exact`" : "other `footprint`",
       .does =
-          "The major axis among four or eight directions, and the area of the footprint "
-          "(`axes = four`, `eight`, in place of the FootprintUnit).",
-      .latency = exact ? Cycles{22 + cycles - 1, "22, and `axis_cycles` - 1"}
-                       : Cycles{8 + cycles - 1, "8, and `axis_cycles` - 1"},
+          "Finds the major axis among four or eight directions, and the area of the footprint "
+          "(`axes = four`, `eight`; instead of the FootprintUnit).",
+      .latency = exact ? Cycles{22 + cycles - 1, "22 + `axis_cycles` - 1"}
+                       : Cycles{8 + cycles - 1, "8 + `axis_cycles` - 1"},
       .interval = {cycles, "`axis_cycles`"},
       .stages = {{"1",
                   "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two products "
                   "of the area",
                   "38-bit addition of four operands; 23 x 23 multiply"},
-                 {"2", "candidates, their magnitudes; difference of the area's products",
+                 {"2", "magnitudes of the candidates; difference of the area's products",
                   "two 40-bit additions"}}};
   if (exact) {
     sheet.stages.insert(
         sheet.stages.end(),
         {{"3", "squares of each candidate",
-          "31-bit squarer: 1.29 of the multiply, as the FootprintUnit's"},
-         {"4", "their sums", "62-bit addition"},
-         {"5", "the longest of four", "two comparisons of 63 bits with a choice"},
-         {"6", "of those and of the cycles before", "two comparisons of 63 bits with a choice"},
+          "31-bit squarer: 1.29 x the 24 x 24 multiply, as in FootprintUnit"},
+         {"4", "sums", "62-bit addition"},
+         {"5", "longest of four", "two 63-bit comparisons with muxes"},
+         {"6", "longest of this and the previous cycles", "two 63-bit comparisons with muxes"},
          {"7-22",
-          "two root bits each; beside 7 the same multiples of the coordinate differences, those of "
-          "the direction found, beside 8 their sum, rounded",
-          "two 34-bit subtractors one after the other; in 8 two 41-bit additions and the rounding: "
-          "1.48 of the multiply"}});
+          "two root bits each; in parallel with 7 the same multiples of the coordinate differences "
+          "for the direction found, with 8 their sum, rounded",
+          "two 34-bit subtractors in series; in 8 two 41-bit additions and rounding: "
+          "1.48 x the 24 x 24 multiply"}});
   } else {
     sheet.stages.insert(
         sheet.stages.end(),
-        {{"3", "measure of each candidate", "31-bit comparison with a choice, 32-bit addition"},
-         {"4", "`two_segment`'s longer line", "32-bit comparison with a choice"},
-         {"5", "the longest of four", "two comparisons of 32 bits with a choice"},
-         {"6", "of those and of the cycles before", "two comparisons of 32 bits with a choice"},
-         {"7", "the same multiples of the coordinate differences, those of the direction found"},
-         {"8", "their sum, rounded",
-          "two 41-bit additions and the rounding: 1.46 of the multiply"}});
+        {{"3", "measure of each candidate", "31-bit comparison with mux, 32-bit addition"},
+         {"4", "longer line of `two_segment`", "32-bit comparison with mux"},
+         {"5", "longest of four", "two 32-bit comparisons with muxes"},
+         {"6", "longest of this and the previous cycles", "two 32-bit comparisons with muxes"},
+         {"7", "the same multiples of the coordinate differences, for the direction found"},
+         {"8", "sum, rounded", "two 41-bit additions and rounding: 1.46 x the 24 x 24 multiply"}});
   }
   sheet.formats =
-      "U15.16 with the signs of the differences in; U16.16, U31.16 and S9.24 out; "
-      "candidates truncated, axis rounded.";
+      "in: U15.16 and the signs of the differences; out: U16.16, U31.16 and S9.24; candidates "
+      "truncated, axis rounded.";
   sheet.cost =
-      "two 23 x 23 multipliers, a 47-bit subtractor and a negation; 28 adders of 38 bits for the "
-      "multiples of the derivatives (`four`: 12) and as many of 40 bits for those of the "
-      "differences; two 41-bit adders and two roundings; a candidate and clock two 40-bit adders "
-      "with negations (the row and the column: none), the measure as in the FootprintUnit "
-      "(`exact`: "
-      "two 31-bit squarers, a 62-bit adder) and a comparator; `exact`: 16 x two 34-bit "
-      "subtractors; "
-      "registers of nine fragments (`exact`: 22).";
+      "two 23 x 23 multipliers, a 47-bit subtractor and a negation; 28 38-bit adders for the "
+      "multiples of the derivatives (`four`: 12) and the same number of 40-bit adders for those of "
+      "the differences; two 41-bit adders and two roundings; per candidate and cycle two 40-bit "
+      "adders with negations (none for the row and the column), the measure as in FootprintUnit "
+      "(`exact`: two 31-bit squarers, a 62-bit adder) and a comparator; `exact`: 16 x two 34-bit "
+      "subtractors; registers for nine fragments (`exact`: 22).";
   return sheet;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The major axis of a fragment's footprint among four or eight directions, every 45 or 22.5
-// degrees: candidates by shift-adds, the longest of them, its length and its place in texture
-// coordinates, and the area of the footprint, which gives the minor axis.
+// Finds the major axis of a fragment's footprint among four or eight directions, every 45 or 22.5
+// degrees. Computes the candidates by shift-adds, selects the longest, and outputs its length, its
+// vector in texture coordinates, and the area of the footprint, which determines the minor axis.
 //
-// Where: after the DerivativeUnit, in place of the FootprintUnit, with `axes = four | eight`.
-// `axis_cycles` puts the candidates through the stages that measure them in so many groups. With
-// `exact` there is one root however many the candidates are, since squares are compared. The model
-// does all at once, then delays. Stalled by `downstream`, and then holds still as a whole. Source:
-// ours; lengths as in paper 1.2.
+// Position  DerivativeUnit -> AxisUnit -> Log2Unit; with `axes = four` or `eight`, instead of the
+//           FootprintUnit.
+// Interval  `axis_cycles`: the candidates pass the measuring stages in that many groups.
+// Stalls    downstream  The whole unit stalls.
+// Cost      `exact` compares squares, so it needs one root for any number of candidates.
+// Note      The model computes everything in stage 1, then delays.
+// Source    Ours; lengths as in paper 1.2.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +39,7 @@ class AxisUnit final : public Unit {
  private:
   static constexpr std::size_t kStages = 8, kRootStages = 22;
   struct Candidate {
-    std::uint64_t measure;  // U16.16; `exact`: the square of its length, U31.32
+    std::uint64_t measure;  // U16.16; `exact`: squared length, U31.32
     unsigned direction;     // U3, x 22.5 degrees
   };
   template <std::size_t kLength>
@@ -48,10 +50,10 @@ class AxisUnit final : public Unit {
   static std::uint64_t area(const DerivativeToken& in);
 
   spec::texture::FootprintRule rule_;
-  unsigned step_;             // between candidates, x 22.5 degrees
-  std::int32_t more_cycles_;  // beyond the first, for the candidates of a fragment
+  unsigned step_;             // between candidates, in units of 22.5 degrees
+  std::int32_t more_cycles_;  // axis_cycles - 1
   // Registers.
-  std::int32_t cycles_left_ = 0;  // U2, that the fragment in hand still takes
+  std::int32_t cycles_left_ = 0;  // U2, cycles that the current fragment still takes
   FootprintToken in_hand_{};
   Pipe<FootprintToken, kStages> stages_;
   Pipe<FootprintToken, kRootStages> root_stages_;  // `exact`

@@ -13,7 +13,7 @@ namespace {
 // A word may be read at the last byte of the last line.
 constexpr std::size_t kPadding = 3;
 
-// Little-endian, whatever the host is.
+// Little-endian on every host.
 std::uint32_t load(const std::uint8_t* bytes) {
   if constexpr (std::endian::native == std::endian::little) {
     std::uint32_t word;
@@ -25,7 +25,7 @@ std::uint32_t load(const std::uint8_t* bytes) {
   }
 }
 
-// A texel is the low bits of what is read.
+// A texel is in the low bits of the word.
 std::uint32_t texel_mask(const FilterControl& control) {
   static constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
   static_assert(kMask.size() == spec::texture::kFormatNames.size());
@@ -40,12 +40,12 @@ MemoryShape bank_shape(const spec::texture::Parameters& p) {
           .read_ports = 4,
           .write_ports = 1,
           .latency = 1,
-          // A fill replaces a line in the clock in which an older request reads it.
+          // A fill may replace a line in the cycle in which an older request reads it.
           .read_during_write = ReadDuringWrite::kOldWord,
           .banks = banks,
           .span = banks,
           .separate_banks = true,
-          .content = "cache lines, spread over all banks"};
+          .content = "lines, one word of each per bank"};
 }
 
 }  // namespace
@@ -59,11 +59,11 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       banks_("banks", bank_shape(p)),
       bytes_(static_cast<std::size_t>(p.cache_bytes) + kPadding),
-      wait_fill_(declare_stall("wait_fill", "a line of the request has not arrived")),
+      wait_fill_(declare_stall("wait_fill", "waits for a line of the request")),
       write_fill_(declare_stall("write_fill", "the request has more lines to write")),
-      bank_conflict_(declare_stall("bank_conflict", "the request has more words in one bank")) {}
+      bank_conflict_(declare_stall("bank_conflict", "the request reads more words of one bank")) {}
 
-// From the last stage to the first.
+// Last stage first.
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
   if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
@@ -81,7 +81,7 @@ Activity DataStage::work(Cycle cycle) {
   return kBusy;
 }
 
-// Stage 1 of a request that takes several cycles, or may.
+// Stage 1 of a request that may take several cycles.
 Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
   if (!started_) {
     started_ = true;
@@ -90,8 +90,8 @@ Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
     if (schedule_.passes > 1) ++conflicts;
   }
   if (passes_done_ < schedule_.passes) read(cycle, request, passes_done_++);
-  // A line may replace one of which a texel is read: not before its last pass, which sees the old
-  // word.
+  // A line may replace one that is still read: write it no earlier than in the last pass, which
+  // still reads the old word.
   const bool may_write = fills_done_ < request.fills && passes_done_ == schedule_.passes;
   const bool writes = may_write && fills_.ready(cycle);
   if (writes) write_fill(cycle, request);
@@ -103,7 +103,7 @@ Activity DataStage::advance(Cycle cycle, const CacheToken& request) {
   return writes ? write_fill_ : bank_conflict_;
 }
 
-// In each bank, one word a pass, in texel order.
+// One word per bank and pass, in texel order.
 DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
   Schedule s{0, {-1, -1, -1, -1}, {}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -121,8 +121,8 @@ DataStage::Schedule DataStage::schedule(const CacheToken& request) const {
   return s;
 }
 
-// Four hits in one pass: all that most requests are. False if words meet in a bank:
-// then nothing has been read.
+// Fast path for four hits in one pass, the common case. Returns false without reading if two words
+// are in one bank.
 inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   std::array<std::uint32_t, 4> word;
   for (std::size_t i = 0; i < 4; ++i) word[i] = request.place[i] >> 2;
@@ -135,12 +135,12 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   if ((a | b | c) >= words_a_line_ &&
       (meet(a) || meet(b) || meet(c) || meet(d) || meet(e) || meet(f)))
     return false;
-  // A word that two texels share is one read.
+  // Texels in the same word need one read.
   issue(cycle, 0, word[0]);
   if (a != 0) reads_[1].read(cycle, word[1]);
   if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
   if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
-  // The ports know which words there are, so they are asked first.
+  // The ports check the words, so read them first.
   for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
   return true;
 }
@@ -153,7 +153,7 @@ void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
   }
 }
 
-// The words of a clock come together, so one of them stands for all.
+// All words of a cycle arrive together, so one of them is enough for the check.
 inline void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
   reads_[port].read(cycle, word);
   issued_ = &reads_[port];
@@ -178,7 +178,7 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   ++fills_done_;
 }
 
-// The request goes on to stage 2; without a texture its texels are 0.
+// Passes the request to stage 2; the texels of an invalid texture are 0.
 inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
   waiting_.ticket = request.ticket;
@@ -196,21 +196,20 @@ void DataStage::reset() {
 }
 
 Datasheet DataStage::datasheet() {
-  return {
-      .unit = "DataStage",
-      .does = "Reads the texels of a request from the banks and writes the fills it ordered.",
-      .latency = {2, "2 in the last clock of a request"},
-      .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 cycles a request"},
-      .stages = {{"1",
-                  "waits for the fills of its own request and takes each as it arrives in order, "
-                  "addresses the texels that hit before it writes its fills",
-                  "comparison of 14 bits, the pass of each texel (three 2-bit steps), choice of "
-                  "1 in 4 addresses"},
-                 {"2", "words, texels; missed ones from the fill buffer",
-                  "SRAM read, choice of 1 in 16 words (32 at most) and of a byte"}},
-      .cost =
-          "banks of lines x 32 bits, SRAM 1R1W, four texel registers, four word "
-          "multiplexers, six comparators."};
+  return {.unit = "DataStage",
+          .does = "Reads the texels of a request from the banks and writes its fills.",
+          .latency = {2, "2, from the last cycle of a request"},
+          .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 cycles per request"},
+          .stages = {{"1",
+                      "waits for the request's fills and takes each in order; addresses the texels "
+                      "that hit before it writes its fills",
+                      "14-bit comparison, the pass of each texel (three 2-bit steps), 4 : 1 mux of "
+                      "addresses"},
+                     {"2", "words, texels; missed texels from the fill buffer",
+                      "SRAM read, 16 : 1 mux of words (32 : 1 at most) and a byte mux"}},
+          .cost =
+              "banks of lines x 32 bits, SRAM 1R1W, four texel registers, four word muxes, six "
+              "comparators."};
 }
 
 }  // namespace deburr::rtl::texture

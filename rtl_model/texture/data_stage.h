@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Reads the four texels of a request from the data banks, and writes the fills that the request
-// ordered when it reaches the head of the LatencyFifo.
+// Reads the four texels of a request from the data banks, and writes the request's fills when it
+// reaches the head of the LatencyFifo.
 //
-// Where: tail of the TextureCache. A bank holds one 32-bit word of each line (16 banks for lines of
-// 64 bytes), so a fill is written whole in one clock as it came, and texels of one line never meet
-// in a bank. A row of a `linear` texture follows the one above it at the same place in its lines:
-// the banks of odd rows are turned by half a tile. Texels that hit are read before a fill of the
-// same request can overwrite them (the banks are read-first; fills begin in the clock of the last
-// pass that reads a hit); texels that missed are taken from the fill as it passes. Stalls, stage by
-// stage: `wait_fill` (a line has not arrived), `write_fill` (more lines to write), `bank_conflict`
-// (more passes to read), `downstream`. `line_used_out`, a register, is high in the clock after each
-// line that is written.
+// Position  LatencyFifo -> DataStage; last unit of the TextureCache.
+// Banks     A bank holds one 32-bit word of each line (16 banks for lines of 64 bytes). A fill is
+//           written in one cycle, and texels of one line are always in different banks. Consecutive
+//           rows of a `linear` texture have the same offset in their lines, so the lines of odd
+//           rows are stored with their banks rotated by half a tile.
+// Order     Texels that hit are read before a fill of the same request can overwrite them: banks
+//           are read-first, and fills begin in the cycle of the last pass that reads a hit. Texels
+//           that missed are taken from the fill.
+// Stalls    wait_fill      A line has not arrived.
+//           write_fill     More lines to write.
+//           bank_conflict  More passes to read.
+//           downstream     Each stage stalls independently.
+// Output    `line_used_out`, a register, is high in the cycle after each written line.
 #pragma once
 
 #include <array>
@@ -44,17 +48,17 @@ class DataStage final : public Unit {
   }
   void reset() override;
 
-  Counter lines_written{"lines_written", "lines", "fills written into the data banks"};
+  Counter lines_written{"lines_written", "lines", "fills written to the data banks"};
   Counter conflicts{"conflicts", "requests", "requests with two words in one bank"};
 
   static Datasheet datasheet();
 
  private:
-  // In which clock of its request a texel that hits is read, and through which port.
+  // When and through which port each texel that hits is read.
   struct Schedule {
-    int passes;                 // 0..4: those that read a texel that hits
-    std::array<int, 4> pass;    // of texel i; -1: it missed
-    std::array<bool, 4> again;  // its word is that of an earlier texel
+    int passes;                 // 0..4: passes that read a hit
+    std::array<int, 4> pass;    // pass of texel i; -1: it missed
+    std::array<bool, 4> again;  // same word as an earlier texel
   };
   Schedule schedule(const CacheToken& request) const;
   Activity work(Cycle cycle);
@@ -72,14 +76,14 @@ class DataStage final : public Unit {
       ReadPort<void>{banks_, "texel_0"}, ReadPort<void>{banks_, "texel_1"},
       ReadPort<void>{banks_, "texel_2"}, ReadPort<void>{banks_, "texel_3"}};
   WritePort<void> write_{banks_, "fill"};
-  std::vector<std::uint8_t> bytes_;  // of the banks, word by word
+  std::vector<std::uint8_t> bytes_;  // content of the banks, word by word
   Activity wait_fill_, write_fill_, bank_conflict_;
   // Registers of the request in stage 1.
   bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
-  Cycle line_used_ = kNever;  // the last clock in which a line was written
-  // One of the words that were asked for last, and when: for the check, no hardware.
+  Cycle line_used_ = kNever;  // last cycle in which a line was written
+  // Check only, no hardware: one of the words read last, and when.
   const ReadPort<void>* issued_ = nullptr;
   std::uint64_t issued_word_ = 0;
   Cycle issued_at_ = 0;

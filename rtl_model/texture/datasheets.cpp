@@ -8,7 +8,7 @@
 namespace deburr::rtl::texture {
 namespace {
 
-// The parts that are made of blocks: their latency is a sum.
+// Composite parts: their latency is the sum over their parts.
 std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
   std::vector<Datasheet> sheets = {TextureUnit::datasheet(p), AddressUnit::datasheet(p)};
   for (Datasheet& sheet : sheets)
@@ -44,7 +44,7 @@ std::vector<Datasheet> datasheets() {
     spec::texture::Parameters p = spec::texture::preset_parameters(row.preset);
     builds.push_back(sums(p));
     builds.push_back(datasheets(p));
-    // What the preset has not.
+    // Variants that the preset does not use.
     p.footprint = p.footprint == spec::texture::FootprintRule::kExact
                       ? spec::texture::FootprintRule::kHalf
                       : spec::texture::FootprintRule::kExact;

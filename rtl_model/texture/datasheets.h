@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasheets of the texture unit's blocks.
+// Datasheets of the texture unit's parts.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace deburr::rtl::texture {
 
-// Of every block that is built with these parameters, in the order of the pipe.
+// Parts built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::texture::Parameters& parameters);
-// Of every block in each of its builds, and of the whole unit with each preset.
+// All parts, each in every variant, and the whole unit with each preset.
 std::vector<Datasheet> datasheets();
 
 }  // namespace deburr::rtl::texture

@@ -6,8 +6,8 @@
 namespace deburr::rtl::texture {
 namespace {
 
-// Size of a difference in texels: S8.24 x U13 = U20.24, to U15.16 with one bit of overflow, which
-// is bit 31 or above.
+// Magnitude of a difference in texels: S8.24 x U13 = U20.24, rounded to U15.16 plus one overflow
+// bit (bit 31 or above).
 std::uint64_t in_texels(std::int64_t difference, std::uint16_t size) {
   const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
   return (magnitude * size + (1u << 7)) >> 8;
@@ -48,8 +48,8 @@ inline void DerivativeUnit::take(Cycle cycle) {
   for (unsigned lanes = waiting_; lanes != 0; lanes &= lanes - 1) probe_.enters(cycle);
 }
 
-// All stages, one lane: what is between them cannot be seen from outside, since a descriptor stands
-// still while the unit is busy.
+// All stages for one lane. Nothing in between is observable, since a descriptor does not change
+// while the unit is busy.
 inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
   const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
   waiting_ &= waiting_ - 1;
@@ -93,18 +93,18 @@ void DerivativeUnit::reset() {
 Datasheet DerivativeUnit::datasheet() {
   return {.unit = "DerivativeUnit",
           .does =
-              "Splits a quad into its covered fragments, with the differences of coordinates "
-              "along their row and column.",
+              "Splits a quad into its covered fragments, with coordinate differences along their "
+              "row and column.",
           .latency = {3},
-          .interval = {1, "one clock a covered lane (a quad without covered lanes: 1)"},
-          .stages = {{"1", "next covered lane, its four differences, choice of the descriptor"},
-                     {"2", "four products of a difference with the width or height of level 0",
+          .interval = {1, "one cycle per covered lane (a quad without covered lanes: 1)"},
+          .stages = {{"1", "next covered lane, its four differences, descriptor selected"},
+                     {"2", "products of the four differences with the width or height of level 0",
                       "33 x 13 multiply"},
-                     {"3", "magnitude, rounding, saturation of each"}},
+                     {"3", "magnitude, rounding and saturation of each"}},
           .formats = "S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1.",
           .cost =
               "four 33-bit subtractors, four 33 x 13 multipliers, four 46-bit adders, registers "
-              "of a quad and of two fragments."};
+              "for a quad and two fragments."};
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Splits a quad into its covered fragments and gives each the differences of its own row and
-// column, in texture coordinates and in texels of level 0.
+// Splits a quad into its covered fragments and computes for each the coordinate differences along
+// its row and column, in texture coordinates and in texels of level 0.
 //
-// Where: head of the AddressUnit. The model does all in stage 1, then delays. Stalled by
-// `downstream`, and then holds still as a whole; takes no quad while CONTROL.enable is 0. Saturated
-// derivatives are counted. Source: paper 2.2 (1).
+// Position  First unit of the AddressUnit.
+// Stalls    downstream  The whole unit stalls. Takes no quad while CONTROL.enable is 0.
+// Note      The model computes everything in stage 1, then delays.
+// Source    Paper 2.2 (1).
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,8 @@ class DerivativeUnit final : public Unit {
 
   Counter quads{"quads", "quads", "quads taken"};
   Counter fragments{"fragments", "fragments", "covered fragments taken"};
-  Counter clamped{"clamped", "fragments", "covered fragments whose coordinates had been clamped"};
+  Counter clamped{"clamped", "fragments",
+                  "covered fragments whose coordinates were clamped upstream"};
   Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
   Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
 
@@ -49,7 +51,7 @@ class DerivativeUnit final : public Unit {
   LatencyProbe& probe_;
   // Registers.
   spec::texture::Quad quad_{};
-  unsigned waiting_ = 0;  // U4, covered lanes of quad_ that have not left yet
+  unsigned waiting_ = 0;  // U4, covered lanes of quad_ still to be sent
   Pipe<DerivativeToken, kStages> pipe_;
 };
 

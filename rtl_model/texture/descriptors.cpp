@@ -12,11 +12,11 @@ namespace {
 
 namespace reg = spec::texture::reg;
 
-// As the registers hold a descriptor, and whether it is valid: SIZE, MODE, bias, limits, and a base
-// a level without the six bits that are 0.
+// Descriptor bits in the registers: SIZE, MODE, bias, limits, per level a base without its six zero
+// bits; and a valid bit.
 constexpr std::uint32_t kWordBits = 26 + 19 + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
 
-// Bits needed to number n things, n > 0: lb n, rounded up.
+// Bits needed to number n > 0 things: lb n, rounded up.
 std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::bit_width(n - 1)); }
 
 }  // namespace
@@ -124,10 +124,10 @@ void Descriptors::written(const ControlRegisters& registers, std::uint32_t offse
 
 Datasheet Descriptors::datasheet() {
   return {.unit = "Descriptors",
-          .does = "16 texture descriptors, as the registers hold them.",
-          .latency = {0, "0, flip-flops without output register"},
-          .stages = {{"-", "choice of a descriptor", "choice of 1 in 16"}},
-          .cost = "16 x 432 flip-flops, a 16-to-1 multiplexer a reader."};
+          .does = "Stores 16 texture descriptors as in the registers.",
+          .latency = {0, "0: flip-flops without output register"},
+          .stages = {{"-", "descriptor selected", "16 : 1 mux"}},
+          .cost = "16 x 432 flip-flops, a 16 : 1 mux per reader."};
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The texture descriptors as the pipeline sees them, and how registers become one.
+// Texture descriptors, decoded from the registers for the pipeline.
 //
-// Where: beside the AddressUnit, three blocks of which read the descriptor of the fragment in hand.
-// Kept as the registers hold them, read by handle, written by the register bus one register at a
-// time. What a level is (its size, pitch and tiles) is wires, shifts and small adders behind the
-// choice. The word is there in the clock of the read; a write counts from the next clock edge on.
-// Descriptors are static while the unit is busy: a write then sets a sticky status bit. Formats:
-// docs/reference/texture/index.md, registers of a descriptor. Source: paper 2.1, the parameter
-// store.
+// Position  Next to the AddressUnit; three of its units read the descriptor of the current
+//           fragment.
+// Timing    Stored as in the registers, read by handle, written by the register bus one register at
+//           a time. A read returns the word in the same cycle; a write takes effect at the next
+//           clock edge. Descriptors must not change while the unit is busy: a write then sets a
+//           sticky status bit.
+// Note      Level size, pitch and tiles are derived after the mux by wires, shifts and small
+//           adders. Formats: docs/reference/texture/index.md, registers of a descriptor.
+// Source    Paper 2.1, the parameter store.
 #pragma once
 
 #include <array>
@@ -26,18 +28,18 @@ namespace deburr::rtl::texture {
 // One mip level.
 struct LevelGeometry {
   std::uint32_t base;           // U32, byte address
-  std::uint32_t pitch;          // U15, bytes a row, layout linear
+  std::uint32_t pitch;          // U15, bytes per row, layout linear
   std::uint16_t width, height;  // U13, texels
-  std::uint8_t mixed_log2;      // U4, lb of the tiles along the shorter side, rounded
-                                // up: so many bits of their numbers interleave
+  std::uint8_t mixed_log2;      // U4, interleaved bits of a tile number: lb of the tiles along the
+                                // shorter side, rounded up
 };
 
-// A descriptor, decoded.
+// A decoded descriptor.
 struct TextureState {
   bool valid = false;
   std::uint16_t width = 0, height = 0;                     // U13
   std::uint8_t levels = 0;                                 // U4
-  std::uint8_t texel_log2 = 0;                             // U2, lb of the bytes a texel
+  std::uint8_t texel_log2 = 0;                             // U2, lb of the bytes per texel
   std::uint8_t tile_width_log2 = 0, tile_height_log2 = 0;  // U2, texels
   std::uint8_t max_count_log2 = 0;                         // U3, lb N_max
   spec::texture::Format format{};
@@ -50,19 +52,19 @@ struct TextureState {
   std::array<LevelGeometry, spec::texture::kMaxLevels> level{};
 };
 
-// The registers of the unit: those of spec::texture::kRegisters, then each descriptor's.
+// All registers of the unit: spec::texture::kRegisters, then those of each descriptor.
 std::span<const spec::RegisterInfo> register_table();
-// What CONTROL and STATUS mean.
+// Layout of CONTROL and STATUS.
 ControlLayout control_layout();
-// Descriptor `handle` as it stands in the registers.
+// Decodes descriptor `handle` from the registers.
 TextureState decode(const ControlRegisters& registers, std::uint32_t handle);
 
 class Descriptors {
  public:
-  // A port of its own for each block that reads.
+  // One port per reading unit.
   class Reader {
    public:
-    // A handle beyond the last gives a descriptor that is not valid.
+    // A handle out of range returns an invalid descriptor.
     const TextureState& read(Cycle cycle, std::uint8_t handle) {
       if (handle >= spec::texture::kMaxTextures) [[unlikely]]
         return invalid_;
@@ -80,7 +82,7 @@ class Descriptors {
     const Words* words_;
   };
 
-  // Follows what is written into the registers.
+  // Decodes a descriptor whenever one of its registers is written.
   Descriptors(const char* name, ControlRegisters& registers);
 
   static Datasheet datasheet();
@@ -89,7 +91,7 @@ class Descriptors {
   void written(const ControlRegisters& registers, std::uint32_t offset);
 
   Memory<void> memory_;
-  WritePort<void> bus_{memory_, "register bus"};  // not clocked, as the bus is not: never issued
+  WritePort<void> bus_{memory_, "register bus"};  // not clocked, like the bus: never issued
   Reader::Words words_{};
 
  public:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lines on their way from memory: entries are reserved and released in the order of fills, and
-// filled in any order.
+// Lines in flight from memory: entries are reserved and released in the order of fills, and filled
+// in any order.
 //
-// Where: inside the MissQueue, which orders lines and fills their entries; the DataStage uses them
-// through a Reader, as a unit accesses a memory through its port. The oldest line is read ahead as
-// soon as it has arrived, so that it waits on the output register. An entry that is released in t
-// can be reserved from t+1 on.
+// Position  Inside the MissQueue, which requests lines and fills their entries. The DataStage
+//           accesses them through a Reader, like a memory port.
+// Latency   The oldest line is prefetched to the output register as soon as it has arrived. An
+//           entry released in cycle t can be reserved from t + 1 on.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,11 @@ namespace deburr::rtl::texture {
 
 class FillBuffer {
  public:
-  // The side of the DataStage: the oldest fill only. A copy is one more handle of the same side.
+  // Interface for the DataStage: the oldest fill only. Copies refer to the same interface.
   class Reader {
    public:
-    // In every clock, after anything else: reads the next line, if it is there and the output
-    // register is free.
+    // Call last in every cycle: reads the next line if it has arrived and the output register is
+    // free.
     void read_ahead(Cycle cycle) { lines_->read_ahead(cycle); }
     bool ready(Cycle cycle) const { return lines_->ready(cycle); }
     const std::uint8_t* line(Cycle cycle) const { return lines_->line(cycle); }
@@ -56,20 +56,20 @@ class FillBuffer {
                .kind = MemoryKind::kFlops,
                .write_ports = 2,
                .latency = 0,
-               .content = "arrived bits of lines in flight"}),
+               .content = "per line in flight: has it arrived?"}),
         arrived_(entries, kNever) {}
 
   Reader reader() { return Reader(*this); }
 
-  // --- Side of the MissQueue ---
+  // --- Interface of the MissQueue ---
   bool can_reserve(Cycle cycle) const { return held(cycle) < entries_; }
   std::uint32_t reserve(Cycle cycle) {
-    DEBURR_CHECK(can_reserve(cycle), std::string(memory_.name()) + ": no entry is free");
+    DEBURR_CHECK(can_reserve(cycle), std::string(memory_.name()) + ": no free entry");
     const auto entry = static_cast<std::uint32_t>(reserved_ % entries_);
     ++reserved_;
     return entry;
   }
-  // A beat of the line; `complete` with its last one.
+  // Writes a beat of the line; `complete`: the last one.
   void fill(Cycle cycle, std::uint32_t entry, std::uint32_t offset,
             std::span<const std::uint8_t> beat, bool complete) {
     if (entry >= entries_ || arrived_[entry] != kNever || offset + beat.size() > line_bytes_)
@@ -82,7 +82,7 @@ class FillBuffer {
     arrived_[entry] = cycle;
   }
 
-  // Entries held by fills that had not been used before `cycle`.
+  // Entries held by fills that were not used before `cycle`.
   std::uint64_t held(Cycle cycle) const { return reserved_ - released_ + (released_at_ == cycle); }
   void reset() {
     reserved_ = released_ = read_ = 0;
@@ -113,7 +113,7 @@ class FillBuffer {
     released_at_ = cycle;
   }
 
-  // Throws CheckFailed. Out of line: a check costs its caller a comparison.
+  // Throws CheckFailed. Not inlined, to keep the check cheap.
   [[gnu::cold, gnu::noinline]] void reject(std::uint32_t entry, std::uint32_t offset,
                                            std::size_t bytes) const;
 
@@ -130,7 +130,7 @@ class FillBuffer {
   Memory<void> bits_;
   ReadPort<void> oldest_{bits_, "data_stage"};
   WritePort<void> arrives_{bits_, "miss_queue"}, leaves_{bits_, "data_stage"};
-  std::vector<Cycle> arrived_;  // since when the bit is set; kNever: it is not
+  std::vector<Cycle> arrived_;  // cycle in which the bit was set; kNever: not set
   std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
   Cycle released_at_ = kNever, read_at_ = kNever;
 };

@@ -62,7 +62,7 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
              .read_ports = kCodedChannels,
              .write_ports = 0,
              .latency = 1,
-             .content = "linear light of an sRGB channel"},
+             .content = "sRGB channel to linear light"},
             spec::texture::kSrgbToLinear) {
   for (std::uint32_t i = 0; i < kCodedChannels; ++i)
     linear_.emplace_back(srgb_, "texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Filters four texels a clock to the colour of a fragment.
+// Filters four texels per cycle to the colour of a fragment.
 //
-// Where: after the TextureCache. Stages 6 and 7 wait for the requests that belong together, so a
-// colour leaves after the last request of its fragment. Stage 1 cuts a texel into its fields, which
-// are the addresses of the ROM `srgb`; its words are there in stage 2, and so is the weight of the
-// sample, from the ROM `weights` by N and i (`box` with N a power of two: 256 shifted by lb N, no
-// ROM). The weights sum to 256, so nothing is divided. The model does stages 2 to 5 in stage 2,
-// then delays. When a colour cannot leave (`downstream`), the whole pipeline holds still. Source:
-// paper 2.3; weights and codes are ours.
+// Position  TextureCache -> FilterPipeline.
+// Latency   Stages 6 and 7 collect the requests of a sample and of a fragment, so a colour leaves
+//           after the last request of its fragment.
+// Stalls    downstream  The whole pipeline stalls.
+// Method    Stage 1 splits a texel into fields, the addresses of ROM `srgb`. Stage 2 reads it, and
+//           the weight of the sample from ROM `weights` by N and i (`box` with N a power of two:
+//           256 >> lb N, no ROM). Weights sum to 256, so no division is needed. The model computes
+//           stages 2 to 5 in stage 2, then delays.
+// Source    Paper 2.3; weights and codes are ours.
 #pragma once
 
 #include <array>
@@ -31,7 +33,7 @@ namespace deburr::rtl::texture {
 
 class FilterPipeline final : public Unit {
  public:
-  static constexpr int kStages = 9;  // the last with `encoded` alone
+  static constexpr int kStages = 9;  // stage 9 only with `encoded`
 
   In<TexelQuadToken> texels_in{"texels_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
@@ -43,15 +45,15 @@ class FilterPipeline final : public Unit {
 
   Counter fragments{"fragments", "fragments", "colours delivered"};
   Histogram fragment_latency{"fragment_latency", "clk",
-                             "from a quad being taken to a colour of it being delivered"};
-  // Cycles in which a stage had a token to work on.
+                             "cycles from taking a quad to delivering one of its colours"};
+  // Cycles in which a stage held a token.
   std::array<Counter, kStages> occupancy;
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
-  // R, G, B and A. The model keeps two channels in a word, so that one of its multiplications does
-  // the work of two: no channel ever needs more than 32 bits.
+  // R, G, B and A. The model packs two channels per word so that one multiplication handles both;
+  // no channel needs more than 32 bits.
   struct Channels {
     static constexpr std::uint64_t kBoth = 0x1'0000'0001;
     std::uint64_t rb, ga;  // R and G in the low halves
@@ -60,7 +62,7 @@ class FilterPipeline final : public Unit {
                                  std::uint32_t a) {
       return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
     }
-    // `of` of the bytes of an RGBA8 texel.
+    // Like of(), from the bytes of an RGBA8 texel.
     static constexpr Channels of_bytes(std::uint64_t rgba) {
       constexpr std::uint64_t kBytes = kBoth * 0xFF;
       return {(rgba | rgba << 16) & kBytes, (rgba >> 8 | rgba << 8) & kBytes};
@@ -75,7 +77,7 @@ class FilterPipeline final : public Unit {
     friend constexpr Channels operator*(const Channels& x, std::uint32_t weight) {
       return {x.rb * weight, x.ga * weight};
     }
-    // Rounds `drop` bits off, at least one.
+    // Rounds off the low `drop` >= 1 bits.
     constexpr Channels rounded(unsigned drop) const {
       const std::uint64_t half = kBoth << (drop - 1), kept = kBoth * (0xFFFF'FFFFU >> drop);
       return {(rb + half) >> drop & kept, (ga + half) >> drop & kept};
@@ -84,7 +86,7 @@ class FilterPipeline final : public Unit {
   // A request in stages 1 to 6.
   struct Request {
     TexelQuadToken token;
-    std::uint32_t weight;  // U1.8, of its sample, from stage 2 on
+    std::uint32_t weight;  // U1.8, weight of the sample, from stage 2 on
     Channels row;          // U8.12, after stage 5
   };
   struct Sample {
@@ -119,20 +121,20 @@ class FilterPipeline final : public Unit {
   LatencyProbe& probe_;
   Memory<std::uint16_t> srgb_;
   std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
-  // Tables that not every rule needs: weights by 16 (N - 1) + i, and codes by U8.4 light.
+  // Tables that only some configurations need: weights at 16 (N - 1) + i, codes by U8.4 light.
   std::unique_ptr<Memory<std::uint16_t>> weights_;
   std::unique_ptr<Memory<std::uint8_t>> codes_;
   std::optional<ReadPort<std::uint16_t>> weight_read_;
   std::vector<ReadPort<std::uint8_t>> code_reads_;  // R, G, B
-  // The registers after each stage; stage 8 writes the output link, or with `encoded` stage 9.
+  // Registers after each stage; stage 8 (with `encoded` stage 9) writes the output link.
   Pipe<Request, kRequestStages> requests_;
-  Channels level_sum_{};  // U8.20, of the levels of the sample in hand
+  Channels level_sum_{};  // U8.20, over the levels of the current sample
   Sample sample_{};
   bool has_sample_ = false;
-  Channels kernel_sum_{};  // U8.20, of the samples of the fragment in hand
+  Channels kernel_sum_{};  // U8.20, over the samples of the current fragment
   Total total_{};
   bool has_total_ = false;
-  Total rounded_{};  // U8.0, what leaves as codes U8.4
+  Total rounded_{};  // U8.0; channels to be encoded U8.4
   bool has_rounded_ = false;
 };
 

@@ -32,7 +32,7 @@ Activity FootprintUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-// The shifts are wires.
+// Shifts by constants cost only wires.
 std::uint32_t FootprintUnit::side(spec::texture::FootprintRule rule, std::uint32_t s,
                                   std::uint32_t t) {
   const std::uint32_t a = std::max(s, t), b = std::min(s, t);
@@ -44,7 +44,7 @@ std::uint32_t FootprintUnit::side(spec::texture::FootprintRule rule, std::uint32
     case spec::texture::FootprintRule::kTwoSegment:
       return std::max(a + (b >> 3), a - (a >> 3) + (b >> 1));
     case spec::texture::FootprintRule::kMax:
-    case spec::texture::FootprintRule::kExact:  // has a pipeline of its own
+    case spec::texture::FootprintRule::kExact:  // uses RootPipeline
       break;
   }
   return a;
@@ -68,20 +68,20 @@ void FootprintUnit::reset() {
 Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {.unit = "FootprintUnit",
                      .does =
-                         "Lengths of the two sides of a footprint, and the difference of "
-                         "coordinates along the longer (`axes = two`)."};
+                         "Lengths of both sides of a footprint, and the coordinate difference "
+                         "along the longer side (`axes = two`)."};
   if (p.footprint == spec::texture::FootprintRule::kExact) {
     sheet.variant = "`footprint = exact`";
     sheet.latency = {19};
     sheet.stages = {
         {"1", "squares",
-         "31-bit squarer: 1.29 of the multiply, as a 31 x 31 multiply whose equal halves "
-         "nobody shares"},
+         "31-bit squarer: 1.29 x the 24 x 24 multiply, since the equal halves of a 31 x 31 "
+         "multiply are not shared"},
         {"2", "sums", "62-bit addition"},
-        {"3-18", "two root bits each, of both sides; beside 3: which sum is larger",
-         "two 34-bit subtractors one after the other"},
+        {"3-18", "two root bits each, for both sides; in parallel with 3: which sum is larger",
+         "two 34-bit subtractors in series"},
         {"19", "d_max, d_min, major axis"}};
-    sheet.formats = "U15.16 in; squares and sum exact, U31.32; root U16.16, truncated.";
+    sheet.formats = "U15.16 in; squares and sums exact, U31.32; root U16.16, truncated.";
     sheet.cost =
         "four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit "
         "comparator.";
@@ -90,17 +90,14 @@ Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
   sheet.variant = "other `footprint`";
   sheet.latency = {2};
   sheet.stages = {
-      {"1",
-       "of each side the longer of its two sizes, and their sum by rule (`two_segment`: "
-       "both lines)",
-       "31-bit comparison with a choice, then a 32-bit addition (`two_segment`: of three "
-       "operands)"},
-      {"2", "`two_segment`'s longer line of each side, which side is longer, its axis",
-       "two comparisons with a choice"}};
+      {"1", "per side the longer of its two sizes, and the sum by rule (`two_segment`: both lines)",
+       "31-bit comparison with mux, then a 32-bit addition (`two_segment`: three operands)"},
+      {"2", "per side the longer line of `two_segment`; which side is longer, its axis",
+       "two comparisons with muxes"}};
   sheet.formats = "U15.16 in, U16.16 out.";
   sheet.cost =
-      "`half` and `quarter` two comparators and two adders; `two_segment` four comparators "
-      "and six adders; one comparator more to order the sides; registers of a fragment.";
+      "`half` and `quarter`: two comparators and two adders; `two_segment`: four comparators and "
+      "six adders; one more comparator to order the sides; registers for a fragment.";
   return sheet;
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Length of the two sides of a fragment's footprint, the longer and the shorter of them, and the
-// difference of texture coordinates along the longer.
+// Computes the lengths of both sides of a fragment's footprint, orders them, and outputs the
+// texture coordinate difference along the longer side.
 //
-// Where: after the DerivativeUnit. The model does both stages in the first, then delays; `exact`
-// has the RootPipeline. Stalled by `downstream`, and then holds still as a whole. Every shift
-// truncates. Error against the square root: half 0 to +11.9 %, quarter -11.7 to +3.1 %, two_segment
-// -2.8 to +0.8 %, max -29.3 to 0 %, exact none (TextureRtlFootprint.ErrorIsAsDocumented). Source:
-// paper 1.2, equations 10 and 11.
+// Position  DerivativeUnit -> FootprintUnit -> Log2Unit.
+// Stalls    downstream  The whole unit stalls.
+// Accuracy  Every shift truncates. Error relative to the square root: half 0 to +11.9 %, quarter
+//           -11.7 to +3.1 %, two_segment -2.8 to +0.8 %, max -29.3 to 0 %, exact none
+//           (TextureRtlFootprint.ErrorIsAsDocumented).
+// Note      The model computes both stages in the first, then delays. `exact` uses the
+//           RootPipeline.
+// Source    Paper 1.2, equations 10 and 11.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +34,8 @@ class FootprintUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // One side by every rule but `exact`: U15.16 in, U16.16 out. Of `two_segment` the longer of the
-  // two lines is found in stage 2.
+  // Length of one side by any rule but `exact`: U15.16 in, U16.16 out. Hardware selects the longer
+  // line of `two_segment` in stage 2.
   static std::uint32_t side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);

@@ -18,11 +18,11 @@ Activity LatencyFifo::tick(Cycle cycle) {
 Datasheet LatencyFifo::datasheet() {
   return {
       .unit = "LatencyFifo",
-      .does = "Keeps requests between tag check and data read while lines come from memory.",
+      .does = "Holds requests between tag check and data read while lines come from memory.",
       .latency = {1, "at least 1"},
-      .stages = {{"-", "requests, as deep as memory's latency in cycles",
+      .stages = {{"-", "requests; as deep as the memory latency in cycles",
                   "SRAM read into an output register"}},
-      .cost = "depth x request bits, flip-flops up to 32 requests and 16 kbit, SRAM 1R1W above."};
+      .cost = "depth x request bits, flip-flops up to 32 requests and 16 kbit, else SRAM 1R1W."};
 }
 
 }  // namespace deburr::rtl::texture

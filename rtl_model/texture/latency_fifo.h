@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Keeps requests between tag check and data read while their lines come from memory.
+// Holds requests between tag check and data read while their lines come from memory.
 //
-// Where: between TagStage and DataStage. Stalled by `downstream` when full. As deep as the memory's
-// latency in cycles, misses overlap with work and cost no time. Source: Igehy et al., 1998.
+// Position  TagStage -> LatencyFifo -> DataStage.
+// Stalls    downstream  The FIFO is full.
+// Note      If it is as deep as the memory latency in cycles, misses overlap with work and cost no
+//           time.
+// Source    Igehy et al., 1998.
 #pragma once
 
 #include <algorithm>
@@ -22,15 +25,15 @@ class LatencyFifo final : public Unit {
  public:
   In<CacheToken> requests_in{"requests_in"};
 
-  // Of a depth that is sized: depth().
+  // The depth must not be 0: see depth().
   LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override { entries.reset(); }
 
-  // The depth as ordered; for 0 the least at which misses cost no time, if there are so many: a
-  // request stays for the time of a miss, without the stages around the FIFO, and may miss four
-  // lines, which come one behind the other.
+  // Configured depth; for 0 the smallest depth at which misses cost no time, up to the maximum. A
+  // request stays for the time of a miss, minus the stages around the FIFO, and may miss four
+  // lines, which arrive one after the other.
   static constexpr std::int32_t depth(const spec::texture::Build& build,
                                       const MemoryCycles& memory) {
     if (build.cache_fifo_depth != 0) return build.cache_fifo_depth;

@@ -29,10 +29,10 @@ LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       count_(count),
       cap_(cap) {}
 
-// How much of L becomes samples instead of a coarser level: U3.12.
+// Part of L that is converted to samples instead of a coarser level: U3.12.
 std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const {
-  if (lb_max <= 0) return 0;  // the footprint is within a texel
-  // Of d_max / d_min, which is d_max^2 / area: U6.12.
+  if (lb_max <= 0) return 0;  // the footprint fits in a texel
+  // Logarithm of d_max / d_min, which is d_max^2 / area: U6.12.
   const std::int32_t ratio = std::max((area_ ? lb_max << 1 : lb_max) - lb_minor, 0);
   const auto rounded_up = [](std::int32_t lb) { return (lb + kAlmostOne) & ~kAlmostOne; };
   const bool any = count_ == spec::texture::CountRule::kAny;
@@ -64,8 +64,8 @@ Activity LevelUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-// All stages: what is between them cannot be seen from outside, since a descriptor stands still
-// while the unit is busy.
+// All stages. Nothing in between is observable, since a descriptor does not change while the unit
+// is busy.
 void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
   // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, in.ticket.texture);
@@ -117,19 +117,19 @@ Datasheet LevelUnit::datasheet() {
       .does = "Number of samples, mip level, level fraction and filter of a fragment.",
       .latency = {3},
       .stages = {{"1",
-                  "difference of the logarithms (of an area: from twice that of the axis), how "
-                  "much of it is taken as samples (E); choice of the descriptor"},
+                  "difference of the logarithms (area: twice that of the axis minus that of the "
+                  "area), the part taken as samples (E); descriptor selected"},
                  {"2",
                   "level of detail with bias, clamped to its range; number of samples (`any`: 15 "
-                  "comparisons side by side, whose ones are counted)",
-                  "20-bit addition of three operands, two 20-bit comparisons with a choice, then a "
+                  "parallel comparisons, whose ones are counted)",
+                  "20-bit addition of three operands, two 20-bit comparisons with muxes, then a "
                   "comparison with 0"},
                  {"3", "level and fraction by mode, filter, magnification"}},
       .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
       .cost =
-          "nine 20-bit adders or comparators and a few multiplexers; `any`: 15 comparators of "
-          "15 bits with a constant and a counter of their ones, no adder to round L; no "
-          "multiplier and no divider; registers of two fragments."};
+          "nine 20-bit adders or comparators and a few muxes; `any`: 15 comparators of 15 bits "
+          "with a constant and a counter of their ones, no adder to round L; no multiplier and no "
+          "divider; registers for two fragments."};
 }
 
 }  // namespace deburr::rtl::texture

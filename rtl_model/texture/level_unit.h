@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Number of samples, mip level and level fraction of a fragment, and which filter is in force.
+// Computes the number of samples, the mip level and the level fraction of a fragment, and selects
+// its filter.
 //
-// Where: after the Log2Unit. The model does all in stage 1, then delays. Stalled by `downstream`,
-// and then holds still as a whole. l is rounded once, for the two-level modes. Source: paper 1.3,
-// equations 2, 3 and 12; `any` as Vulkan counts; level of detail and modes as in GL.
+// Position  Log2Unit -> LevelUnit -> SampleWalker.
+// Stalls    downstream  The whole unit stalls.
+// Note      The model computes everything in stage 1, then delays. l is rounded once, for the
+//           two-level modes.
+// Source    Paper 1.3, equations 2, 3 and 12; `any` counts as in Vulkan; level of detail and modes
+//           as in OpenGL.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +45,7 @@ class LevelUnit final : public Unit {
   int last_index(std::int32_t as_samples) const;
 
   Descriptors::Reader descriptors_;
-  bool area_;  // the logarithm beside that of the major axis is the area's
+  bool area_;  // the second logarithm is that of the area
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
   Pipe<LevelToken, kStages> pipe_;

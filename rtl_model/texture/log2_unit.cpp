@@ -11,9 +11,9 @@
 namespace deburr::rtl::texture {
 namespace {
 
-// The line that is added to n + y in each quarter of an octave: a constant (U0.12) and two shifted
-// copies of the position inside the quarter, each added or subtracted. The top bits of y select the
-// row; the shifts are wires, the signs drive the adders' invert and carry inputs.
+// Line added to n + y in each quarter of an octave: a constant (U0.12) and two shifted copies of
+// the position inside the quarter, each added or subtracted. The top bits of y select the row.
+// Shifts are wires; signs drive the adders' invert and carry inputs.
 struct ShiftAddLine {
   std::uint32_t constant;
   int coarse_shift;
@@ -45,16 +45,16 @@ Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock,
                    spec::texture::Log2Rule rule)
     : Unit(name, clock), rule_(rule) {
   if (rule_ != spec::texture::Log2Rule::kExact) return;
-  table_ =
-      std::make_unique<Memory<std::uint16_t>>("table",
-                                              MemoryShape{.words = spec::texture::kLog2Table.size(),
-                                                          .word_bits = 13,
-                                                          .kind = MemoryKind::kRom,
-                                                          .read_ports = 4,
-                                                          .write_ports = 0,
-                                                          .latency = 1,
-                                                          .content = "lb of 1 to 2 in 64ths"},
-                                              spec::texture::kLog2Table);
+  table_ = std::make_unique<Memory<std::uint16_t>>(
+      "table",
+      MemoryShape{.words = spec::texture::kLog2Table.size(),
+                  .word_bits = 13,
+                  .kind = MemoryKind::kRom,
+                  .read_ports = 4,
+                  .write_ports = 0,
+                  .latency = 1,
+                  .content = "lb x for x from 1 to 2 in steps of 1/64"},
+      spec::texture::kLog2Table);
   for (const char* user : {"longer_low", "longer_high", "shorter_low", "shorter_high"})
     reads_.emplace_back(*table_, user);
 }
@@ -119,7 +119,7 @@ inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
   return kBusy;
 }
 
-// The address goes into the ROM at the end of stage 1.
+// The ROM takes the address at the end of stage 1.
 void Log2Unit::look_up(Cycle cycle, const Entry& entry) {
   std::size_t port = 0;
   for (const Normal& d : {entry.longer, entry.shorter})
@@ -156,13 +156,13 @@ Datasheet Log2Unit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "Log2Unit",
       .does =
-          "Binary logarithms of both sides of the footprint, or of the longer one and the area.",
+          "Binary logarithms of both sides of the footprint, or of the longer side and the area.",
       .formats = "U16.16 and U31.16 in, S5.12 out.",
       .cost =
-          "each of two sides: a 32-bit leading-one detector and a shifter (`mitchell`: nothing "
-          "else, n and y only stand side by side); `corrected` a choice of eight constants and a "
-          "13-bit adder; `segments` three adders; `exact` a 7 x 6 multiplier and two adders, and "
-          "for both sides the ROM `table`, 65 x 13 bits, 4R."};
+          "per side: a 32-bit leading-one detector and a shifter (`mitchell`: only these, n and y "
+          "are concatenated); `corrected`: an 8 : 1 mux of constants and a 13-bit adder; "
+          "`segments`: three adders; `exact`: a 7 x 6 multiplier and two adders, and for both "
+          "sides the ROM `table`, 65 x 13 bits, 4R."};
   if (p.log2 == spec::texture::Log2Rule::kMitchell) {
     sheet.variant = "`log2 = mitchell`";
     sheet.latency = {1};

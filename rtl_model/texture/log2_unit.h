@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Binary logarithms of the two sides of the footprint, or of the longer one and of the area:
-// leading one plus the bits below it, and a correction by rule.
+// Computes the binary logarithms of both sides of the footprint, or of the longer side and of the
+// area: leading-one position plus the bits below it, corrected by rule.
 //
-// Where: after the FootprintUnit or the AxisUnit. Stalled by `downstream`, and then holds still as
-// a whole. The fraction is truncated. Largest error: 0.0864, 0.0228, 0.0057, 0.0006
-// (TextureRtlLog2.ErrorIsAsDocumented). Source: paper 1.4, equation 13.
+// Position  FootprintUnit or AxisUnit -> Log2Unit -> LevelUnit.
+// Stalls    downstream  The whole unit stalls.
+// Accuracy  The fraction is truncated. Largest error: 0.0864, 0.0228, 0.0057, 0.0006 for mitchell,
+//           corrected, segments, exact (TextureRtlLog2.ErrorIsAsDocumented).
+// Source    Paper 1.4, equation 13.
 #pragma once
 
 #include <array>
@@ -31,26 +33,26 @@ class Log2Unit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  // All stages at once: lb d in S5.12 of d in U31.16.
+  // All stages at once: lb d in S5.12 for d in U31.16.
   static std::int32_t log2(spec::texture::Log2Rule rule, std::uint64_t d);
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
   static constexpr int kStages = 3;
-  // d as a power of two and what is left of it.
+  // d = 2^n (1 + y).
   struct Normal {
     std::int32_t n;   // S5
     std::uint32_t y;  // U0.12
   };
-  // Neighbouring entries of the table, U1.12.
+  // Adjacent entries of the table, U1.12.
   struct Chord {
     std::uint32_t low, high;
   };
   struct Entry {
     FootprintToken token;
     Normal longer, shorter;
-    Chord longer_chord, shorter_chord;  // `exact` alone
+    Chord longer_chord, shorter_chord;  // `exact` only
   };
   static Normal normalise(std::uint64_t d);
   static std::int32_t correct(spec::texture::Log2Rule rule, Normal d, Chord chord);
@@ -61,8 +63,9 @@ class Log2Unit final : public Unit {
 
   spec::texture::Log2Rule rule_;
   Pipe<Entry, kStages> pipe_;
-  std::unique_ptr<Memory<std::uint16_t>> table_;  // `exact` alone
-  std::vector<ReadPort<std::uint16_t>> reads_;    // low and high of the longer, of the shorter side
+  std::unique_ptr<Memory<std::uint16_t>> table_;  // `exact` only
+  std::vector<ReadPort<std::uint16_t>>
+      reads_;  // low and high entry for the longer, then for the shorter side
 };
 
 }  // namespace deburr::rtl::texture

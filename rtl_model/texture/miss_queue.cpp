@@ -21,15 +21,16 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
                        .read_ports = 1,
                        .write_ports = 4,
                        .latency = 0,
-                       .content = "lines waiting to be requested"}),
+                       .content = "lines waiting to be sent"}),
       failed_("failed", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
                          .word_bits = 1,
                          .kind = MemoryKind::kFlops,
                          .latency = 0,
-                         .content = "error bits of lines in flight"}),
+                         .content = "per line in flight: did a beat have an error?"}),
       fill_buffer_full_(
-          declare_stall("fill_buffer_full", "all entries of the fill buffer are in use")),
-      wait_memory_(declare_stall("wait_memory", "waits for lines, has nothing else to do")) {
+          declare_stall("fill_buffer_full", "all entries of the fill buffer are held")),
+      wait_memory_(
+          declare_stall("wait_memory", "waits for lines from memory, nothing else to do")) {
   for (int i = 0; i < 4; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
 }
 
@@ -41,14 +42,14 @@ Activity MissQueue::tick(Cycle cycle) {
 
 Activity MissQueue::work(Cycle cycle) {
   const bool received = receive(cycle);
-  const Activity issued = issue(cycle);  // before accept: what comes in now is sent no earlier than
-  const bool accepted = accept(cycle);   // in the next clock
+  const Activity issued = issue(cycle);  // before accept(): a new line is sent one cycle later
+  const bool accepted = accept(cycle);
   if (received || accepted) return kBusy;
   if (issued == kIdle && fills.held(cycle) != 0) return wait_memory_;
   return issued;
 }
 
-// One beat of at most 64 bytes from memory.
+// Receives one beat of at most 64 bytes from memory.
 inline bool MissQueue::receive(Cycle cycle) {
   if (!responses_in.can_pop(cycle)) return false;
   const MemoryResponse& response = responses_in.front(cycle);
@@ -59,7 +60,7 @@ inline bool MissQueue::receive(Cycle cycle) {
     ++memory_errors;
     registers_.set_sticky(spec::texture::reg::kStatusMemoryError);
   }
-  // With an error, the port gives zeros.
+  // After an error, the port delivers zeros.
   fills.fill(cycle, entry, response.line * kLineBytes,
              std::span(response.data).first(std::min(line_bytes_, kLineBytes)), response.last);
   responses_in.pop(cycle);
@@ -82,7 +83,7 @@ inline Activity MissQueue::issue(Cycle cycle) {
   return kBusy;
 }
 
-// All lines that one request misses, or none.
+// Accepts all lines that a request misses, or none.
 inline bool MissQueue::accept(Cycle cycle) {
   if (!misses_in.can_pop(cycle)) return false;
   const MissToken& missed = misses_in.front(cycle);
@@ -108,10 +109,10 @@ Datasheet MissQueue::datasheet() {
       .unit = "MissQueue",
       .does = "Sends missed lines to memory and collects them in the fill buffer.",
       .latency = {0, "-"},
-      .interval = {1, "one line a clock each way"},
-      .stages = {{"-", "a line to send; an entry is held from issue until the line is used",
-                  "free places with this clock's, then the write of up to four lines: a choice of "
-                  "1 in 4 at every entry; choice of 1 in 256 lines (64 by default)"}},
+      .interval = {1, "one line per cycle in each direction"},
+      .stages = {{"-", "line to send; its entry is held from issue until the line is used",
+                  "free entries including this cycle's, then write up to four lines: a 4 : 1 mux "
+                  "per entry; 256 : 1 mux of lines (64 by default)"}},
       .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
 }
 

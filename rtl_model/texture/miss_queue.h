@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Sends one missed line a clock to memory, in the order of the misses, and collects the lines in
-// the fill buffer.
+// Sends one missed line per cycle to memory, in order of the misses, and collects the lines in the
+// fill buffer.
 //
-// Where: between TagStage and memory. A fill-buffer entry is held from issue until the DataStage
-// has used the line; there are as many entries as queue places. Stalls: `fill_buffer_full` (all
-// entries held), `downstream` (the memory port takes nothing), `wait_memory` (lines are under way
-// or held, nothing else to do). A line that memory answers with an error reads as zero, is counted,
-// and sets a sticky status bit. Source: Igehy et al., 1998.
+// Position  TagStage -> MissQueue -> MemoryPort. A fill-buffer entry is held from issue until the
+//           DataStage has used the line; the queue has the same number of entries.
+// Stalls    fill_buffer_full  All entries are held.
+//           downstream        The memory port is not ready.
+//           wait_memory       Lines are in flight or held, and there is nothing else to do.
+// Errors    A line answered with an error reads as zero, is counted and sets a sticky status bit.
+// Source    Igehy et al., 1998.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +54,7 @@ class MissQueue final : public Unit {
 
   ControlRegisters& registers_;
   std::uint32_t line_bytes_;
-  Memory<std::uint32_t> lines_;  // line numbers; the ring's pointers are below
+  Memory<std::uint32_t> lines_;  // line numbers in a ring buffer
   ReadPort<std::uint32_t> next_line_{lines_, "issue"};
   std::vector<WritePort<std::uint32_t>> new_lines_;
   std::uint32_t head_ = 0, waiting_ = 0;  // U8, oldest line and number of lines

@@ -10,7 +10,7 @@ namespace deburr::rtl::texture {
 
 RegisterSection register_section(const spec::texture::Parameters& parameters) {
   namespace reg = spec::texture::reg;
-  // One descriptor stands for all.
+  // One descriptor represents all.
   constexpr std::uint32_t kSecond = reg::kTextureBase + reg::kTextureStride;
   RegisterSection section{"TextureUnit", "DEBURR_TEXTURE", {}};
   for (const spec::RegisterInfo& r : register_table())

@@ -27,7 +27,7 @@ void RootPipeline::two_digits(Root& r) {
 
 std::uint32_t RootPipeline::root(std::uint64_t radicand) {
   if (radicand == 0) return 0;
-  // Digits of which nothing has been brought down yet are 0, so the model leaves these stages out.
+  // Leading zero bits give zero digits, so the model skips those stages.
   const int first = std::countl_zero(radicand) / 4;
   Root r = {radicand << 4 * first, 0, 0};
   for (int stage = first; stage < kDigitStages; ++stage) two_digits(r);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Two integer square roots side by side, sqrt(s^2 + t^2) for the x and the y side of a footprint.
+// Two integer square roots in parallel: sqrt(s^2 + t^2) for the x and the y side of a footprint.
 //
-// Where: inside the FootprintUnit when `footprint = exact`; stages and cost in its datasheet. The
-// whole pipeline holds still while its last stage cannot leave. Method: digit by digit. A stage
-// brings down two bits of the radicand at a time, tries to subtract (root << 2 | 1), and appends
-// the digit: no multiplier.
+// Position  Inside the FootprintUnit when `footprint = exact`; stages and cost in its datasheet.
+// Stalls    The whole pipeline stalls while its last stage cannot leave.
+// Method    Digit by digit: shifts in two bits of the radicand, tries to subtract (root << 2 | 1),
+//           and appends the digit. No multiplier.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +20,28 @@ class RootPipeline {
   static constexpr int kStages = 2 + kDigitStages + 1;
 
   bool empty() const { return pipe_.empty(); }
-  // A token leaves with the next step.
+  // True if a token leaves with the next step().
   bool leaving() const { return pipe_.leaves(); }
 
-  // One clock. `next`: what enters, or nullptr; true if *result was written. With leaving(), call
-  // only if the result can be delivered.
+  // Advances by one cycle. `next`: token that enters, or nullptr. Returns true if *result was
+  // written. If leaving(), call only when the result can be delivered.
   bool step(const DerivativeToken* next, FootprintToken* result);
   void reset() { pipe_.reset(); }
 
-  // The digit stages at once: floor(sqrt(radicand)).
+  // All digit stages at once: floor(sqrt(radicand)).
   static std::uint32_t root(std::uint64_t radicand);
 
  private:
   struct Root {
-    std::uint64_t radicand;   // U63, what has not been brought down yet, at the top; first s^2
+    std::uint64_t radicand;   // U63, bits not shifted in yet, at the top; first s^2
     std::uint64_t remainder;  // U34; first t^2
-    std::uint32_t root;       // U32, digits found
+    std::uint32_t root;       // U32, digits found so far
   };
   struct Entry {
     DerivativeToken token;
     Root x, y;
-    bool x_is_major;  // found beside the first digits, of the sums: roots may be equal
+    bool
+        x_is_major;  // compares the sums, in parallel with the first digits: the roots may be equal
   };
   static Root squares(std::uint32_t s, std::uint32_t t);
   static void sum(Root& root);

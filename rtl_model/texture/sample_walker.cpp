@@ -10,8 +10,8 @@
 namespace deburr::rtl::texture {
 namespace {
 
-constexpr int kReciprocalBits = 16;  // below the point
-constexpr int kRoundedBits = 23;     // half an axis, S10.46, to a coordinate, S9.24
+constexpr int kReciprocalBits = 16;  // fraction bits
+constexpr int kRoundedBits = 23;     // from half an axis, S10.46, to a coordinate, S9.24
 constexpr std::int64_t kHalf = std::int64_t{1} << (kRoundedBits - 1);
 constexpr std::uint8_t kLastOfFour = 3;
 constexpr std::int32_t kWholeAxis = 64;  // U2.6
@@ -35,12 +35,12 @@ SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clo
                                                           .read_ports = 1,
                                                           .write_ports = 0,
                                                           .latency = 1,
-                                                          .content = "1/N, N from 1 to 16"},
+                                                          .content = "1/N for N from 1 to 16"},
                                               std::span(spec::texture::kReciprocal).subspan<1>());
   read_.emplace(*reciprocal_, "walker");
 }
 
-// From the last stage to the first: each takes what its predecessor left in the clock before.
+// Last stage first: each stage reads what its predecessor wrote in the previous cycle.
 Activity SampleWalker::tick(Cycle cycle) {
   const bool arrives = levels_in.can_pop(cycle);
   if (!walking_ && !scaled_.occupied && !divided_.occupied && !arrives) return kIdle;
@@ -63,7 +63,7 @@ void SampleWalker::scale(Cycle cycle, const LevelToken& fragment) {
   if (read_) read_->read(cycle, fragment.last_index);
 }
 
-// `any`: stage 2.
+// Stage 2 with `any`.
 void SampleWalker::divide(Cycle cycle) {
   const std::int64_t reciprocal = read_->at(cycle, scaled_.fragment.last_index);
   divided_.occupied = true;
@@ -73,14 +73,14 @@ void SampleWalker::divide(Cycle cycle) {
   scaled_.occupied = false;
 }
 
-// The last stage but one.
+// Last stage but one.
 void SampleWalker::start(Prepared& next) {
   next.occupied = false;
   fragment_ = next.fragment;
   walking_ = true;
   second_level_ = false;
   index_ = 0;
-  // N - 1 is ones up to lb N where N is a power of two.
+  // If N is a power of two, N - 1 has lb N ones.
   const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{fragment_.last_index});
   step_s_ = next.step_s << up;
   step_t_ = next.step_t << up;
@@ -88,7 +88,7 @@ void SampleWalker::start(Prepared& next) {
   walk_t_ = -(step_t_ * fragment_.last_index);
 }
 
-// The last stage.
+// Last stage.
 void SampleWalker::emit(Cycle cycle) {
   const bool blends = fragment_.fraction != 0;
   const bool last_of_sample = second_level_ || !blends;
@@ -117,34 +117,35 @@ void SampleWalker::emit(Cycle cycle) {
 }
 
 Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
-  const Stage request = {"", "one bilinear request a clock",
-                         "57-bit rounding addition, then a 34-bit one"};
+  const Stage request = {"", "one bilinear request per cycle",
+                         "57-bit rounding addition, then a 34-bit addition"};
   Datasheet sheet = {
       .unit = "SampleWalker",
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
-      .interval =
-          {1, "N x (1 or 2) cycles a fragment (1 for an invalid descriptor), a request a clock"},
+      .interval = {1,
+                   "one request per cycle: N x (1 or 2) cycles per fragment (1 for an invalid "
+                   "descriptor)"},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",
       .cost =
-          "two 34 x 8 multipliers, two shifters and two subtractors (`any`: two 41 x 17 "
-          "multipliers, two 57 x 4 ones, and the ROM `reciprocal`, 16 x 17 bits), two 61-bit "
-          "accumulators, four adders, registers of three fragments (`any`: four)."};
+          "two 34 x 8 multipliers, two shifters and two subtractors (`any`: two 41 x 17 and two "
+          "57 x 4 multipliers, and ROM `reciprocal`, 16 x 17 bits), two 61-bit accumulators, four "
+          "adders, registers for three fragments (`any`: four)."};
   if (p.count == spec::texture::CountRule::kAny) {
     sheet.variant = "`count = any`";
     sheet.latency = {4, "4 to the first request"};
     sheet.stages = {
-        {"1", "spread times axis, 1/N from its ROM", "34 x 8 multiply"},
-        {"2", "times 1/N", "41 x 17 multiply (17 rows of partial products, 24 x 24 has 24)"},
-        {"3", "offset of the first sample", "57 x 4 multiply: 1.18 of the multiply"},
+        {"1", "spread times axis, 1/N from ROM", "34 x 8 multiply"},
+        {"2", "times 1/N", "41 x 17 multiply (17 rows of partial products; 24 x 24 has 24)"},
+        {"3", "offset of the first sample", "57 x 4 multiply: 1.18 x the 24 x 24 multiply"},
         {"4", request.work, request.path}};
   } else {
     sheet.variant = "other `count`";
     sheet.latency = {3, "3 to the first request"};
     sheet.stages = {{"1", "spread times axis", "34 x 8 multiply"},
                     {"2", "shift by lb N, offset of the first sample",
-                     "1 in 5 shifts, then a 57-bit subtraction"},
+                     "5 : 1 mux of shifts, then a 57-bit subtraction"},
                     {"3", request.work, request.path}};
   }
   return sheet;

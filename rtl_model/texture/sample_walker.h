@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Walks N samples along the major axis of the footprint and emits a bilinear request a clock, one
-// or two a sample.
+// Walks N samples along the major axis of the footprint and emits one bilinear request per cycle,
+// one or two per sample.
 //
-// Where: after the LevelUnit. No clock passes between two fragments: the next ones are prepared
-// meanwhile. Where N is a power of two, the division by it is a shift. The accumulators step by
-// twice the product. Stalled by `downstream`, stage by stage. Source: paper 2.2 (4); kernels,
-// spread and `any` are ours.
+// Position  LevelUnit -> SampleWalker -> TexelAddresser.
+// Interval  No gap between fragments: the next ones are prepared meanwhile.
+// Stalls    downstream  Each stage stalls independently.
+// Method    If N is a power of two, the division by N is a shift. The accumulators step by twice
+//           the product.
+// Source    Paper 2.2 (4); kernels, spread and `any` are ours.
 #pragma once
 
 #include <cstdint>
@@ -36,19 +38,19 @@ class SampleWalker final : public Unit {
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
-  // A fragment on its way to the walk.
+  // A fragment being prepared.
   struct Prepared {
     bool occupied = false;
     LevelToken fragment;
-    std::int64_t step_s, step_t;  // S10.30, spread x axis; once divided S10.46
+    std::int64_t step_s, step_t;  // S10.30, spread x axis; after divide() S10.46
   };
   void scale(Cycle cycle, const LevelToken& fragment);
   void divide(Cycle cycle);
   void start(Prepared& next);
   void emit(Cycle cycle);
 
-  std::int32_t spread_, narrow_spread_;  // U2.6; narrow: of a tent with too few samples for one
-  // `any` alone: entry N - 1 is 1/N, U1.16.
+  std::int32_t spread_, narrow_spread_;  // U2.6; narrow: for a tent with fewer than four samples
+  // `any` only: entry N - 1 is 1 / N, U1.16.
   std::unique_ptr<Memory<std::uint32_t>> reciprocal_;
   std::optional<ReadPort<std::uint32_t>> read_;
   // Registers.
@@ -56,7 +58,7 @@ class SampleWalker final : public Unit {
   LevelToken fragment_{};
   bool walking_ = false;                  // fragment_ has requests left
   bool second_level_ = false;             // the next request is the coarser level of its sample
-  std::uint8_t index_ = 0;                // U4, sample in hand
+  std::uint8_t index_ = 0;                // U4, current sample
   std::int64_t step_s_ = 0, step_t_ = 0;  // S10.46, spread x axis / N
   std::int64_t walk_s_ = 0, walk_t_ = 0;  // S14.46, (2i + 1 - N) x spread x axis / N
 };

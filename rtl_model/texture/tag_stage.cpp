@@ -14,7 +14,8 @@ TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       fill_number_(tags_.slots()),
-      miss_queue_full_(declare_stall("miss_queue_full", "a line is missing and cannot be queued")),
+      miss_queue_full_(
+          declare_stall("miss_queue_full", "a line missed and the miss queue is not ready")),
       fifo_full_(declare_stall("fifo_full", "the latency FIFO is full")) {}
 
 Activity TagStage::tick(Cycle cycle) {
@@ -37,7 +38,7 @@ Activity TagStage::tick(Cycle cycle) {
   return kBusy;
 }
 
-// Stage 1: a port for each distinct line.
+// Stage 1: one port per distinct line.
 inline void TagStage::read_sets(Cycle cycle) {
   Request& r = request_;
   r.token = texels_in.take(cycle);
@@ -66,7 +67,7 @@ inline void TagStage::read_sets(Cycle cycle) {
   if (first3 == 3) tags_.read(cycle, 3, line3);
 }
 
-// One line of the request in stage 2.
+// Looks up one line of the request in stage 2.
 inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, CacheToken& out,
                                              MissToken& missed) {
   const std::uint32_t line = request_.line[texel];
@@ -84,7 +85,7 @@ inline TagStage::Line TagStage::look_up_line(Cycle cycle, std::size_t texel, Cac
   return order(line, texel, out, missed);
 }
 
-// It misses.
+// Requests a line that missed.
 TagStage::Line TagStage::order(std::uint32_t line, std::size_t texel, CacheToken& out,
                                MissToken& missed) {
   const bool turned = request_.token.turned[texel >> 1];
@@ -98,13 +99,13 @@ TagStage::Line TagStage::order(std::uint32_t line, std::size_t texel, CacheToken
   return {0, ++out.fills};
 }
 
-// Stage 2: up to four distinct lines, each looked up once, in the order of their first use.
+// Stage 2: up to four distinct lines, each looked up once, in order of first use.
 inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   ++requests;
   const Request& r = request_;
   const std::uint32_t offset_mask = (1u << line_log2_) - 1;
   MissToken missed{};
-  // To a compiler first[i] might be more than i.
+  // Initialised, since a compiler cannot know that first[i] <= i.
   std::array<std::uint32_t, 4> place{};
   std::array<std::uint8_t, 4> source{};
   if (r.one_line) {
@@ -129,8 +130,8 @@ inline void TagStage::look_up(Cycle cycle, CacheToken& out) {
   misses_out.push(cycle, missed);
 }
 
-// Without changing anything. A request that misses nothing allocates nothing, so each line can be
-// looked at by itself.
+// Changes nothing. A request that hits everywhere allocates nothing, so each line can be tested
+// independently.
 bool TagStage::would_miss() const {
   const auto lines = std::span(request_.line).first(request_.one_line ? 1 : 4);
   return std::any_of(lines.begin(), lines.end(),
@@ -147,17 +148,17 @@ void TagStage::reset() {
 Datasheet TagStage::datasheet() {
   return {
       .unit = "TagStage",
-      .does = "Looks up the lines of a request, allocates those that miss and orders them.",
+      .does = "Looks up the lines of a request, allocates those that miss and requests them.",
       .latency = {2},
-      .stages = {{"1", "distinct lines, read of their sets", "choice of 1 in 512 sets"},
-                 {"2", "up to four look-ups, allocation, misses to the queue",
-                  "comparison of a tag, then four choices of a way and, for a set that is read "
-                  "in the same clock, a choice of 1 in 5: 1.09 of the multiply with 128 sets of "
-                  "two ways (`lru`), 1.24 with 16 of four (`random`), 1.14 with one of eight "
-                  "(`fifo`)"}},
+      .stages =
+          {{"1", "distinct lines, read their sets", "512 : 1 mux of sets"},
+           {"2", "up to four lookups, allocation, misses to the queue",
+            "tag comparison, then four way muxes and, for a set that is read in the same "
+            "cycle, a 5 : 1 mux: 1.09 x the 24 x 24 multiply with 128 sets of two ways (`lru`), "
+            "1.24 with 16 of four (`random`), 1.14 with one of eight (`fifo`)"}},
       .cost =
-          "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 a "
-          "set, 4 x ways comparators; six line comparators, registers of a request."};
+          "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 bits per "
+          "set, 4 x ways comparators; six line comparators, registers for a request."};
 }
 
 }  // namespace deburr::rtl::texture

@@ -2,13 +2,15 @@
 // Looks up the up to four lines of a bilinear request, allocates those that miss, and sends them to
 // the MissQueue.
 //
-// Where: head of the TextureCache. The lines of a request are looked up one after the other; what
-// it changes reaches the sets that the next one reads in the same clock, so there is no bubble.
-// Stalls: `miss_queue_full` (the request misses and the MissQueue takes nothing), `fifo_full` (the
-// LatencyFifo takes nothing). `line_used_in` tells hits from lines whose fill is under way, for the
-// counters alone. Tags change when a fill is ordered, data when it is used: see Order
-// of fills in docs/reference/texture/cache.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in
-// a texture cache architecture", 1998.
+// Position  First unit of the TextureCache.
+// Interval  1: the lines of a request are looked up in series, and changes are forwarded to the
+//           sets that the next request reads in the same cycle.
+// Stalls    miss_queue_full  The request misses and the MissQueue is not ready.
+//           fifo_full        The LatencyFifo is full.
+// Note      Tags change when a fill is requested, data when it is used:
+//           docs/reference/texture/cache.md, Order of fills. `line_used_in` is only for the
+//           counters: it separates hits from lines whose fill is in flight.
+// Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
 #pragma once
 
 #include <array>
@@ -33,7 +35,7 @@ class TagStage final : public Unit, public Lookups {
   In<TexelToken> texels_in{"texels_in"};
   Out<CacheToken> requests_out{"requests_out"};
   Out<MissToken> misses_out{"misses_out"};
-  WireIn<bool> line_used_in{"line_used_in"};  // of the DataStage: it has used the oldest fill
+  WireIn<bool> line_used_in{"line_used_in"};  // from the DataStage: it has used the oldest fill
 
   TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
            const spec::texture::Parameters& parameters);
@@ -43,7 +45,7 @@ class TagStage final : public Unit, public Lookups {
 
   // lookups = hits + merged + misses
   Counter requests{"requests", "requests", "bilinear requests looked up"};
-  Counter hits{"hits", "lines", "lookups of a line that is in the data banks"};
+  Counter hits{"hits", "lines", "lookups of a line in the data banks"};
   Counter merged{"merged", "lines", "lookups of a line whose fill is in flight"};
   Counter misses{"misses", "lines", "lookups that requested a fill"};
   Counter evictions{"evictions", "lines", "valid lines replaced"};
@@ -51,19 +53,19 @@ class TagStage final : public Unit, public Lookups {
   static Datasheet datasheet();
 
  private:
-  // After stage 1.
+  // A request after stage 1.
   struct Request {
     TexelToken token;
     std::array<std::uint32_t, 4> line;  // U27
-    std::array<std::uint8_t, 4> first;  // U2, the first texel in the same line
+    std::array<std::uint8_t, 4> first;  // U2, first texel in the same line
     bool one_line;
-    Cycle read_at;  // for the check of its sets: no hardware
+    Cycle read_at;  // check only, no hardware: when its sets were read
   };
   void read_sets(Cycle cycle);
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
   struct Line {
-    std::uint32_t place;  // of its slot, what its bytes change places by below it; 0: it missed
+    std::uint32_t place;  // address of its slot and bank rotation; 0: it missed
     std::uint8_t source;  // as in CacheToken
   };
   Line look_up_line(Cycle cycle, std::size_t texel, CacheToken& out, MissToken& missed);
@@ -73,8 +75,8 @@ class TagStage final : public Unit, public Lookups {
   TagStore tags_;
   std::uint32_t line_log2_;
   std::uint32_t turn_;  // bytes
-  // Number of the last fill ordered for each slot, counted from 1: a line is under way until that
-  // many fills have been used. For the counters: an instrument, no hardware.
+  // Counters only, no hardware: number of the last fill requested for each slot, from 1. The line
+  // is in flight until that number of fills has been used.
   std::vector<std::uint64_t> fill_number_;
   std::uint64_t ordered_ = 0, used_ = 0;
   Activity miss_queue_full_, fifo_full_;

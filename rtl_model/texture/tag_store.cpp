@@ -11,7 +11,7 @@ namespace {
 std::uint32_t sets_log2(const spec::texture::Parameters& p) {
   return log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes) - log2_of(p.cache_ways);
 }
-// Tag, valid bit and turned bit of each way; a bit for each pair of ways.
+// Tag, valid bit and rotation bit per way; one bit per pair of ways.
 std::uint32_t set_bits(const spec::texture::Parameters& p) {
   const auto ways = static_cast<std::uint32_t>(p.cache_ways);
   const std::uint32_t tag = 32 - log2_of(p.cache_line_bytes) - sets_log2(p);
@@ -32,16 +32,16 @@ TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
                      .read_ports = kPorts,
                      .write_ports = kPorts,
                      .latency = 1,
-                     // A request sees its sets as the one before it leaves them.
+                     // A request sees its sets as the previous request leaves them.
                      .read_during_write = ReadDuringWrite::kNewWord,
-                     .content = "tags, and the order of use of the ways of a set"}),
+                     .content = "tags, and the order of use of each set's ways"}),
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
       turned_(tags_.size()),
       age_(tags_.size()) {
   reset();
 }
 
-// A set is written once, whatever its look-ups did.
+// A set is written once, whatever its lookups changed.
 void TagStore::change(std::uint32_t set) {
   for (std::size_t i = 0; i < changes_; ++i)
     if (changed_[i] == set) return;
@@ -57,7 +57,7 @@ void TagStore::make_youngest(std::uint32_t slot) {
   change(slot >> ways_log2_);
 }
 
-// Among valid ways only.
+// Called only when all ways are valid.
 std::uint32_t TagStore::victim(std::uint32_t first) {
   if (replacement_ == spec::texture::Replacement::kRandom) {
     const std::uint32_t r = random_;
@@ -77,7 +77,7 @@ TagStore::Place TagStore::allocate(std::uint32_t line, bool turned) {
   if (evicted) slot = victim(first);
   tags_[slot] = line;
   turned_[slot] = turned ? 1 : 0;
-  make_youngest(slot);  // for `fifo`, the age counts from the fill, since hits do not change it
+  make_youngest(slot);  // for `fifo`, hits do not change the age, so it counts from the fill
   return {slot, evicted};
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Tags and replacement state of the texture cache.
 //
-// Where: inside the TagStage; cost and longest path in its datasheet. A word is a set: tag, valid
-// bit and turned bit of each way, and the order of their last uses, a bit for each pair of ways.
-// Flip-flops with four read and four write ports: the sets of a request's lines are read in one
-// clock, and come in the next one with what the request before them has changed (a write is seen by
-// a read of the same clock). Then the lines are looked up one after the other: a later look-up sees
-// what an earlier one has allocated, so four choices among the ways stand behind each other.
-// Flip-flops end at 16 kbit, which is kMostLines lines; the chain ends at kMostWays ways. Source:
-// docs/reference/texture/formats.md, cache and traffic.
+// Position  Inside the TagStage; cost and longest path in its datasheet.
+// Layout    A word is a set: per way a tag, a valid bit and a rotation bit; and the order of last
+//           uses, one bit per pair of ways. Flip-flops with four read and four write ports.
+// Latency   1: the sets of a request's lines are read in one cycle and available in the next,
+//           including changes by the previous request (a read returns the new word). The lines are
+//           then looked up in series: a lookup sees what earlier ones allocated, so four way muxes
+//           are in series. This limits the size: kMostLines is 16 kbit of flip-flops, kMostWays the
+//           chain of muxes.
+// Source    docs/reference/texture/formats.md, cache and traffic.
 #pragma once
 
 #include <array>
@@ -34,44 +35,44 @@ class TagStore {
 
   TagStore(const char* name, const spec::texture::Parameters& parameters);
 
-  // --- Clock 1: the set of a line, through port 0..3 ---
+  // --- Cycle 1: read the set of a line, through port 0..3 ---
   void read(Cycle cycle, std::size_t port, std::uint32_t line) {
     reads_[port].read(cycle, line & set_mask_);
   }
 
-  // --- Clock 2 ---
-  // The word that this port has read in clock `issued` is there: the set may have been read before.
+  // --- Cycle 2 ---
+  // Checks that the port's word, read in cycle `issued`, is valid; it may have been read earlier.
   void check(Cycle cycle, std::size_t port, std::uint32_t line, Cycle issued) const {
     reads_[port].check(cycle, line & set_mask_, issued);
   }
-  // The slot of the line, or kAbsent.
+  // Slot of the line, or kAbsent.
   std::uint32_t find(std::uint32_t line) const {
     const std::uint32_t first = (line & set_mask_) << ways_log2_;
     for (std::uint32_t way = 0; way <= way_mask_; ++way)
       if (tags_[first + way] == line) return first + way;
     return kAbsent;
   }
-  // A hit: the line becomes the most recently used.
+  // Hit: the line becomes the most recently used.
   void use(std::uint32_t slot) {
     if (replacement_ == spec::texture::Replacement::kLru && age_[slot] != 0) make_youngest(slot);
   }
-  // A miss: chooses a way and puts the line's tag into it.
+  // Miss: selects a way and writes the line's tag.
   Place allocate(std::uint32_t line, bool turned);
-  // The banks of the line in this slot are turned.
+  // Is the line in this slot stored with rotated banks?
   bool turned(std::uint32_t slot) const { return turned_[slot] != 0; }
-  // Writes what the look-ups of this clock have changed.
+  // Writes the sets changed by the lookups of this cycle.
   void commit(Cycle cycle) {
     for (std::size_t i = 0; i < changes_; ++i) writes_[i].write(cycle, changed_[i]);
     changes_ = 0;
   }
 
   std::uint32_t slots() const { return static_cast<std::uint32_t>(tags_.size()); }
-  // All in one clock; the shift register of `random` goes on.
+  // Invalidates all lines in one cycle; does not reset the shift register of `random`.
   void invalidate();
   void reset();
 
  private:
-  // A line number has at most 27 bits, so this one never matches: the valid bit of the hardware.
+  // Never matches, since a line number has at most 27 bits. Models the valid bit.
   static constexpr std::uint32_t kInvalid = ~std::uint32_t{0};
   static constexpr std::uint16_t kRandomStart = 0xACE1;
   static constexpr std::size_t kPorts = 4;
@@ -91,9 +92,9 @@ class TagStore {
       WritePort<void>{memory_, "line_2"}, WritePort<void>{memory_, "line_3"}};
   std::vector<std::uint32_t> tags_;   // U27 and valid
   std::vector<std::uint8_t> turned_;  // U1
-  std::vector<std::uint8_t> age_;  // the order of uses; 0: most recent; a permutation in each set
+  std::vector<std::uint8_t> age_;     // order of uses, 0: most recent; a permutation per set
   std::uint16_t random_ = kRandomStart;
-  // Sets that this clock writes.
+  // Sets written in this cycle.
   std::array<std::uint32_t, kPorts> changed_{};
   std::size_t changes_ = 0;
 };

@@ -13,8 +13,8 @@ using spec::texture::kCoordinateFractionBits;
 
 constexpr std::int64_t kOne = std::int64_t{1} << kCoordinateFractionBits;
 
-// The model keeps the two columns, or rows, of a request in the halves of a word, so that one of
-// its operations does the work of two.
+// The model packs the two columns (or rows) of a request into one word so that one operation
+// handles both.
 constexpr std::uint64_t kBoth = 0x1'0000'0001;
 constexpr std::uint64_t pair(std::int32_t first, std::int32_t second) {
   return static_cast<std::uint32_t>(first) | std::uint64_t{static_cast<std::uint32_t>(second)}
@@ -22,10 +22,10 @@ constexpr std::uint64_t pair(std::int32_t first, std::int32_t second) {
 }
 constexpr std::uint32_t low(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
 constexpr std::uint32_t high(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
-// The lowest bits of both.
+// Mask of the low bits of both halves.
 constexpr std::uint64_t ones(unsigned bits) { return kBoth * ((1U << bits) - 1); }
 
-// The bits of a 10-bit number in the even places of a 20-bit one: wires.
+// Spreads a 10-bit number to the even bits of a 20-bit number (wires).
 constexpr auto kSpread = [] {
   std::array<std::uint32_t, 1024> table{};
   for (std::uint32_t i = 0; i < table.size(); ++i)
@@ -49,8 +49,8 @@ Activity TexelAddresser::tick(Cycle cycle) {
   return kBusy;
 }
 
-// All stages: what is between them cannot be seen from outside, since a descriptor stands still
-// while the unit is busy.
+// All stages. Nothing in between is observable, since a descriptor does not change while the unit
+// is busy.
 inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
   // Stage 1.
   const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
@@ -75,8 +75,8 @@ inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, Texe
   address(texture, level, x.texels, y.texels, out);
 }
 
-// Stages 2 to 4, one axis: wrap the coordinate; scale it to texels; split it, bring both texels
-// into range.
+// Stages 2 to 4 for one axis: wraps the coordinate, scales it to texels, splits it, and brings both
+// texels into range.
 inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
                                                   spec::texture::Wrap wrap, bool linear) {
   if (wrap == spec::texture::Wrap::kRepeat) {
@@ -89,7 +89,7 @@ inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::in
   std::int32_t first, second;
   std::uint8_t fraction = 0;
   if (linear) {
-    // Half a texel less, rounded from 24 to 8 fraction bits: both constants are one addition.
+    // Subtracts half a texel and rounds from 24 to 8 fraction bits; both constants need one adder.
     const std::int64_t u = (scaled - (kOne >> 1) + (1 << 15)) >> 16;
     first = static_cast<std::int32_t>(u >> 8);
     second = first + 1;
@@ -118,12 +118,13 @@ inline void TexelAddresser::address(const TextureState& texture, const LevelGeom
     column = x << texture.texel_log2;
     row = y * level.pitch;
   } else {
-    // The tiles stand in Morton order: the low `common` bits of their numbers interleave, those of
-    // columns in the even places, the others stand above both.
+    // Tiles are in Morton order: the low `common` bits of their numbers interleave, columns in the
+    // even bits; the remaining bits are above.
     const unsigned common = level.mixed_log2;
     const std::uint64_t mixed = ones(common);
     const auto tiles = [&](std::uint64_t at, unsigned tile_log2, unsigned place) {
-      const std::uint64_t tile = at >> tile_log2;  // the second one reaches into the first's top
+      const std::uint64_t tile =
+          at >> tile_log2;  // the second half shifts into the first one's top bits
       const std::uint64_t interleaved = tile & mixed, above = (tile ^ interleaved) & ones(12);
       return (kSpread[low(interleaved)] | std::uint64_t{kSpread[high(interleaved)]} << 32)
                  << place |
@@ -143,25 +144,24 @@ inline void TexelAddresser::address(const TextureState& texture, const LevelGeom
 Datasheet TexelAddresser::datasheet() {
   return {
       .unit = "TexelAddresser",
-      .does = "From a sample position to the addresses of its four texels and its fractions.",
+      .does = "Computes the addresses of a sample's four texels and its bilinear fractions.",
       .latency = {5},
       .stages =
-          {{"1", "choice of the descriptor", "choice of 1 in 16"},
-           {"2", "choice of the level in it, wrapping of both coordinates"},
-           {"3", "their products with the level's width and height", "34 x 13 multiply"},
+          {{"1", "descriptor selected", "16 : 1 mux"},
+           {"2", "level selected, both coordinates wrapped"},
+           {"3", "products with the level's width and height", "34 x 13 multiply"},
            {"4",
-            "half a texel less, rounded, split into texel and fraction, both texels of each "
-            "axis brought into range"},
+            "subtract half a texel, round, split into texel and fraction, bring both texels of "
+            "each axis into range"},
            {"5", "two column parts, two row parts, four sums",
-            "`tiled`: 13-bit subtraction, bits of both sides in tiles, a count of 10 of them, "
-            "two shifters of four levels, then a 32-bit addition: 1.03 of the multiply; `linear`: "
-            "12 x 9 multiply, "
-            "then one of three operands"}},
+            "`tiled`: 13-bit subtraction, bits of both sides in tiles, count of 10 of them, two "
+            "shifters of four levels, then a 32-bit addition: 1.03 x the 24 x 24 multiply; "
+            "`linear`: 12 x 9 multiply, then a three-operand addition"}},
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
       .cost =
-          "a choice of 1 in 16 descriptors and 1 in 13 levels, two 34 x 13 multipliers, two "
-          "12 x 9 ones for `linear` pitch; `tiled`: two subtractors, and an address a count of 10 "
-          "bits and two shifters; registers of four requests, the first with 13 level bases."};
+          "16 : 1 mux of descriptors and 13 : 1 mux of levels, two 34 x 13 multipliers, two 12 x 9 "
+          "multipliers for `linear` pitch; `tiled`: two subtractors, and per address a count of 10 "
+          "bits and two shifters; registers for four requests, the first with 13 level bases."};
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// From a sample position to the byte addresses of its four texels and its bilinear fractions.
+// Computes the byte addresses of a sample's four texels and its bilinear fractions.
 //
-// Where: tail of the AddressUnit. The model does all in stage 1, then delays. Stalled by
-// `downstream`, and then holds still as a whole. An address is base + column part + row part, so
-// that four texels need two column parts, two row parts and four three-input adders; sums wrap.
-// Source: paper 2.2 (3) and (4); layouts are ours.
+// Position  SampleWalker -> TexelAddresser; last unit of the AddressUnit.
+// Stalls    downstream  The whole unit stalls.
+// Method    Address = base + column part + row part, so four texels need two column parts, two row
+//           parts and four three-input adders; sums wrap. The model computes everything in stage 1,
+//           then delays.
+// Source    Paper 2.2 (3) and (4); layouts are ours.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +37,9 @@ class TexelAddresser final : public Unit {
 
  private:
   static constexpr int kStages = 5;
-  // Two neighbouring texels along one axis.
+  // Two adjacent texels along one axis.
   struct Axis {
-    std::uint64_t texels;   // U12 each, in range; the first one in the low half
+    std::uint64_t texels;   // U12 each, in range; the first in the low half
     std::uint8_t fraction;  // U0.8
   };
   void request(Cycle cycle, const SampleToken& sample, TexelToken& texels);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kAddressBits = 32;
 
-// A tag is an entry of the fill buffer.
+// The tag is an index into the fill buffer.
 std::uint32_t tag_bits(const spec::texture::Parameters& p) {
   return static_cast<std::uint32_t>(
       std::bit_width(static_cast<std::uint32_t>(p.cache_outstanding - 1)));
@@ -62,9 +62,7 @@ Datasheet TextureCache::datasheet() {
   Datasheet sheet = {
       .unit = "TextureCache",
       .does = "TagStage, LatencyFifo and DataStage, for a request that hits.",
-      .interval = {1,
-                   "one request a clock while no line is missing and no bank is asked for two "
-                   "words"}};
+      .interval = {1, "one request per cycle while every line hits and no bank conflict occurs"}};
   for (const Datasheet& block :
        {TagStage::datasheet(), LatencyFifo::datasheet(), DataStage::datasheet()})
     sheet.latency.cycles += block.latency.cycles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Set-associative cache of texture lines that checks tags long before it reads data, so that memory
+// Set-associative cache of texture lines. It checks tags long before it reads data, so that memory
 // latency overlaps with work.
 //
 //     texels_in -> TagStage -> LatencyFifo -> DataStage -> texels_out
@@ -9,9 +9,9 @@
 //                           |
 //                       MemoryPort (TLM-2.0)
 //
-// Links of two places stand between its blocks; `line_used` is a wire. Fill order, merged misses:
-// docs/reference/texture/cache.md. Source: Igehy, Eldridge, Proudfoot, "Prefetching in a texture
-// cache architecture", 1998.
+// Links with two entries connect its units; `line_used` is a wire. Order of fills, merged misses:
+// docs/reference/texture/cache.md.
+// Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
 #pragma once
 
 #include <systemc>

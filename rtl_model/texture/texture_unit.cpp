@@ -42,7 +42,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   if (stand_ins) stand_ins_ = stand_ins(*this, probe_);
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, so that users do not instantiate it.
 TextureUnit::~TextureUnit() = default;
 
 bool TextureUnit::idle() const {
@@ -52,8 +52,8 @@ bool TextureUnit::idle() const {
 Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "TextureUnit",
-      .does = "From a quad taken to its first colour: one sample, nearest, warm cache.",
-      .interval = {1, "N x (1 or 2) cycles a fragment, or `axis_cycles` if that is more"}};
+      .does = "Latency from taking a quad to its first colour: one sample, nearest, cache hit.",
+      .interval = {1, "max(N x (1 or 2), `axis_cycles`) cycles per fragment"}};
   for (const Datasheet& part :
        {AddressUnit::datasheet(p), TextureCache::datasheet(), FilterPipeline::datasheet(p)})
     sheet.latency.cycles += part.latency.cycles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texture unit: filters textures for quads of fragments (docs/reference/texture/index.md).
+// Texture unit: filters textures for quads of fragments. Contract: docs/reference/texture/index.md.
 //
 //     quads_in -> AddressUnit -> TextureCache -> FilterPipeline -> colours_out
 //                      ^              |
@@ -7,7 +7,7 @@
 //                      |
 //                  registers (TLM-2.0 target)
 //
-// Source: paper 2.1, figure 3.
+// Source    Paper 2.1, figure 3.
 #pragma once
 
 #include <functional>
@@ -34,13 +34,13 @@ class TextureUnit final : public Engine {
   In<spec::texture::Quad> quads_in{"quads_in"};
   Out<spec::texture::Colour> colours_out{"colours_out"};
 
-  // Makes what does the work of some of its units, below it and at their ports
-  // (ClockDomain::replace), for example another description of them.
+  // Creates modules that replace some units at their ports (ClockDomain::replace), for example
+  // their RTL counterpart.
   using StandIns = std::function<std::vector<std::unique_ptr<sc_core::sc_module>>(
       TextureUnit& unit, LatencyProbe& probe)>;
 
-  // ConfigError for what cannot be built (spec/texture/check_build.h). What the memory takes sizes
-  // a latency FIFO whose depth is ordered as 0.
+  // Throws ConfigError if the parameters cannot be built (spec/texture/check_build.h). `memory`
+  // sizes the latency FIFO if its depth is set to 0.
   TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
               const spec::texture::Parameters& parameters, const MemoryCycles& memory = {},
               const StandIns& stand_ins = {});
@@ -58,11 +58,11 @@ class TextureUnit final : public Engine {
   TextureCache cache;
   FilterPipeline filter;
 
-  // From a fragment's quad being taken to its colour being there to be taken.
+  // Cycles from taking a fragment's quad until its colour is available.
   const Histogram& fragment_latency = filter.fragment_latency;
 
   bool idle() const override;
-  // As built: with the depth of the FIFO.
+  // As built, with the actual depth of the FIFO.
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:

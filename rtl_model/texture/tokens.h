@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The wires between the blocks of the texture unit: one struct a link, each with the list of its
-// fields, widths and formats (rtl_model/fabric/payload.h; formats as in
-// docs/reference/texture/formats.md). Texels stand in the order 00, 10, 01, 11.
+// Payloads of the links of the texture unit: one struct per link, with fields, widths and formats
+// (rtl_model/fabric/payload.h; formats as in docs/reference/texture/formats.md). Texel order: 00,
+// 10, 01, 11.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace deburr::rtl::texture {
 
-// Goes with a fragment from the first block to the last.
+// Accompanies a fragment through the pipeline.
 struct Ticket {
-  std::uint32_t tag;     // of the quad
-  std::uint8_t lane;     // in the quad
+  std::uint32_t tag;     // tag of the quad
+  std::uint8_t lane;     // lane in the quad
   bool last;             // last covered lane of its quad
   bool valid;            // the descriptor is valid; otherwise the colour is zero
   std::uint8_t texture;  // descriptor handle
@@ -32,12 +32,11 @@ struct Ticket {
   }
 };
 
-// DerivativeUnit -> FootprintUnit or AxisUnit. A derivative in texels has the sign of its
-// difference.
+// DerivativeUnit -> FootprintUnit or AxisUnit. The magnitudes have the signs of the differences.
 struct DerivativeToken {
   Ticket ticket;
   std::int32_t s, t;
-  std::int64_t s_x, t_x, s_y, t_y;                       // differences along row and column
+  std::int64_t s_x, t_x, s_y, t_y;  // coordinate differences along row and column
   std::uint32_t size_s_x, size_t_x, size_s_y, size_t_y;  // their magnitudes in texels of level 0
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -56,13 +55,13 @@ struct DerivativeToken {
 };
 
 // FootprintUnit or AxisUnit -> Log2Unit. From here on only the difference along the major axis is
-// of interest.
+// kept.
 struct FootprintToken {
   Ticket ticket;
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
   std::uint32_t d_max;
-  std::uint64_t minor;  // d_min; of the AxisUnit the area of the footprint
+  std::uint64_t minor;  // d_min; from the AxisUnit: area of the footprint
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -99,9 +98,9 @@ struct LevelToken {
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
   std::uint8_t last_index;  // N - 1
-  std::uint8_t level;       // the finer of the levels used
+  std::uint8_t level;       // the finer level used
   std::uint8_t fraction;    // not 0: level + 1 is used as well
-  bool linear;              // filter within a level: nearest or linear
+  bool linear;              // filter within a level: linear or nearest
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -116,12 +115,12 @@ struct LevelToken {
   }
 };
 
-// What the FilterPipeline does with a bilinear request.
+// Filter settings of a bilinear request.
 struct FilterControl {
   std::uint8_t fraction_u, fraction_v;
   std::uint16_t level_weight;  // 1..256
-  std::uint8_t index;          // of the sample
-  std::uint8_t last_index;     // of the fragment, N - 1
+  std::uint8_t index;          // index of the sample
+  std::uint8_t last_index;     // N - 1 of the fragment
   std::uint8_t format;         // spec::texture::Format
   bool last_of_sample;         // completes a sample (second level, or the only one)
   bool last_of_fragment;       // completes a fragment
@@ -167,8 +166,8 @@ struct TexelToken {
   Ticket ticket;
   FilterControl control;
   std::array<std::uint32_t, 4> address;  // bytes
-  std::array<bool, 2> turned;            // of the upper and the lower row: its lines are stored
-                                         // with their banks turned (layout linear, odd rows)
+  std::array<bool, 2>
+      turned;  // upper and lower row: lines stored with rotated banks (layout linear, odd rows)
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -178,7 +177,7 @@ struct TexelToken {
   }
 };
 
-// TagStage -> MissQueue: the lines that one request misses, in the order of their fills.
+// TagStage -> MissQueue: lines that one request misses, in the order of their fills.
 struct MissToken {
   std::array<std::uint32_t, 4> line;  // line numbers
   std::uint8_t count;                 // 1..4
@@ -194,9 +193,9 @@ struct CacheToken {
   Ticket ticket;
   FilterControl control;
   std::array<std::uint32_t, 4> place;   // byte in the data banks (hit) or in the line (miss)
-  std::array<std::uint8_t, 4> source;   // 0: data banks; 1 + k: fill number k of this request
-  std::array<std::uint16_t, 4> victim;  // line slot that fill number k is written to
-  std::array<bool, 4> turned;           // fill number k is written with its banks turned
+  std::array<std::uint8_t, 4> source;   // 0: data banks; 1 + k: fill k of this request
+  std::array<std::uint16_t, 4> victim;  // line slot that fill k is written to
+  std::array<bool, 4> turned;           // fill k is written with rotated banks
   std::uint8_t fills;                   // number of fills, 0..4
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -223,13 +222,13 @@ struct TexelQuadToken {
   }
 };
 
-// Half a tile: by so much the words of a turned line change places.
+// Half a tile: distance by which the words of a rotated line are moved.
 inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
   return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
 }
 
-// What of the tokens from the footprint to the walker is built. Without a turned axis an axis is a
-// difference of coordinates, S8.24, and the minor side a length, U16.16.
+// Field widths from footprint to walker. Without a rotated axis, the axis is a coordinate
+// difference S8.24 and the minor side a length U16.16.
 inline PayloadShape axis_shape(const spec::texture::Configuration& p) {
   if (p.axes != spec::texture::Axes::kTwo) return {};
   return {.widths = {{"axis_s", 33}, {"axis_t", 33}}};
@@ -240,7 +239,7 @@ inline PayloadShape footprint_shape(const spec::texture::Configuration& p) {
   return shape;
 }
 
-// What of the cache's tokens is built for a cache of this size.
+// Field widths of the cache's tokens.
 inline std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The area that a record's line cuts off at one of its edges: a trapezoid, or two triangles where
+// Area that a descriptor's line cuts off at one of its edges: a trapezoid, or two triangles where
 // the line crosses the edge.
 //
-// Where: in the AreaUnit, behind its DescriptorWalk, with whose stages it moves. The model does the
-// arithmetic at once, as an edge is asked for. Source: Reshetov 2009; paper 000, section 2.
+// Position  In the AreaUnit after the DescriptorWalk, with whose stages it advances. The model
+//           computes all stages at once.
+// Source    Reshetov 2009; paper 000, section 2.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ class AnalyticWeights final : public sc_core::sc_module {
  public:
   explicit AnalyticWeights(const sc_core::sc_module_name& name) : sc_module(name) {}
 
-  // Of pixel k of a record.
+  // Weights at pixel k of a descriptor.
   static EdgeWeights of(const StoredDescriptor& descriptor, std::uint32_t k) {
     const std::int64_t t0 = descriptor.t + std::int64_t{descriptor.growth} * k,
                        t1 = t0 + descriptor.growth;
@@ -60,11 +61,11 @@ class AnalyticWeights final : public sc_core::sc_module {
     return static_cast<std::uint32_t>(
         std::min<std::uint64_t>(weight, spec::morphological::kMaxWeight));
   }
-  // U1.12 + U1.12, halved, to U0.8.
+  // (U1.12 + U1.12) / 2, to U0.8.
   static std::uint32_t trapezoid(std::uint32_t q0, std::uint32_t q1) {
     return limit((q0 + q1 + 16) >> 5);
   }
-  // U2.24 x U12.12, halved, to U0.8.
+  // U2.24 x U12.12 / 2, to U0.8.
   static std::uint32_t triangle(std::uint32_t q, std::uint32_t inverse) {
     return limit((std::uint64_t{q} * q * inverse + (std::uint64_t{1} << 28)) >> 29);
   }

@@ -14,7 +14,7 @@ using spec::morphological::AreaSource;
 using spec::morphological::AreaValues;
 
 constexpr int kRoots = spec::morphological::kTableRoots;
-constexpr int kTileWords = kRoots * kRoots / 4;  // of a parity
+constexpr int kTileWords = kRoots * kRoots / 4;  // per parity
 constexpr std::array<int, 8> kMergedTiles = {1, 2, 3, 4, 6, 8, 9, 12};
 enum MinimalTile : int { kT, kU };
 
@@ -27,14 +27,14 @@ int root(std::int64_t square) {
   return static_cast<int>(r);
 }
 
-// Entry of a published byte, which is v / 255.
+// Entry for a published byte v, value v / 255.
 int of_byte(int v) { return nearest(512 * v, 255); }
 
-// Areas over l pixels before and r behind, as entries at the roots of both.
+// Areas with l pixels before and r after, tabulated at the roots of both.
 struct Entries {
   bool published;
 
-  // The weight of the nearer half of a line from half a pixel at the end to nothing in the middle.
+  // Weight of the nearer half of a line that falls from half a pixel at the end to 0 in the middle.
   int half(int i, int j) const {
     const int l = i * i, r = j * j, d = l + r + 1;
     if (l > r) return 0;
@@ -42,7 +42,7 @@ struct Entries {
     return l < r ? nearest(256 * (r - l), d) : nearest(64, d);
   }
 
-  // Of both halves, smoothed where the run is short.
+  // Weight of both halves, smoothed for short runs.
   int arch(int i, int j) const {
     const int l = i * i, r = j * j, d = l + r + 1, n = std::max(l, r) - std::min(l, r);
     if (d >= 32) {
@@ -54,7 +54,7 @@ struct Entries {
     return own + (root(256 * rest / d) + 1) / 2;
   }
 
-  // Of the published table: second value in the low byte, first value in the high one.
+  // Word of the published table: second value in the low byte, first value in the high byte.
   int pattern(int p, int i, int j) const {
     const auto both = [](int second, int first) { return second | first << 8; };
     switch (p) {
@@ -124,7 +124,7 @@ std::vector<std::uint16_t> root_words() {
   return words;
 }
 
-// The pattern of a shape: its bits are the first and second crossing edge of the start, then of the
+// Pattern of a shape; its bits are the first and second crossing edge of the start, then of the
 // end.
 int pattern_of(std::uint8_t shape) {
   return (shape >> 1 & 1) | (shape >> 3 & 1) << 1 | (shape & 1) << 2 | (shape >> 2 & 1) << 3;
@@ -141,7 +141,7 @@ AreaTable::AreaTable(AreaSource layout, AreaValues values, int lanes)
                  .kind = MemoryKind::kRom,
                  .read_ports = static_cast<std::uint32_t>(4 * lanes),
                  .write_ports = 0,
-                 .content = "root of a distance, U4.8"},
+                 .content = "square root of a distance, U4.8"},
                 root_words()) {
   const int readers = 2 * lanes;
   for (int port = 0; port < 2 * readers; ++port)
@@ -226,7 +226,7 @@ std::array<std::uint16_t, AreaTable::kParities> AreaTable::entries(Cycle cycle, 
 AreaTable::Weights AreaTable::weights(Cycle cycle, std::size_t reader, const Query& query) {
   const int from = tile(query.shape);
   if (from < 0) return {};
-  // Between the entries at fractions f of the first root, g of the second one.
+  // Interpolates between entries with fractions f (first root) and g (second root).
   const auto between = [](const std::array<std::uint16_t, kParities>& words, int drop,
                           std::uint32_t f, std::uint32_t g) {
     const auto entry = [&](std::size_t k) -> std::uint32_t { return words[k] >> drop & 0xFF; };

@@ -23,7 +23,7 @@ AreaUnit::AreaUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       weight_rows_("weight_rows", p, columns_) {
   if (!p.diagonals) return;
   diagonals_in.emplace("diagonals_in");
-  diagonals_ = declare_stall("diagonals", "the diagonals of a beat have not come");
+  diagonals_ = declare_stall("diagonals", "waits for the diagonals of a beat");
 }
 
 // Stage 1.
@@ -40,7 +40,7 @@ void AreaUnit::enter(Cycle cycle, const FrameConfiguration& configuration,
   beat.takes_diagonals = kSmaa && beat.walk.evaluates && configuration.diagonal_steps != 0;
 }
 
-// Stage 3: the edges of the beat go to the units of their weights.
+// Stage 3: edges of the beat go to the units that compute their weights.
 template <bool kSmaa, bool kLearned>
 void AreaUnit::ask(Cycle cycle, const FrameConfiguration& configuration, Beat& beat) {
   descriptor_walk_.visit_edges(cycle, beat.walk,
@@ -69,7 +69,7 @@ void AreaUnit::ask_edge(const FrameConfiguration& configuration, Beat& beat, std
   }
 }
 
-// The edges that no record covers.
+// Edges not covered by a descriptor.
 void AreaUnit::ask_gaps(const Beat& beat) {
   for (std::size_t number = 0; number < std::size_t{2} * beat.walk.count; ++number) {
     const unsigned edges = number % 2 ? beat.next_left : beat.next_top;
@@ -78,7 +78,7 @@ void AreaUnit::ask_gaps(const Beat& beat) {
   }
 }
 
-// Stage 8: a diagonal gives the top edge its weights and takes those of the left one.
+// Stage 8: a diagonal replaces the top edge's weights and clears those of the left edge.
 void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
   const DiagonalWeightsToken& token = diagonals_in->take(cycle);
   for (std::size_t i = 0; i < lanes_; ++i)
@@ -86,7 +86,7 @@ void AreaUnit::take_diagonals(Cycle cycle, Beat& beat) {
       beat.weights[i] = {{}, {token.first[i], token.second[i], token.span[i]}};
 }
 
-// Stage 9: weights of the row above go to the Blender, those of this row take their place.
+// Stage 9: weights of the previous row go to the Blender, those of this row are stored.
 [[gnu::always_inline]] inline void AreaUnit::send(Cycle cycle,
                                                   const FrameConfiguration& configuration,
                                                   const Beat& beat) {
@@ -120,7 +120,7 @@ Activity AreaUnit::work(Cycle cycle) {
         if (kSmaa && beat->takes_diagonals) take_diagonals(cycle, *beat);
         if (beat->works()) weight_rows_.read(cycle, beat->walk.x);
       }
-      // Stages 4 to 8 are those of the units of weights.
+      // Stages 4 to 8 are inside the weight units.
       if (kLearned) learned_->move(cycle, weights_in(7));
       if (kSmaa && table_) table_->move(cycle, configuration, weights_in(6));
       if (Beat* beat = pipe_.at(3); beat && beat->walk.any)
@@ -155,20 +155,20 @@ Datasheet AreaUnit::datasheet(const spec::morphological::Parameters& p) {
   const Datasheet line = has_table(p) ? TableWeights::datasheet() : AnalyticWeights::datasheet();
   return {
       .unit = "AreaUnit",
-      .does = "Weights of the pixels across each edge, by its record's line.",
+      .does = "Weights of the pixels on both sides of each edge, from its descriptor's line.",
       .latency = {DescriptorWalk::datasheet().latency.cycles + line.latency.cycles +
                   WeightRows::datasheet().latency.cycles},
       .stages = {{"1-3", "DescriptorWalk"},
                  {"4-8",
-                  "side by side AnalyticWeights, with a table TableWeights, with learned weights "
+                  "in parallel AnalyticWeights, with a table TableWeights, with learned weights "
                   "LearnedWeights (4-7)"},
                  {"8",
-                  "a learned weight in place of the line's; a beat of diagonals; address of "
+                  "a learned weight replaces the line's; a beat of diagonals; address of "
                   "WeightRows"},
-                 {"9", "corner factor; a diagonal in place of the weight; WeightRows",
-                  "10 x 8 multiply, choice"}},
+                 {"9", "corner factor; a diagonal replaces the weight; WeightRows",
+                  "10 x 8 multiply, mux"}},
       .formats = "weights U0.8, corner factor U1.9.",
-      .cost = "that of its parts, in an axis and lane with corners two multipliers 10 x 8."};
+      .cost = "that of its parts; with corners two 10 x 8 multipliers per axis and lane."};
 }
 
 }  // namespace deburr::rtl::morphological

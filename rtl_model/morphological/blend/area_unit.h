@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Gives the Blender the weights of the pixels across each edge, by its record's line: stores the
-// records, walks along them with the raster, asks the units of weights, and brings two rows
-// together.
+// Computes the weights of the pixels on both sides of each edge, from its descriptor's line: stores
+// the descriptors, walks along them in raster order, queries the weight units, and combines the
+// weights of two rows for the Blender.
 //
 //   lines -> DescriptorStore
 //              |              +-> AnalyticWeights -+
@@ -9,14 +9,17 @@
 //             stages 1 to 3   +-> LearnedWeights --+    8 and 9
 //                                   4 to 8 (7)    diagonals: 8
 //
-// Where: between the LineUnits and the Blender. In slot row s it evaluates row y = s - R - 4 as the
-// raster passes: of each axis one edge a lane and clock. To the Blender go the weights of row y
-// - 1. The parts inside are modules, and no units of the clock domain: all stages move together,
-// theirs too, by one enable, so no beat waits between them, and nothing inside needs a link. An
-// edge of no record (between head and tail of a long run) takes the learned weights of two ends out
-// of sight: so the slot brings the edges of row y. Stalls: `downstream`; `diagonals` (those of a
-// beat have not come: not in an engine whose rows begin as the RunExtractor lets them). Source:
-// Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
+// Position  LineUnits -> AreaUnit -> Blender. Slot row s evaluates row y = s - R - 4, one edge per
+//           axis, lane and cycle, and outputs the weights of row y - 1.
+// Structure The parts are modules, not units of the clock domain: one enable advances all stages
+//           together, so no link is needed inside.
+// Stalls    downstream
+//           diagonals   The diagonals of a beat are missing. Cannot occur when the RunExtractor
+//                       delays short rows.
+// Note      An edge without a descriptor (between head and tail of a long run) takes the learned
+//           weights of two ends out of range. The slot brings the edges of row y so that such an
+//           edge is seen.
+// Source    Reshetov 2009; paper 000, section 2; SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +51,7 @@ class AreaUnit final : public Unit {
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<AreaSlotToken> slots_in{"slots_in"};
   LanePorts<In<LineToken>> lines_h_in, lines_v_in;
-  // From the DiagonalUnit, if it is built.
+  // Only with diagonals.
   std::optional<In<DiagonalWeightsToken>> diagonals_in;
   Out<WeightToken> weights_out{"weights_out"};
   Out<FinishToken> finished_out{"finished_out"};
@@ -58,26 +61,26 @@ class AreaUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  Counter descriptors{"descriptors", "descriptors", "lines stored"};
+  Counter descriptors{"records", "records", "lines stored"};
   Counter horizontal_edges{"horizontal_edges", "edges",
-                           "edges evaluated for horizontal run descriptors"};
-  Counter vertical_edges{"vertical_edges", "edges", "edges evaluated for vertical run descriptors"};
+                           "edges evaluated in horizontal descriptors"};
+  Counter vertical_edges{"vertical_edges", "edges", "edges evaluated in vertical descriptors"};
   Counter bank_conflicts{"bank_conflicts", "clk",
-                         "stores that waited for the write port of their bank"};
+                         "cycles in which lines waited for the write port of their bank, summed"};
 
-  // For checks: every line as it is stored.
+  // For checks: called with every line when it is stored.
   void observe_lines(std::function<void(const spec::morphological::LineDescriptor&)> observer) {
     descriptor_store_.observer = std::move(observer);
   }
 
-  // By which the registers load the tables of learned weights; none in an engine without.
+  // Port through which the registers load the tables; empty without learned weights.
   std::optional<WeightsRom::LoadPort> weights_port() {
     return learned_ ? std::optional(learned_->rom.load_port()) : std::nullopt;
   }
-  // For checks: these tables; nullptr in an engine without.
+  // For checks: the tables; nullptr without learned weights.
   WeightsRom* weights_rom() { return learned_ ? &learned_->rom : nullptr; }
 
-  // Of slots; of lines: the DescriptorStore's. Its latency is the sum of its parts'.
+  // For slots; for lines see DescriptorStore. The latency is the sum of the parts'.
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
 
  private:
@@ -88,15 +91,14 @@ class AreaUnit final : public Unit {
     DescriptorWalk::Beat walk;
     BeatWeights weights;
 
-    bool works() const {
-      return walk.row >= 0;
-    }  // has weights of a row, or finds those of the next
+    // Outputs weights of a row, or computes those of the next row.
+    bool works() const { return walk.row >= 0; }
   };
 
-  // kSmaa, kLearned: as the DescriptorWalk's.
+  // kSmaa, kLearned: see DescriptorWalk.
   template <bool kSmaa, bool kLearned>
   Activity work(Cycle cycle);
-  // Once a clock each, from one place: inline.
+  // Each is called once per cycle from one place, hence inline.
   template <bool kSmaa>
   inline void enter(Cycle cycle, const FrameConfiguration& configuration,
                     const AreaSlotToken& token, Beat& beat);
@@ -106,13 +108,13 @@ class AreaUnit final : public Unit {
   template <bool kSmaa, bool kLearned>
   inline void ask_edge(const FrameConfiguration& configuration, Beat& beat, std::size_t number,
                        const StoredDescriptor& descriptor, const DescriptorWalk::Edge& edge);
-  // The next move brings a beat to stage 8 whose diagonals are not there.
+  // Would the next move bring a beat to stage 8 whose diagonals are missing?
   bool waits_for_diagonals(Cycle cycle) {
     const Beat* const beat = pipe_.at(7);
     return beat && beat->takes_diagonals && !diagonals_in->can_pop(cycle);
   }
   void take_diagonals(Cycle cycle, Beat& beat);
-  // Of the beat in this stage, for a unit inside; nullptr: a bubble.
+  // Weights of the beat in this stage; nullptr for a bubble.
   BeatWeights* weights_in(std::size_t stage) {
     Beat* const beat = pipe_.at(stage);
     return beat ? &beat->weights : nullptr;
@@ -121,10 +123,10 @@ class AreaUnit final : public Unit {
 
   const std::size_t lanes_;
   const std::int32_t lag_;     // rows from a slot to the row that it blends
-  const std::size_t columns_;  // of the longest row, in whole beats, of a pair at least
-  const bool smaa_;            // built with any block of SMAA's
+  const std::size_t columns_;  // of the longest row, rounded up to whole beats and pairs
+  const bool smaa_;            // built with any SMAA block
 
-  // The parts, in the order of the stages.
+  // Parts in stage order.
   DescriptorStore descriptor_store_;
   DescriptorWalk descriptor_walk_;
   AnalyticWeights analytic_{"analytic"};
@@ -132,7 +134,7 @@ class AreaUnit final : public Unit {
   std::unique_ptr<LearnedWeights> learned_;
   WeightRows weight_rows_;
 
-  std::optional<Activity> diagonals_;  // waits for their weights
+  std::optional<Activity> diagonals_;  // stall: waits for their weights
   Pipe<Beat, spec::morphological::kAreaLatency> pipe_;
 };
 

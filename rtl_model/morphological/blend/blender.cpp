@@ -24,10 +24,10 @@ void for_each_lane(std::uint8_t lanes, Visit&& visit) {
 // Mark set by the geometric engine.
 bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixel[3] & 1) == 0; }
 
-// More than those of weights as they come: of weights as they are blended, U0.12.
+// Fraction bits added to the weights for blending: U0.12.
 constexpr int kMoreBits = 4;
 constexpr int kBlendBits = 8 + kMoreBits;
-// R(s), U1.20: what squares are multiplied by to be weights of s again.
+// R(s), U1.20: normalises squared weights to the sum s.
 constexpr std::uint32_t kMixBits = 21;
 std::vector<std::uint32_t> mix_words() {
   std::vector<std::uint32_t> words(spec::morphological::kMixSums);
@@ -49,7 +49,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                 .kind = MemoryKind::kRom,
                 .read_ports = static_cast<std::uint32_t>(lanes_),
                 .write_ports = 0,
-                .content = "2^20 / sum of blend weights"},
+                .content = "2^20 / sum of weights"},
                mix_words()),
       linear_rom_("linear_rom",
                   {.words = spec::morphological::kLinear12FromSrgb.size(),
@@ -57,7 +57,7 @@ Blender::Blender(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .kind = MemoryKind::kRom,
                    .read_ports = static_cast<std::uint32_t>(9 * lanes_),
                    .write_ports = 0,
-                   .content = "linear light of an sRGB code"},
+                   .content = "sRGB code to linear light"},
                   spec::morphological::kLinear12FromSrgb),
       encode_rom_("encode_rom",
                   {.words = spec::morphological::kSrgbFromLinear12.size(),
@@ -104,7 +104,7 @@ void Blender::choose(Cycle cycle, const FrameConfiguration& configuration, const
   if (token.any) choose_axes(cycle, token, around, guarded, beat);
 }
 
-// By its own mark, or with `beside` those of its neighbours in the frame.
+// By the pixel's own mark, or with bypass = beside also those of its neighbours in the frame.
 bool Blender::is_left(const FrameConfiguration& configuration, const Slot& slot,
                       const PixelToken& around, std::size_t lane, std::size_t count) const {
   if (is_marked(around.centre[lane])) return true;
@@ -175,7 +175,7 @@ void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToke
   blending_ += beat.blend != 0;
 }
 
-// Stages 2 and 3: each weight becomes its square over the sum of both.
+// Stages 2 and 3: each weight becomes its square divided by the sum of both.
 void Blender::mix(Cycle cycle, Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     const spec::morphological::BlendProbe& probe = beat.result.probe[lane];
@@ -214,7 +214,7 @@ void Blender::subtract(Cycle cycle, Beat& beat) {
   });
 }
 
-// Stage 4. A neighbour without a weight may lie outside the frame.
+// Stage 4. A neighbour with weight 0 may lie outside the frame.
 void Blender::multiply(Beat& beat) {
   for_each_lane(beat.blend, [&](std::size_t lane) {
     Operands& o = beat.operands[lane];
@@ -264,7 +264,7 @@ void Blender::encode(Cycle cycle, const Beat& beat, spec::morphological::Blended
   });
 }
 
-// Stages 5 to 2, which have nothing to do for a beat of which no lane takes a weight.
+// Stages 5 to 2; nothing to do for beats in which no lane blends.
 void Blender::blend(Cycle cycle) {
   if (Beat* beat = pipe_.at(5); beat && beat->blend) {
     round(cycle, *beat);
@@ -299,16 +299,16 @@ Datasheet Blender::datasheet() {
           .does = "Decides the axis of each pixel and blends it with its neighbours on that axis.",
           .latency = {6, "6; 5 to its push into the output link"},
           .stages = {{"1",
-                      "sums, spans, axis, neighbours, marks, text guard; address of mix_rom, of "
-                      "the chosen sum "
-                      "(`strongest`: two maxima, compare, sums of both pairs)"},
-                     {"2", "address of linear_rom; word of mix_rom, squares of both weights"},
+                      "sums, spans, axis, neighbours, marks, text guard; mix_rom address from the "
+                      "sum on the chosen axis (`strongest`: two maxima, compare, sums of both "
+                      "pairs)"},
+                     {"2", "linear_rom address; mix_rom word, squares of both weights"},
                      {"3", "linear light, differences; squares x word, rounded",
                       "21 x 16 multiply + 37-bit add"},
                      {"4", "products, sum", "signed 13 x 13 multiply"},
                      {"5", "rounding, new value, encode_rom address"},
                      {"6", "codes", "ROM read"}},
-          .formats = "weights U0.8, as blended U0.12; linear light U0.12, its differences S13.",
+          .formats = "weights U0.8, blended as U0.12; linear light U0.12, differences S13.",
           .cost =
               "per lane: nine reads of linear_rom, 256 x 12 bits (three per channel, after the "
               "axis is chosen), three of encode_rom, 4096 x 8 bits (two reads per copy), two "

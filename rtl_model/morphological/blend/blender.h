@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Decides the axis of each pixel and blends it with its two neighbours on that axis.
+// Chooses the axis of each pixel and blends it with its two neighbours on that axis.
 //
-// Where: last block. Stalls: `downstream`. Rule `longest`: the axis that has weights at all; else
-// the longer line; else the larger sum, ties to up and down. Rule `strongest`: the axis of the
-// largest weight, ties to up and down; each weight w of the pair becomes w^2 / (w1 + w2). Rule
-// `leave`: a pixel that is marked (bit 0 of its alpha is 0), or beside one that is, takes no
-// weight; or it takes half of a marked one's. A mask is the EdgeDetector's. The mark ends here.
-// Rule `text_guard`: a pixel that is guarded takes no weight; its bit is there before its weights
-// are. Results are rounded by magnitude. Source: paper 000, section 2 (D sums), SMAA 1x
-// (strongest); the tie rules are ours.
+// Position  Last unit of the engine.
+// Stalls    downstream
+// Options   longest     The axis that has weights; if both do, the one with the longer line, then
+//                       the larger sum; ties go to up/down.
+//           strongest   The axis of the largest weight, ties to up/down. Each weight w of the pair
+//                       becomes w^2 / (w1 + w2).
+//           bypass      A marked pixel (bit 0 of alpha is 0), or one next to it, takes no weight;
+//                       or it takes half of a marked neighbour's weight. The EdgeDetector
+//                       implements masked. The mark is removed here.
+//           text_guard  A guarded pixel takes no weight; its guard bit is ready before its weights
+//                       are.
+// Note      Results are rounded by magnitude.
+// Source    Paper 000, section 2 (D sums); SMAA 1x (strongest). The tie rules are ours.
 #pragma once
 
 #include <array>
@@ -34,7 +39,7 @@ class Blender final : public Unit {
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<WeightToken> weights_in{"weights_in"};
   In<PixelToken> pixels_in{"pixels_in"};
-  std::optional<In<GuardToken>> guards_in;  // from the TextGuard, if it is built
+  std::optional<In<GuardToken>> guards_in;  // only with text_guard
   Out<spec::morphological::BlendedBeat> pixels_out{"pixels_out"};
   Out<FrameDoneToken> frames_done_out{"frames_done_out"};
 
@@ -47,17 +52,15 @@ class Blender final : public Unit {
   }
 
   Counter pixels{"pixels", "pixels", "pixels delivered"};
-  Counter blended_pixels{"blended_pixels", "pixels",
-                         "blended pixels: those with a blend weight above 0"};
-  Counter bypassed_pixels{"bypassed_pixels", "pixels",
-                          "bypassed pixels: those whose blend weights a rule set to 0"};
-  Histogram beat_latency{"beat_latency", "clk", "from a beat being popped to it being pushed"};
+  Counter blended_pixels{"blended_pixels", "pixels", "pixels blended with a neighbour"};
+  Counter bypassed_pixels{"bypassed_pixels", "pixels", "pixels with a weight that were bypassed"};
+  Histogram beat_latency{"beat_latency", "clk", "cycles from popping a beat to pushing it"};
 
   static Datasheet datasheet();
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
-  // A pixel that takes a weight.
+  // A pixel being blended.
   struct Operands {
     std::array<spec::morphological::Rgba8, 3> code;     // centre, first, second
     std::array<std::int32_t, 3> centre, first, second;  // differences to centre; S13
@@ -66,15 +69,15 @@ class Blender final : public Unit {
     std::array<std::uint16_t, 3> value;                 // U0.12
   };
   struct Beat {
-    std::uint32_t slot;  // number
-    bool last;           // of the frame
-    std::uint8_t blend;  // bit k: lane k takes a weight
-    std::uint8_t left;   // bit k: it had one, and the rule took it
+    std::uint32_t slot;  // slot number
+    bool last;           // last beat of the frame
+    std::uint8_t blend;  // bit k: lane k is blended
+    std::uint8_t left;   // bit k: lane k had a weight and was bypassed
     spec::morphological::BlendedBeat result;
     std::array<Operands, kLanes> operands;
   };
 
-  // Once a clock each, from one place: inline.
+  // Each is called once per cycle from one place, hence inline.
   inline void choose(Cycle cycle, const FrameConfiguration& configuration,
                      const WeightToken& weights, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const FrameConfiguration& configuration, const Beat& beat);
@@ -93,7 +96,7 @@ class Blender final : public Unit {
     return (lane * 3 + channel) * 3 + operand;
   }
 
-  const std::int32_t lanes_, first_row_;  // first_row: of slots that blend
+  const std::int32_t lanes_, first_row_;  // first_row_: first slot row that blends
   LatencyProbe& probe_;
   Memory<std::uint32_t> mix_rom_;
   std::vector<ReadPort<std::uint32_t>> mix_;  // lane
@@ -102,7 +105,7 @@ class Blender final : public Unit {
   Memory<std::uint8_t> encode_rom_;
   std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
   Pipe<Beat, spec::morphological::kBlenderLatency + 1> pipe_;
-  std::uint32_t blending_ = 0;  // beats up to stage 5 of which a lane takes a weight
+  std::uint32_t blending_ = 0;  // beats up to stage 5 with a lane to blend
 };
 
 }  // namespace deburr::rtl::morphological

@@ -9,16 +9,16 @@ namespace deburr::rtl::morphological {
 namespace {
 
 constexpr std::uint32_t kSpanBits = 12, kCoordinateBits = 13, kLengthBits = 12;
-// t S4.24 and growth U2.24, inverse, span, two sides.
+// t S4.24, growth U2.24, inverse, span, two sides.
 constexpr std::uint32_t kDescriptorBits = 29 + 26 + 24 + kSpanBits + 4;
 constexpr std::uint32_t kCornerBits = 4 + 2;  // far bits, part
-constexpr std::uint32_t kLearnedBits = 1;     // has no line: part, shape, classes in its place
+constexpr std::uint32_t kLearnedBits = 1;     // no line; part, shape and classes share its bits
 // Row, odd column, length.
 constexpr std::uint32_t kRowMarkBits = kCoordinateBits + 1 + kLengthBits;
-// Start, length up to R.
+// Start, length (up to R).
 constexpr std::uint32_t kColumnMarkBits = kCoordinateBits + 8;
 
-// Is slot a before slot b? Low bits of both, at most 2^14 apart.
+// Is slot a before slot b? Low bits, at most 2^14 apart.
 bool before(std::uint32_t a, std::uint32_t b) { return (a - b) & ((kSlotMask + 1) / 2); }
 
 bool has_crossings(const spec::morphological::Parameters& p) {
@@ -34,7 +34,8 @@ MemoryShape axis_shape(std::size_t words, std::size_t columns, std::size_t banks
                        const char* content) {
   return {.words = words,
           .write_ports = static_cast<std::uint32_t>(banks),
-          // A record may end in the clock in which the walk comes by: it is too late for that beat.
+          // A descriptor may be stored in the cycle in which the walk reads it: too late for that
+          // beat.
           .read_during_write = ReadDuringWrite::kOldWord,
           .banks = static_cast<std::uint32_t>(banks),
           .separate_banks = banks > 1,
@@ -42,14 +43,14 @@ MemoryShape axis_shape(std::size_t words, std::size_t columns, std::size_t banks
           .columns = columns};
 }
 
-// A read of a beat.
+// One read port for a beat of marks.
 MemoryShape marks_shape(MemoryShape shape, std::uint32_t bits) {
   shape.word_bits = bits;
   shape.span = shape.banks;
   return shape;
 }
 
-// A read a bank.
+// One read port per bank.
 MemoryShape descriptors_shape(MemoryShape shape, std::uint32_t bits) {
   shape.word_bits = bits;
   shape.read_ports = shape.banks;
@@ -100,15 +101,14 @@ DescriptorStore::DescriptorStore(const sc_core::sc_module_name& name,
       row_("row",
            axis_shape(2 * pairs_, static_cast<std::size_t>(p.line_pixels),
                       std::max<std::size_t>(1, lanes_ >> pair_bits_),
-                      has_crossings(p)
-                          ? "a horizontal record a column, two rows"
-                          : "horizontal run descriptors of two rows, one per pair of columns"),
+                      has_crossings(p) ? "one horizontal descriptor per column, two rows"
+                                       : "one horizontal descriptor per pair of columns, two rows"),
            kRowMarkBits, descriptor_bits(p)),
       column_("column",
               axis_shape(columns << entry_bits_, static_cast<std::size_t>(p.line_pixels),
                          lanes_ << entry_bits_,
-                         has_crossings(p) ? "two vertical records a column"
-                                          : "vertical run descriptors, one per column"),
+                         has_crossings(p) ? "two vertical descriptors per column"
+                                          : "one vertical descriptor per column"),
               kColumnMarkBits, descriptor_bits(p)),
       counters_(counters) {}
 
@@ -118,15 +118,15 @@ std::size_t DescriptorStore::place(const AxisDescriptors& axis, const LineToken&
   return (std::size_t{run.line} << entry_bits_) + token.entry;
 }
 
-// At the entrance: behind their slots, one a bank.
+// First stage: takes lines whose slot has passed, one per bank.
 bool DescriptorStore::enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisDescriptors& axis,
                             Lines& under_way) {
-  std::uint32_t taken = 0;  // banks
+  std::uint32_t taken = 0;  // bit mask of banks
   for (std::size_t lane = 0; lane < lanes_; ++lane) {
     In<LineToken>& in = lines[lane];
     if (!in.can_pop(cycle)) continue;
     const LineToken& token = in.front(cycle);
-    // What the slot has still to read here may be in the same place.
+    // The slot may still have to read the entry that this line overwrites.
     if (!before(token.slot, passed_)) continue;
     const std::uint32_t bank = 1u << axis.bank_of(place(axis, token));
     if (taken & bank) {
@@ -140,7 +140,7 @@ bool DescriptorStore::enter(Cycle cycle, LanePorts<In<LineToken>>& lines, AxisDe
   return taken != 0;
 }
 
-// With a table: t(0) is there, the ends follow.
+// With a table: t(0) is known, the ends are computed next.
 void DescriptorStore::measure_lines() {
   for (Lines* lines : {&row_lines_, &column_lines_}) {
     std::copy_n(lines->entered.begin(), lines->entered_count, lines->measured.begin());
@@ -149,7 +149,7 @@ void DescriptorStore::measure_lines() {
   }
 }
 
-// The last of their stages.
+// Last stage for lines.
 bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configuration,
                                   Out<FinishToken>& finished) {
   if (!finished.can_push(cycle)) return false;
@@ -159,7 +159,7 @@ bool DescriptorStore::store_lines(Cycle cycle, const FrameConfiguration& configu
     std::size_t& count = ends_ ? under_way.measured_count : under_way.entered_count;
     for (std::size_t i = 0; i < count; ++i) {
       store(cycle, configuration, axis, lines[i]);
-      // Its slot row is the one that passes here, or the one before that.
+      // Its slot row is the current one or the one before.
       ++token.count[odd_row_ != before(lines[i].slot, row_begin_)];
     }
     count = 0;
@@ -212,23 +212,21 @@ void DescriptorStore::reset() {
 Datasheet DescriptorStore::datasheet(const spec::morphological::Parameters& p) {
   Datasheet sheet = {
       .unit = "DescriptorStore",
-      .does = "Keeps the records of both axes where the raster finds them.",
+      .does = "Stores the descriptors of both axes, addressed by raster position.",
       .latency = {2},
-      .interval = {1, "1 a bank"},
-      .stages = {{"1", "choice of a line a bank, two products", "24 x 24 multiply"},
+      .interval = {1, "1 per bank"},
+      .stages = {{"1", "select one line per bank, two products", "24 x 24 multiply"},
                  {"2", "t at the first edge, store"}},
-      .formats = "t S4.24, growth U2.24, inverse U12.12; with a table a, b S13 in place of both.",
+      .formats = "t S4.24, growth U2.24, inverse U12.12; with a table a, b S13 instead of both.",
       .cost =
-          "an axis and lane: two multipliers 24 x 24, with a table two 18 x 24 more. row_marks and "
-          "row_descriptors, two rows of pairs of columns (with crossings of columns); column_marks "
-          "and "
-          "column_descriptors, a word a column (with crossings two). Each bank 1R1W: marks are "
-          "read a "
-          "beat at a time, records one a bank."};
+          "per axis and lane: two 24 x 24 multipliers, with a table two more of 18 x 24. "
+          "row_marks and row_descriptors: two rows of column pairs (with crossings of columns); "
+          "column_marks and column_descriptors: one word per column (with crossings two). Each "
+          "bank is 1R1W: marks are read a beat at a time, descriptors one per bank."};
   if (!has_table(p)) return sheet;
   sheet.variant = "with a table";
   sheet.latency = {3};
-  sheet.stages = {{"1", "choice of a line a bank, two products", "24 x 24 multiply"},
+  sheet.stages = {{"1", "select one line per bank, two products", "24 x 24 multiply"},
                   {"2", "t at the first edge"},
                   {"3", "a and b, store", "two 18 x 24 multiplies"}};
   return sheet;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Keeps the records of both axes where the raster finds them.
+// Stores the descriptors of both axes, addressed by raster position.
 //
-// Where: at the entrance of the AreaUnit, read by its DescriptorWalk. A line that arrives is popped
-// behind its slot (stage 2 of the walk), multiplied in that clock and stored in the next, which
-// finishes the record; with a table a clock later, since its ends a and b are two more multiplies.
-// A record is written once: the mark of its place says where it starts and how long it is, so pixel
-// k of it is known without a counter, and t = t(0) + k x scale x slope. So a bank needs one read
-// and one write port; a line whose bank a lower lane takes in its clock waits, which
-// `bank_conflicts` counts. A horizontal record has a pair of columns, a vertical one a column. With
-// crossings there is a horizontal record a column, and each column has two vertical ones, used in
-// turn (the token's `entry`): a run may begin in the row after its predecessor's end. Slot rows 0
-// and 1 clear the marks. Source: Reshetov 2009; paper 000, section 2.
+// Position  First part of the AreaUnit; read by its DescriptorWalk.
+// Latency   A line is popped after its slot has passed stage 2 of the walk, multiplied in that
+//           cycle and stored in the next, which finishes the descriptor. With a table one cycle
+//           later: the ends a and b take two more multiplies.
+// Memory    A descriptor is written once. Its mark holds start and length, so pixel k needs no
+//           counter: t = t(0) + k x scale x slope. A bank therefore has one read and one write
+//           port. A line whose bank is taken by a lower lane waits (counter `bank_conflicts`).
+//           There is one horizontal descriptor per pair of columns and one vertical descriptor per
+//           column. With crossings there is one horizontal descriptor per column, and two vertical
+//           ones used in turn (`entry`), since a run may begin in the row after its predecessor's
+//           end. Slot rows 0 and 1 clear the marks.
+// Source    Reshetov 2009; paper 000, section 2.
 #pragma once
 
 #include <array>
@@ -33,13 +35,13 @@
 
 namespace deburr::rtl::morphological {
 
-// The records of an axis: marks, which the walk reads for each beat, and words, in banks by place.
+// Descriptors of one axis: marks, which the walk reads for each beat, and words; banked by address.
 class AxisDescriptors {
  public:
-  // Where a record lies. Horizontal: its place is its pair of columns; vertical: its column.
+  // Position of a descriptor. Horizontal: addressed by pair of columns; vertical: by column.
   struct alignas(8) Mark {
     std::uint16_t start = 0;   // U13
-    std::uint16_t length = 0;  // U12, 0: none
+    std::uint16_t length = 0;  // U12, 0: no descriptor
     std::uint16_t row = 0;     // U13, horizontal only
   };
 
@@ -47,25 +49,24 @@ class AxisDescriptors {
                   std::uint32_t descriptor_bits);
 
   std::size_t banks() const { return banks_; }
-  // A power of two.
+  // The number of banks is a power of two.
   std::size_t bank_of(std::size_t place) const { return place & (banks_ - 1); }
 
-  // --- The walk, a clock each: marks from `place` on, then a record of a bank ---
+  // --- Port of the walk: marks from `place` on, one cycle later a descriptor of a bank ---
   void read_marks(Cycle cycle, std::size_t place, std::size_t count) {
     read_marks_.read(cycle, place, count);
   }
   void check_marks(Cycle cycle, std::size_t place) const { read_marks_.check(cycle, place); }
-  // The output registers of the marks take these, a beat of most lanes, in the clock of the
-  // address.
+  // Marks that the read returns. Call in the cycle of the address; valid for kMaxLanes columns.
   const Mark* marks_from(std::size_t place) const { return &mark_[place]; }
   void read(Cycle cycle, std::size_t place) { read_[bank_of(place)].read(cycle, place); }
   const StoredDescriptor& descriptor(Cycle cycle, std::size_t place) const {
     return read_[bank_of(place)].at(cycle, place);
   }
 
-  // --- Lines and the first slot rows: a write a bank and clock ---
+  // --- Write port of lines and of the first slot rows: one write per bank and cycle ---
   void write(Cycle cycle, std::size_t place, const Mark& mark, const StoredDescriptor& descriptor);
-  // The marks of a beat.
+  // Clears the marks of a beat.
   void clear_marks(Cycle cycle, std::size_t place);
 
  private:
@@ -73,26 +74,26 @@ class AxisDescriptors {
   Memory<void> marks_;
   ReadPort<void> read_marks_{marks_, "raster"};
   Memory<StoredDescriptor> descriptors_;
-  std::vector<ReadPort<StoredDescriptor>> read_;  // a bank each, as the others
+  std::vector<ReadPort<StoredDescriptor>> read_;  // per bank, as the write ports
   std::vector<WritePort<void>> write_marks_;
   std::vector<WritePort<StoredDescriptor>> write_;
-  // The words of `marks_`, and as many more as make a beat of most lanes.
+  // Content of `marks_`, padded to a beat with the maximum number of lanes.
   std::vector<Mark> mark_;
 };
 
 class DescriptorStore final : public sc_core::sc_module {
  public:
-  // The AreaUnit's, of its lines.
+  // Counters of the AreaUnit.
   struct Counters {
     Counter &descriptors, &bank_conflicts;
   };
 
-  // `columns`: of the longest row, in whole beats, of a pair at least.
+  // `columns`: of the longest row, rounded up to whole beats and pairs.
   DescriptorStore(const sc_core::sc_module_name& name,
                   const spec::morphological::Parameters& parameters, std::size_t columns,
                   Counters counters);
 
-  // --- Lines: what their stages do in a clock. False: nothing, or `finished` has no room ---
+  // --- Lines: advances their stages by a cycle. False: nothing done, or `finished` is full ---
   bool take_lines(Cycle cycle, const FrameConfiguration& configuration,
                   LanePorts<In<LineToken>>& horizontal, LanePorts<In<LineToken>>& vertical,
                   Out<FinishToken>& finished) {
@@ -110,7 +111,7 @@ class DescriptorStore final : public sc_core::sc_module {
     if (vertical.any_arrives(cycle, lanes_)) did |= enter(cycle, vertical, column_, column_lines_);
     return did;
   }
-  // A slot passes stage 2 of the walk, so that lines of it may enter.
+  // A slot passes stage 2 of the walk; its lines may enter from now on.
   void pass(Cycle cycle, const Slot& slot) {
     if (slot.beat == 0) {
       row_begin_ = slot.number & kSlotMask;
@@ -120,11 +121,11 @@ class DescriptorStore final : public sc_core::sc_module {
     if (slot.row < 2) clear_marks(cycle, slot);
   }
 
-  // --- Places, for the walk ---
+  // --- Addresses, for the walk ---
   AxisDescriptors& row() { return row_; }
   AxisDescriptors& column() { return column_; }
-  // Of a row's columns: of the pair that column x lies in, or of the column. kPairs: built without
-  // crossings.
+  // Address of the entry for column x of a row (with crossings per column, else per pair). kPairs:
+  // built without crossings.
   template <bool kPairs>
   std::size_t row_place(std::int32_t row, std::size_t x) const {
     return static_cast<std::size_t>(row & 1) * pairs_ + (x >> (kPairs ? 1 : pair_bits_));
@@ -134,17 +135,17 @@ class DescriptorStore final : public sc_core::sc_module {
 
   void reset();
 
-  // Of every line as it is stored.
+  // Called with every line when it is stored.
   std::function<void(const spec::morphological::LineDescriptor&)> observer;
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
 
  private:
-  // Lines between their pop and their store.
+  // Lines between pop and store.
   struct Lines {
     std::array<LineToken, spec::morphological::kMaxLanes> entered;
     std::size_t entered_count = 0;
-    // With a table: t(0) is known, the ends follow.
+    // With a table: t(0) is known, the ends are computed next.
     std::array<LineToken, spec::morphological::kMaxLanes> measured;
     std::size_t measured_count = 0;
   };
@@ -159,17 +160,17 @@ class DescriptorStore final : public sc_core::sc_module {
   void clear_marks(Cycle cycle, const Slot& slot);
 
   const std::size_t lanes_;
-  const bool ends_;    // with a table, which needs those of the line
+  const bool ends_;    // with a table, which needs the line's ends
   const bool shapes_;  // with a table or corners
-  // Columns that weight a horizontal record, records of a column: both a power of two.
+  // Columns per horizontal descriptor, descriptors per column: log2 of both.
   const std::uint32_t pair_bits_, entry_bits_;
-  const std::size_t pairs_;  // of a row
+  const std::size_t pairs_;  // pairs per row
   AxisDescriptors row_, column_;
   Lines row_lines_, column_lines_;
   Counters counters_;
-  // U15, low bits: the slot that comes next into stage 3; the first one of the row of the last one.
+  // U15, low bits: next slot for stage 3; first slot of the row of the last slot.
   std::uint32_t passed_ = 0, row_begin_ = 0;
-  bool odd_row_ = false;  // that row
+  bool odd_row_ = false;  // parity of that row
 };
 
 }  // namespace deburr::rtl::morphological

@@ -3,7 +3,7 @@
 
 namespace deburr::rtl::morphological {
 
-// With crossings, corners, diagonals or a table.
+// As match(), with crossings, corners, diagonals or a table.
 void DescriptorWalk::match_smaa(Cycle cycle, Beat& beat) {
   std::uint8_t hand = 1, any = 0;
   for (std::size_t i = 0; i < beat.count; ++i) {
@@ -25,7 +25,7 @@ void DescriptorWalk::match_smaa(Cycle cycle, Beat& beat) {
     const std::size_t entries = std::size_t{1} << entry_bits_;
     for (std::size_t entry = 0; entry < entries; ++entry) {
       const AxisDescriptors::Mark& column = beat.column_mark[(i << entry_bits_) + entry];
-      // U13: a line may have been stored before its first row.
+      // U13: the line may have been stored before its first row, so k wraps.
       const auto k = static_cast<std::uint16_t>((beat.row - column.start) & 0x1FFF);
       if (k >= column.length) continue;
       down.k = k;
@@ -39,18 +39,20 @@ void DescriptorWalk::match_smaa(Cycle cycle, Beat& beat) {
 }
 
 Datasheet DescriptorWalk::datasheet() {
-  return {.unit = "DescriptorWalk",
-          .does = "Finds of each edge of a beat the record that it lies in, and its pixel there.",
-          .latency = {3},
-          .stages = {{"1", "address of the marks"},
-                     {"2", "marks, address of the records", "SRAM read"},
-                     {"3", "marks against the raster, k, choice of a record", "SRAM read"}},
-          .formats = "k U12, rows and columns U13.",
-          .cost =
-              "a lane: of each axis a 13-bit subtract (k) and a 12-bit compare with the length, "
-              "with crossings two of the vertical one; two 13-bit compares (row and start of a "
-              "horizontal mark); with corners a 13-bit compare an axis (which end is nearer). Once "
-              "a register of a horizontal mark and of its record."};
+  return {
+      .unit = "DescriptorWalk",
+      .does =
+          "Finds for each edge of a beat the descriptor that covers it and its pixel in the run.",
+      .latency = {3},
+      .stages = {{"1", "address of the marks"},
+                 {"2", "marks, address of the descriptors", "SRAM read"},
+                 {"3", "marks compared with the raster, k, descriptor selected", "SRAM read"}},
+      .formats = "k U12, rows and columns U13.",
+      .cost =
+          "per lane: for each axis a 13-bit subtract (k) and a 12-bit compare with the length, "
+          "with crossings two for the vertical axis; two 13-bit compares (row and start of a "
+          "horizontal mark); with corners a 13-bit compare per axis (which end is nearer). "
+          "Once: a register for a horizontal mark and its descriptor."};
 }
 
 }  // namespace deburr::rtl::morphological

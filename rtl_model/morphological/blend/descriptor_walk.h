@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Walks along the records with the raster: finds of each edge of a beat the record that it lies in,
-// and its pixel there.
+// Walks along the descriptors in raster order: finds for each edge of a beat the descriptor that
+// covers it and its pixel in the run.
 //
-// Where: stages 1 to 3 of the AreaUnit, on the memories of its DescriptorStore; in slot row s it
-// works on row y = s - R - 4. Horizontal marks are read at their start, and the record stays in
-// hand from there on; vertical ones are read in every row. The model compares the marks in stage 2,
-// to read those records only that matter. Source: Reshetov 2009; paper 000, section 2.
+// Position  Stages 1 to 3 of the AreaUnit, on the memories of its DescriptorStore. Slot row s
+//           processes row y = s - R - 4.
+// Memory    Horizontal descriptors are read at their start and kept in a register; vertical ones
+//           are read in every row. The model compares the marks in stage 2, so that it reads only
+//           descriptors that are used.
+// Source    Reshetov 2009; paper 000, section 2.
 #pragma once
 
 #include <algorithm>
@@ -29,30 +31,31 @@ class DescriptorWalk final : public sc_core::sc_module {
  public:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
 
-  // An edge of the raster and the record that it lies in.
+  // An edge and the descriptor that covers it.
   struct Edge {
-    std::uint16_t k = 0;      // pixel of the record
-    std::uint8_t from = 0;    // 0 none, 1 in hand, 2 + b: read from bank b in this beat
-    std::uint16_t after = 0;  // pixels of the record behind it, with learned weights or corners
+    std::uint16_t k = 0;      // pixel within the run
+    std::uint8_t from = 0;    // 0: none, 1: in the register, 2 + b: read from bank b in this beat
+    std::uint16_t after = 0;  // pixels of the run after this one; with learned weights or corners
   };
   // A beat in stages 1 to 3.
   struct Beat {
-    std::int32_t row;              // whose edges it has
-    bool evaluates;                // that row is one of the frame
-    bool any;                      // one of the edges below lies in a record
-    std::uint32_t x, count, pair;  // its columns: the first one, how many; the first mark
-    // The output registers of the marks, as they were in the clock of the address.
-    std::array<AxisDescriptors::Mark, kLanes> row_mark;  // a pair of columns, with crossings one
-    std::array<AxisDescriptors::Mark, 2 * kLanes>
-        column_mark;  // a column, with crossings two a column
+    std::int32_t row;              // row of its edges
+    bool evaluates;                // the row is in the frame
+    bool any;                      // a descriptor covers one of the edges
+    std::uint32_t x, count, pair;  // first column, number of columns, first mark
+    // Marks as read in the cycle of the address.
+    // Per pair of columns, with crossings per column.
+    std::array<AxisDescriptors::Mark, kLanes> row_mark;
+    // Per column, with crossings two per column.
+    std::array<AxisDescriptors::Mark, 2 * kLanes> column_mark;
     std::array<Edge, kLanes> horizontal, vertical;
 
-    // By the number of the edge in its beat (kBeatEdges).
+    // `number`: edge within its beat (kBeatEdges).
     const Edge& edge(std::size_t number) const {
       return (number % 2 ? vertical : horizontal)[number / 2];
     }
   };
-  // The AreaUnit's.
+  // Counters of the AreaUnit.
   struct Counters {
     Counter &horizontal_edges, &vertical_edges;
   };
@@ -69,9 +72,10 @@ class DescriptorWalk final : public sc_core::sc_module {
         column_(descriptors.column()),
         counters_(counters) {}
 
-  // kSmaa: of an engine with crossings, corners, diagonals or a table; kLearned: with learned
-  // weights. Others do not pay for them.
-  // Stage 1: the addresses of the marks. Once a clock, from one place.
+  // kSmaa: engine with crossings, corners, diagonals or a table. kLearned: with learned weights.
+  // Templates, so that others run faster.
+
+  // Stage 1: addresses of the marks. Called once per cycle from one place.
   template <bool kSmaa>
   inline void address(Cycle cycle, const FrameConfiguration& configuration, const Slot& slot,
                       Beat& beat) {
@@ -94,10 +98,10 @@ class DescriptorWalk final : public sc_core::sc_module {
     std::memcpy(beat.column_mark.data(), column_.marks_from(column),
                 sizeof beat.column_mark / kWeight);
   }
-  // Stage 2: the marks against the raster, and the addresses of the records. As the address.
+  // Stage 2: compares the marks with the raster; addresses of the descriptors. Called as address().
   template <bool kSmaa, bool kLearned>
   inline void match(Cycle cycle, const Slot& slot, Beat& beat);
-  // Stage 3: `visit(number, record, edge)` gets each edge that lies in a record.
+  // Stage 3: calls `visit(number, descriptor, edge)` for each edge that a descriptor covers.
   template <class Visit>
   void visit_edges(Cycle cycle, const Beat& beat, Visit&& visit) {
     for (std::size_t i = 0; i < beat.count; ++i) {
@@ -124,13 +128,13 @@ class DescriptorWalk final : public sc_core::sc_module {
   void match_smaa(Cycle cycle, Beat& beat);
 
   const std::size_t lanes_;
-  const std::int32_t first_row_;  // of slots: that has the edges of row 0
+  const std::int32_t first_row_;  // slot row in which row 0 is processed
   const std::uint32_t pair_bits_, entry_bits_;
   DescriptorStore& descriptors_;
   AxisDescriptors &row_, &column_;
   Counters counters_;
-  AxisDescriptors::Mark hand_;        // the horizontal record in hand, stage 2
-  StoredDescriptor hand_descriptor_;  // stage 3
+  AxisDescriptors::Mark hand_;        // current horizontal descriptor, stage 2
+  StoredDescriptor hand_descriptor_;  // the same, stage 3
 };
 
 template <bool kSmaa, bool kLearned>
@@ -159,7 +163,7 @@ template <bool kSmaa, bool kLearned>
 
     const AxisDescriptors::Mark& column = beat.column_mark[i];
     Edge& down = beat.vertical[i];
-    // U13: a line may have been stored before its first row.
+    // U13: the line may have been stored before its first row, so k wraps.
     down.k = static_cast<std::uint16_t>((beat.row - column.start) & 0x1FFF);
     down.from = down.k < column.length ? static_cast<std::uint8_t>(2 + i) : 0;
     if (kLearned) down.after = static_cast<std::uint16_t>(column.length - 1 - down.k);

@@ -7,9 +7,9 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// The two lines of each pair of ends, by 4 e1 + e2: a digit is a corner, 2 x + y, the first where
-// the line begins, the second where it ends less (n, n). A pair with one line has it twice, which
-// leaves its mean.
+// The two lines of each pair of ends, at 4 e1 + e2. A digit is a corner 2 x + y: where the line
+// begins, and where it ends minus (n, n). A pair with one line lists it twice, which keeps the
+// mean.
 constexpr std::uint8_t line(int from, int to) { return static_cast<std::uint8_t>(4 * from + to); }
 constexpr std::array<std::array<std::uint8_t, 2>, 16> kLines = {{
     {line(3, 3), line(2, 2)},
@@ -30,11 +30,11 @@ constexpr std::array<std::array<std::uint8_t, 2>, 16> kLines = {{
     {line(3, 3), line(2, 2)},
 }};
 
-constexpr int kSide = 30, kPoints = kSide * kSide;  // sampled of a pixel
-constexpr int kGrid = 29;                           // steps from its one side to the other
+constexpr int kSide = 30, kPoints = kSide * kSide;  // sample points per pixel
+constexpr int kGrid = 29;                           // intervals across a pixel
 
-// Points of pixel (x, y) below the line between two corners n pixels apart: in each column of
-// points the first ones, up to where the line passes.
+// Number of sample points of pixel (x, y) below the line between two corners n pixels apart: in
+// each column of points, those before the line.
 int below(unsigned ends, int n, int x, int y) {
   const int x1 = static_cast<int>(ends >> 3), y1 = static_cast<int>(ends >> 2 & 1),
             width = n + static_cast<int>(ends >> 1 & 1) - x1,
@@ -42,15 +42,15 @@ int below(unsigned ends, int n, int x, int y) {
   if (width == 0 && height == 0) return kPoints;
   int count = 0;
   for (int i = 0; i < kSide; ++i) {
-    // How far the line is behind the column's first point, in points, as a fraction of `width`.
+    // Distance from the column's first point to the line, in points, times `width`.
     const int passes = height * (kGrid * (x - x1) + i) - width * kGrid * (y - y1);
     if (passes > 0) count += width == 0 ? kSide : std::min(kSide, (passes + width - 1) / width);
   }
   return count;
 }
 
-// The same as a weight of all points in double precision, in which those on the line fall on a side
-// by rounding.
+// The same as a fraction of all points, in double precision. Rounding decides the side of points on
+// the line, as in the published table.
 double published_area(unsigned ends, int n, int x, int y) {
   const double x1 = ends >> 3, y1 = ends >> 2 & 1, x2 = n + static_cast<int>(ends >> 1 & 1),
                y2 = n + static_cast<int>(ends & 1);
@@ -65,7 +65,7 @@ double published_area(unsigned ends, int n, int x, int y) {
   return count / double{kPoints};
 }
 
-// Entry of the published byte v of both lines, which is v / 255: of what lies above them, or below.
+// Entry for the published byte v (value v / 255) of both lines: area above or below them.
 unsigned published_weight(const std::array<std::uint8_t, 2>& lines, int n, int x, int y,
                           bool above) {
   double sum = 0;
@@ -77,7 +77,7 @@ unsigned published_weight(const std::array<std::uint8_t, 2>& lines, int n, int x
   return std::min(255u, (2 * 256 * v + 255) / (2 * 255));
 }
 
-// Of both lines' points, U0.8, to nearest.
+// Points below both lines to U0.8, rounded to nearest.
 unsigned weight(int points) {
   return static_cast<unsigned>((256 * points + kPoints) / (2 * kPoints));
 }
@@ -103,7 +103,7 @@ std::vector<std::uint16_t> computed_words(bool published) {
 }  // namespace
 
 const std::vector<std::uint16_t>& diagonal_words(spec::morphological::AreaValues values) {
-  // The published ones take a while, and few engines have them.
+  // Computed on first use: the published values take long and are rarely used.
   if (values == spec::morphological::AreaValues::kPublished) {
     static const std::vector<std::uint16_t> published = computed_words(true);
     return published;

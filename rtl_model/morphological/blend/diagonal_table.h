@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Words of diagonal_rom: SMAA's areas of a diagonal, A in the low byte, B in the high one, at
-// ((4 e1 + e2) x 20 + d1) x 20 + d2. Formulas: docs/reference/morphological/smaa.md.
+// Words of diagonal_rom: SMAA's areas of a diagonal, A in the low byte and B in the high byte, at
+// address ((4 e1 + e2) x 20 + d1) x 20 + d2. Formulas: docs/reference/morphological/smaa.md.
 #pragma once
 
 #include <cstdint>

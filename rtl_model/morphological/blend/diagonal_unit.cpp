@@ -30,14 +30,14 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
                       .latency = 0,
                       .span = static_cast<std::uint32_t>((delay_ + 1) * lanes_) +
                               static_cast<std::uint32_t>(steps_) + 1,
-                      .content = "columns about the pixels in hand, both planes, slot row"}),
+                      .content = "columns around the current pixels, both planes, slot row"}),
       rom_("diagonal_rom",
            {.words = kDiagonalWords,
             .word_bits = 16,
             .kind = MemoryKind::kRom,
             .read_ports = static_cast<std::uint32_t>(2 * lanes_),
             .write_ports = 0,
-            .content = "areas of diagonals, by crossing codes and distances of both ends"},
+            .content = "areas of diagonals by crossing codes and distances of both ends"},
            diagonal_words(p.area_values)),
       weights_("diagonal_weights",
                static_cast<std::uint32_t>(
@@ -49,7 +49,7 @@ DiagonalUnit::DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clo
   }
 }
 
-// Rows beyond the frame as its first and its last one, of a column of that slot row.
+// Sets the rows outside the frame to the first or last row, for a column of that slot row.
 std::uint64_t DiagonalUnit::repeat_rows(std::uint64_t rows, std::int32_t row) const {
   const std::int32_t y = row - lag_, first = steps_ - y, last = first + configuration_->height - 1;
   if (first > 0 && (rows >> first & 1) != 0) rows |= (std::uint64_t{1} << first) - 1;
@@ -57,7 +57,7 @@ std::uint64_t DiagonalUnit::repeat_rows(std::uint64_t rows, std::int32_t row) co
   return rows;
 }
 
-// Stage 1. Without a token: columns of no row.
+// Stage 1. Without a token it shifts in invalid columns.
 void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
   columns_.write(cycle, 0, lanes_);
   const std::size_t first = token ? token->slot.beat * lanes_ : 0;
@@ -77,7 +77,7 @@ void DiagonalUnit::shift(Cycle cycle, const DiagonalColumnsToken* token) {
   }
 }
 
-// Stages 2 and 3, of the window as stage 1 left it.
+// Stages 2 and 3, on the window as stage 1 left it.
 void DiagonalUnit::search(Cycle cycle, Beat& beat) {
   fixed_bits_.read(cycle, 0, window_memory_.words());
   const std::size_t first = newest_ + kPlaces - (delay_ + 1) * lanes_;
@@ -93,7 +93,7 @@ void DiagonalUnit::search(Cycle cycle, Beat& beat) {
   }
 }
 
-// All steps that are built at once, bit i - 1 of a word for step i; then the first gap in it.
+// Evaluates all built steps in parallel (bit i - 1 for step i), then finds the first gap.
 template <class Good>
 DiagonalUnit::End DiagonalUnit::first_gap(Good&& good) const {
   std::uint32_t steps = 0;
@@ -215,25 +215,25 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
   const std::uint64_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
   const std::uint64_t behind = (static_cast<std::uint64_t>(p.diagonal_steps) + lanes) / lanes;
   return {.unit = "DiagonalUnit",
-          .does = "Weights of the pixels that lie on a diagonal (`diagonals`).",
+          .does = "Weights of pixels on a diagonal (`diagonals`).",
           .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
           .stages = {{"1",
-                      "shift (D beats until the pixels are in hand); with border = clamp rows "
-                      "beyond the frame as the nearest one",
-                      "17 : 1 choice of a row, choice of two"},
-                     {"2", "tags, good steps, first gap, four searches",
-                      "6-bit compare, with border = clamp a choice of two, 16-bit first gap"},
+                      "shift (D beats until the pixels are evaluated); with border = clamp, rows "
+                      "outside the frame repeat the nearest one",
+                      "17 : 1 mux of rows, 2 : 1 mux"},
+                     {"2", "tags, valid steps, first gap, four searches",
+                      "6-bit compare, with border = clamp a 2 : 1 mux, 16-bit first gap"},
                      {"3", "the ends' extra bits and crossing bits, d1 + d2 > 2",
-                      "32 : 1 choice + 5-bit add"},
-                     {"4", "addresses of `diagonal_rom`", "three small adds (400 e, 20 d1, d2)"},
+                      "32 : 1 mux + 5-bit add"},
+                     {"4", "`diagonal_rom` addresses", "three small adds (400 e, 20 d1, d2)"},
                      {"5", "words, sum, limit, push", "ROM read + 9-bit add"}},
           .formats = "weights U0.8, span U6.",
           .cost =
-              "a lane: four first-gap circuits of M bits, eight choices of M + 1 : 1, two reads "
-              "of diagonal_rom (6400 x 16); diagonal_window, (D + 1) lanes + M + 1 columns x (4 "
-              "M + 2 + 7) bits; diagonal_weights, a word of 23 lanes bits a beat; with border = "
-              "clamp once registers of the first and the last column of two rows, 4 x (4 M + 2) "
-              "bits, and a choice of two a bit of the window that a search reads."};
+              "per lane: four first-gap circuits of M bits, eight M + 1 : 1 muxes, two reads of "
+              "diagonal_rom (6400 x 16). Once: diagonal_window, (D + 1) lanes + M + 1 columns x "
+              "(4 M + 2 + 7) bits; diagonal_weights, a word of 23 lanes bits per beat; with border "
+              "= clamp registers for the first and last column of two rows, 4 x (4 M + 2) bits, "
+              "and a 2 : 1 mux per bit of the window that a search reads."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Diagonal patterns of SMAA: follows steps of one pixel both ways from every top edge and gives the
-// weights of the pixels that lie on one.
+// Diagonal patterns of SMAA: follows one-pixel steps in both directions from every top edge, and
+// computes the weights of pixels on a diagonal.
 //
-// Where: beside the AreaUnit. In stage 2 of a slot the RunExtractor hands on the columns of its
-// beat, 2 M + 1 rows about row y = s - R - 3, M = diagonal_steps; in a window of them in flip-flops
-// every step of every search is a fixed bit. The pixels in hand lie D = ceil((M + 1) / lanes) beats
-// behind the newest columns. Each column carries 6 bits of its slot row and a valid bit; a column
-// of another row, or none, reads as 0, which is the frame's border; with border = clamp as the
-// first or the last column of its own row, which registers keep from the clock in which it is
-// shifted in, and rows beyond the frame are shifted in as the nearest one. Behind the last beat of
-// a row, and only there, columns that are not valid are shifted in cycles in which no beat has
-// come, so that the row is finished. Results go, a word a beat, in raster order, into a FIFO that
-// the AreaUnit takes them from a row later.
-//
-// Stalls: `downstream` (never: the FIFO holds a row and 16 beats, and the AreaUnit is ten slots
-// behind). Source: SMAA (Jimenez et al. 2012), diagonal patterns.
+// Position  RunExtractor -> DiagonalUnit -> AreaUnit (stage 8).
+// Input     In stage 2 of a slot the RunExtractor sends the columns of its beat: 2 M + 1 rows
+//           around row y = s - R - 3, M = diagonal_steps. They form a window of flip-flops in which
+//           every step of every search is a fixed bit. The evaluated pixels are D = ceil((M + 1) /
+//           lanes) beats behind the newest columns.
+// Output    One word per beat, in raster order, into a FIFO that the AreaUnit reads one row later.
+// Borders   Each column carries 6 bits of its slot row and a valid bit. A column of another row, or
+//           none, reads as 0. With border = clamp it reads as the first or last column of its own
+//           row, which registers hold, and rows outside the frame are shifted in as the nearest
+//           row.
+// Row end   Only after the last beat of a row, cycles without a beat shift in invalid columns,
+//           which finishes the row.
+// Stalls    downstream  Never occurs: the FIFO holds a row and 16 beats, and the AreaUnit is ten
+//                       slots behind.
+// Source    SMAA (Jimenez et al. 2012), diagonal patterns.
 #pragma once
 
 #include <array>
@@ -37,7 +39,7 @@ class DiagonalUnit final : public Unit {
  public:
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   In<DiagonalColumnsToken> columns_in{"columns_in"};
-  // For the AreaUnit.
+  // To the AreaUnit.
   Link<DiagonalWeightsToken>& weights() { return weights_.link(); }
 
   DiagonalUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -52,15 +54,15 @@ class DiagonalUnit final : public Unit {
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;
-  static constexpr std::size_t kPlaces = 64;  // of the window, more than are built
+  static constexpr std::size_t kPlaces = 64;  // columns of the window; more than any build needs
   static constexpr std::size_t kStages = 5;
 
   struct Column {
     std::uint64_t left = 0, top = 0;  // bit k: row y + k - M
-    std::uint8_t row = 0;             // U6, of the slot
+    std::uint8_t row = 0;             // U6, slot row
     bool valid = false;
   };
-  // One of the two diagonals through a pixel, as far as it counts.
+  // One of the two diagonals through a pixel; `counts` if it is long enough.
   struct Diagonal {
     bool counts = false;
     int d1 = 0, d2 = 0, e1 = 0, e2 = 0;
@@ -69,19 +71,19 @@ class DiagonalUnit final : public Unit {
     Diagonal rising, falling;
   };
   struct Beat {
-    bool valid = false;  // there are pixels
+    bool valid = false;  // contains pixels
     std::uint8_t searched = 0;
     std::array<Pixel, kLanes> pixel;
   };
-  // An end of a search.
+  // One end of a search.
   struct End {
     int distance = 0;
     bool open = false;
   };
-  // Bits about the pixel in hand.
+  // Edge bits around the evaluated pixel.
   struct Around {
     const DiagonalUnit& unit;
-    std::size_t place;  // of its column
+    std::size_t place;  // index of its column
     bool left(int dx, int dy) const { return unit.bit(&Column::left, place, dx, dy); }
     bool top(int dx, int dy) const { return unit.bit(&Column::top, place, dx, dy); }
   };
@@ -92,17 +94,17 @@ class DiagonalUnit final : public Unit {
     if (column.valid && column.row == row) return column.*plane >> (dy + steps_) & 1;
     return clamp_ && beyond(plane, row, dx < 0) >> (dy + steps_) & 1;
   }
-  // What a column beyond the border reads as: the row's first or last one.
+  // Value of a column outside the frame: the first or last column of the row.
   std::uint64_t beyond(std::uint64_t Column::*plane, std::uint8_t row, bool before) const {
     return configuration_->clamp ? (before ? first_ : last_)[row & 1].*plane : 0;
   }
-  // Once a clock each, from one place: inline.
+  // Each is called once per cycle from one place, hence inline.
   inline void shift(Cycle cycle, const DiagonalColumnsToken* token);
   inline void search(Cycle cycle, Beat& beat);
   inline void deliver(Cycle cycle, const Beat& beat);
   void address(Cycle cycle, const Beat& beat);
   std::uint64_t repeat_rows(std::uint64_t rows, std::int32_t row) const;
-  template <class Good>  // bool good(i), of step i
+  template <class Good>  // bool good(i): is step i valid?
   End first_gap(Good&& good) const;
   Diagonal rising(const Around& at) const;
   Diagonal falling(const Around& at) const;
@@ -113,18 +115,18 @@ class DiagonalUnit final : public Unit {
   const std::size_t delay_;  // D, beats
   const bool clamp_;         // built with border = clamp
   Memory<void> window_memory_;
-  ReadPort<void> fixed_bits_{window_memory_, "searches"};  // of all words
+  ReadPort<void> fixed_bits_{window_memory_, "searches"};  // reads all words
   WritePort<void> columns_{window_memory_, "columns"};
   Memory<std::uint16_t> rom_;
-  std::vector<ReadPort<std::uint16_t>> read_;  // a lane: rising, falling
+  std::vector<ReadPort<std::uint16_t>> read_;  // per lane: rising, falling
   Fifo<DiagonalWeightsToken> weights_;
   std::array<Column, kPlaces> window_{};
-  // Of rows by the parity of their slot's, for the next row's come while pixels are in hand.
+  // By parity of the slot row: the next row's columns arrive while this row is evaluated.
   std::array<Column, 2> first_{}, last_{};
-  std::size_t newest_ = 0;  // place behind the newest column
-  std::size_t drains_ = 0;  // shifts that finish the row whose last beat has come
+  std::size_t newest_ = 0;  // index after the newest column
+  std::size_t drains_ = 0;  // shifts left to finish the row whose last beat has arrived
   Pipe<Beat, kStages> pipe_;
-  const FrameConfiguration* configuration_ = nullptr;  // on the wire in this clock
+  const FrameConfiguration* configuration_ = nullptr;  // value of the wire in this cycle
 };
 
 }  // namespace deburr::rtl::morphological

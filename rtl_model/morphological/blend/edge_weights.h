@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The weights of the edges of a beat, as the units of weights give them to the WeightRows.
+// Weights of a beat's edges, passed from the weight units to WeightRows.
 #pragma once
 
 #include <array>
@@ -11,30 +11,30 @@
 
 namespace deburr::rtl::morphological {
 
-// Weights of the pixels across an edge, U0.8, and the span of the line that gives them.
+// Weights of the two pixels across an edge, U0.8, and the span of the line that produces them.
 struct EdgeWeights {
   std::uint8_t first = 0, second = 0;
   std::uint16_t span = 0;
 };
-// Of the left and the top edge of a pixel.
+// Left and top edge of a pixel.
 struct PixelWeights {
   EdgeWeights left{}, top{};
 };
 using BeatWeights = std::array<PixelWeights, spec::morphological::kMaxLanes>;
-// Edges of a beat by number: twice the lane, and 1 if it is vertical.
+// Number of an edge in its beat: 2 x lane, plus 1 if vertical.
 inline constexpr std::size_t kBeatEdges = std::size_t{2} * spec::morphological::kMaxLanes;
 inline EdgeWeights& weights_of(BeatWeights& beat, std::size_t edge) {
   PixelWeights& pixel = beat[edge / 2];
   return edge % 2 ? pixel.left : pixel.top;
 }
 
-// By the pixels before and behind: 0 the start is nearer, 1 the end, 2 neither.
+// From the pixels before and after: 0 the start is nearer, 1 the end, 2 neither.
 constexpr std::uint8_t nearer_end(std::int32_t before, std::int32_t behind) {
   return before < behind ? 0 : before > behind ? 1 : 2;
 }
 
-// Weights at sharp corners, U0.8; the factor is U1.9. `near`: nearer_end(). In the stage after the
-// weights, of every line's.
+// Reduces weights at sharp corners: U0.8 times a factor U1.9. `near`: nearer_end(). Runs in the
+// stage after the weights.
 inline EdgeWeights at_corners(const FrameConfiguration& configuration, EdgeWeights weights,
                               std::uint8_t far, std::uint8_t near) {
   if (!configuration.corners) return weights;

@@ -32,22 +32,22 @@ void LearnedWeights::move(Cycle cycle, BeatWeights* weights) {
 Datasheet LearnedWeights::datasheet() {
   return {
       .unit = "LearnedWeights",
-      .does = "Weights of an edge whose record has no line, or that no record covers.",
+      .does = "Weights of an edge whose descriptor has no line, or without a descriptor.",
       .latency = {4},
       .stages = {{"1",
-                  "pixels to both ends, class of each distance; for each of both sides codes and "
-                  "classes of the ends from there, the nearer end; addresses of `weights_a`, "
+                  "pixels to both ends, class of each distance; for both sides the codes and "
+                  "classes of the ends seen from there, the nearer end; addresses of `weights_a`, "
                   "`_b`, `_c`",
-                  "12-bit subtract and compare, choice of two"},
-                 {"2", "words of the three; A + B", "SRAM read + 9-bit add"},
+                  "12-bit subtract and compare, 2 : 1 mux"},
+                 {"2", "words of all three; A + B", "SRAM read + 9-bit add"},
                  {"3", "+ C, limit, address of `weight_rom`", "10-bit add, limit"},
                  {"4", "weight", "ROM read"}},
       .formats = "words and z S3.4, weights U0.8.",
       .cost =
-          "an axis and lane: a 12-bit subtract, two 12-bit comparators with a choice (the "
-          "nearer end), two encoders of a distance, for each side an E comparator of 5 bits, "
-          "two adders of 9 and 10 bits with a limit; reads of weights_a, _b, _c and weight_rom "
-          "for each side. Once, for the sum, a multiplier 12 x 9 and an adder of 32 bits."};
+          "per axis and lane: a 12-bit subtract, two 12-bit comparators with a mux (the nearer "
+          "end), two distance encoders; per side a 5-bit comparator of E, adders of 9 and 10 bits "
+          "with a limit, reads of weights_a, _b, _c and weight_rom. Once, for the checksum: a "
+          "12 x 9 multiplier and a 32-bit adder."};
 }
 
 }  // namespace deburr::rtl::morphological

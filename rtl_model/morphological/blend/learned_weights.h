@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Learned weights of the edges whose record has no line, and of those that no record covers.
+// Learned weights for edges whose descriptor has no line, and for edges without a descriptor.
 //
-// Where: in the AreaUnit, behind its DescriptorWalk, with whose stages it moves; the tables are the
-// WeightsRom's. An edge of no record (between head and tail of a long run) takes the weights of two
-// ends out of sight. Source: ours (docs/reference/morphological/learned_weights.md).
+// Position  In the AreaUnit after the DescriptorWalk, with whose stages it advances; the tables are
+//           in WeightsRom. An edge without a descriptor (between head and tail of a long run) takes
+//           the weights of two ends out of range.
+// Source    Ours (docs/reference/morphological/learned_weights.md).
 #pragma once
 
 #include <array>
@@ -22,32 +23,32 @@ class LearnedWeights final : public sc_core::sc_module {
  public:
   LearnedWeights(const sc_core::sc_module_name& name, int lanes) : sc_module(name), rom(lanes) {}
 
-  // The stages move on: before the walk asks for its beat. `beat`: the weights of the beat in the
-  // last stage here, stage 7 of the AreaUnit, if there is one.
+  // Advances the stages. Call before the walk's ask() of the same cycle. `beat`: weights of the
+  // beat in the last stage here (stage 7 of the AreaUnit), or nullptr.
   void move(Cycle cycle, BeatWeights* beat);
-  // The walk's last stage: the edge of a beat that is pixel `before` of this record, with `after`
-  // pixels behind it.
+  // Last stage of the walk: the edge is pixel `before` of this descriptor, with `after` pixels
+  // after it.
   void ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t before,
            std::int32_t after) {
     newest(edge) = WeightsRom::ask(
         {descriptor.shape, descriptor.start_class, descriptor.end_class, descriptor.part}, before,
         after);
   }
-  // An edge of no record.
+  // An edge without a descriptor.
   void ask_gap(std::size_t edge) { newest(edge) = WeightsRom::ask_gap(); }
   void reset() { pipe_.reset(); }
 
   static Datasheet datasheet();
 
-  // For the registers: words are loaded while no frame is inside.
+  // For the registers, which load words while no frame is inside.
   WeightsRom rom;
 
  private:
   struct Beat {
-    std::uint8_t asks;  // bit: an edge that asks
+    std::uint8_t asks;  // bit mask of edges with a query
     std::array<WeightsRom::Query, kBeatEdges> query;
   };
-  // Of the beat in the walk's last stage.
+  // Query slot in the beat of the walk's last stage.
   WeightsRom::Query& newest(std::size_t edge) {
     Beat* beat = pipe_.at(1);
     if (!beat) {
@@ -58,7 +59,7 @@ class LearnedWeights final : public sc_core::sc_module {
     return beat->query[edge];
   }
 
-  Pipe<Beat, 5> pipe_;  // the walk's last stage, and stages 1 to 4
+  Pipe<Beat, 5> pipe_;  // last stage of the walk, then stages 1 to 4
 };
 
 }  // namespace deburr::rtl::morphological

@@ -11,15 +11,15 @@ constexpr std::int32_t kLinePixels =
     spec::morphological::kFrameLineBytes / spec::morphological::kFramePixelBytes;
 static_assert(spec::morphological::kFrameLineBytes == kLineBytes);
 
-constexpr std::size_t kStoreWords = 8;  // of a line that comes, in a clock
+constexpr std::size_t kStoreWords = 8;  // words of an arriving line stored per cycle
 
-// Words of a row, of whole lines of memory.
+// Words per row, rounded up to whole memory lines.
 std::size_t stride_of(std::int32_t line_pixels, std::int32_t lanes) {
   const std::int32_t lines = (line_pixels + kLinePixels - 1) / kLinePixels;
   return static_cast<std::size_t>(lines) * static_cast<std::size_t>(kLinePixels / lanes);
 }
 
-// A request's tag: place among the lines under way, line in its row, row on the chip.
+// Request tag: index among the lines in flight, line within its row, row on the chip.
 constexpr std::uint32_t kFlightBits = 8, kLineBits = 9;
 std::uint32_t tag_of(std::uint32_t flight, std::uint32_t line, std::int32_t row) {
   return flight | line << kFlightBits |
@@ -38,10 +38,8 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                 ? kLines
                 : (search_range_rows_of(p) + 7 + kLines - 1) / kLines * kLines),
       stride_(stride_of(p.line_pixels, lanes_)),
-      memory_stall_(
-          declare_stall("memory", "a line from memory has not arrived, or a line cannot be sent")),
-      rows_stall_(
-          declare_stall("rows", "the entry of a beat still holds a pixel that has to be blended")) {
+      memory_stall_(declare_stall("memory", "waits for a line from memory, or to send one")),
+      rows_stall_(declare_stall("rows", "the entry for a beat still holds a pixel to be blended")) {
   const bool in_memory = p.storage == spec::morphological::Storage::kMemory;
   const std::uint32_t banks = in_memory ? kStoreWords : 2;
   for (std::int32_t i = 0; i < kLines; ++i)
@@ -49,11 +47,11 @@ PixelStore::PixelStore(const sc_core::sc_module_name& name, ClockDomain& clock,
         "pixel_lines" + std::to_string(i),
         MemoryShape{.words = static_cast<std::size_t>(rows_ / kLines) * stride_,
                     .word_bits = static_cast<std::uint32_t>(32 * lanes_),
-                    // A row takes the place of the one that is read for the last time.
+                    // A row overwrites the row that is read for the last time.
                     .read_during_write = ReadDuringWrite::kOldWord,
                     .banks = banks,
                     .span = banks,
-                    .content = "every fourth row of the delayed pixels",
+                    .content = "every fourth row of pixels to be blended",
                     .columns = static_cast<std::uint64_t>(p.line_pixels)}));
   if (!in_memory) return;
   memory_.emplace(static_cast<std::uint32_t>(p.memory_outstanding));
@@ -66,9 +64,9 @@ void PixelStore::connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& re
   memory_->responses = &responses;
 }
 
-// ---- Out ----------------------------------------------------------------------------------------
+// ---- Output side ------------------------------------------------------------------------------
 
-// storage = memory: have the lines come that the slot needs?
+// storage = memory: have all lines arrived that the slot needs?
 bool PixelStore::is_loaded(const FrameConfiguration& configuration, const Slot& slot) const {
   const std::int32_t y = slot.row - lag_;
   if (y + 1 == configuration.height) return memory_->loaded.row >= configuration.height;
@@ -103,7 +101,7 @@ void PixelStore::address(Cycle cycle, const FrameConfiguration& configuration) {
   }
 }
 
-// Stage 2. The rows are those of the slot still: the next one comes into stage 1 after this.
+// Stage 2. The rows still belong to this slot: the next slot enters stage 1 after this call.
 void PixelStore::send(Cycle cycle, const FrameConfiguration& configuration) {
   const std::uint32_t beat = beat_;
   PixelToken& out = pixels_out.emplace(cycle);
@@ -142,7 +140,7 @@ PixelStore::Did PixelStore::fetch(Cycle cycle, const FrameConfiguration& configu
   return Did::kWork;
 }
 
-// ---- In -----------------------------------------------------------------------------------------
+// ---- Input side -------------------------------------------------------------------------------
 
 PixelStore::Did PixelStore::store(Cycle cycle, const FrameConfiguration& configuration) {
   if (!beats_in.can_pop(cycle)) return Did::kNothing;
@@ -190,7 +188,7 @@ void PixelStore::begin_frame(const FrameConfiguration& configuration) {
   memory_->reads.reset();
 }
 
-// Puts a beat into the line in hand and sends the line if it is complete; false if it could not.
+// Adds a beat to the gathered line and sends the line when complete; false if it cannot be sent.
 bool PixelStore::gather(Cycle cycle, const FrameConfiguration& configuration, const BeatToken& beat,
                         std::int32_t x, std::int32_t count) {
   InMemory& m = *memory_;
@@ -204,7 +202,7 @@ bool PixelStore::gather(Cycle cycle, const FrameConfiguration& configuration, co
   if (!completes) return true;
   m.send.read(cycle, 0);
   MemoryRequest& request = m.requests->emplace(cycle);
-  // 32 bits: a frame that begins below 4 GiB and ends above goes on at 0.
+  // 32 bits: the address wraps at 4 GiB.
   request.address = configuration.pixel_base + m.sent.address;
   request.tag = tag_of(m.writes.send(), m.sent.line, 0);
   request.lines = 1;
@@ -232,7 +230,7 @@ bool PixelStore::receive(Cycle cycle) {
   return true;
 }
 
-// Stores a line, or a half of it; with an error, the port gives zeros. False: not all of it yet.
+// Stores a line or half of it. After an error the port delivers zeros. False: half is left.
 bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
   InMemory& m = *memory_;
   const auto lanes = static_cast<std::size_t>(lanes_);
@@ -249,7 +247,7 @@ bool PixelStore::load(Cycle cycle, const MemoryResponse& response) {
   return !m.half;
 }
 
-// That all lines before one have come is known a line a clock.
+// Retires lines in order, one per direction and cycle.
 bool PixelStore::settle(Cycle cycle) {
   InMemory& m = *memory_;
   const bool answered = m.writes.settle(cycle), loaded = m.reads.settle(cycle);
@@ -258,7 +256,7 @@ bool PixelStore::settle(Cycle cycle) {
   return answered || loaded;
 }
 
-// Asks for the next line, if it has been written and there is a place for it.
+// Requests the next line if it has been written and its entry is free.
 bool PixelStore::request(Cycle cycle, const FrameConfiguration& configuration) {
   InMemory& m = *memory_;
   if (!m.asked.before(m.answered) || m.reads.full() || !m.requests->can_push(cycle)) return false;
@@ -291,16 +289,16 @@ void PixelStore::reset() {
 
 Datasheet PixelStore::datasheet() {
   return {.unit = "PixelStore",
-          .does = "Keeps the pixels of a frame until they are blended, R + 5 rows later.",
+          .does = "Stores the pixels of a frame until they are blended, R + 5 rows later.",
           .latency = {2},
           .stages = {{"1", "address",
-                      "storage = memory: choice of 1 in 256 lines under way (memory.outstanding), "
+                      "storage = memory: 256 : 1 mux of lines in flight (memory.outstanding), "
                       "nothing after it"},
-                     {"2", "words", "SRAM read + 4 : 1 choice"}},
+                     {"2", "words", "SRAM read + 4 : 1 mux"}},
           .cost =
-              "pixel_lines0 to 3, together R + 7 rows (storage = memory: 4), rounded up to a "
-              "multiple of 4, a word a beat; storage = memory (8 banks) also the line that is "
-              "gathered and, for each line under way, a bit: has it come?",
+              "pixel_lines0 to 3: together R + 7 rows (storage = memory: 4) rounded up to a "
+              "multiple of 4, one word per beat; storage = memory (8 banks) adds the line being "
+              "gathered and an arrival bit per line in flight.",
           .megahertz = 300};
 }
 

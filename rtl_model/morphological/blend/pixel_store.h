@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Keeps the pixels of the frame from their arrival until they are blended, R + 5 rows later: in
-// line buffers on the chip, or written to memory and read back.
+// Stores the pixels of the frame from arrival until they are blended, R + 5 rows later: in line
+// buffers on the chip, or in memory.
 //
-// Where: beside the pipe, from the SlotSequencer to the Blender. Two sides. In: a beat a clock is
-// stored. Out: for each slot that blends, the beat of row y = s - R - 5 with the beats above and
-// below and the pixels beside it. With storage = memory the in side gathers lines of 64 bytes and
-// sends each when its last pixel has come (latency 1 to the memory port), the out side loads rows y
-// + 1, a line a request, into the rows on the chip as soon as their place is free and their write
-// has been answered; writes go before reads. A line that comes is stored eight words a clock (two
-// cycles with one lane). Answers may come in any order; that all before a line have come is seen a
-// line a clock.
-// Neighbouring rows lie in different memories, so that each is read and written once a clock; two
-// beats of the middle row come from two banks.
-// Stalls: `memory` (a line is not there yet, or cannot be sent), `rows` (the place of a beat that
-// comes in still holds a pixel that will be asked for: only if a row is shorter than the pipe),
-// `downstream`.
+// Position  Next to the pipeline: SlotSequencer -> PixelStore -> Blender.
+// Input     Stores one beat per cycle. storage = memory: gathers lines of 64 bytes and sends each
+//           when its last pixel has arrived, with latency 1 to the memory port.
+// Output    For each slot that blends: the beat of row y = s - R - 5, the beats above and below,
+//           and the pixels left and right of it. storage = memory: loads rows up to y + 1, one line
+//           per request, when their entry on the chip is free and their write has been answered.
+//           Writes have priority over reads. An arriving line is stored eight words per cycle (two
+//           cycles with one lane). Responses may arrive in any order; lines are retired in order,
+//           one per cycle.
+// Memory    Adjacent rows are in different memories, so each is read and written once per cycle.
+//           Two beats of the middle row come from two banks.
+// Stalls    memory      A line has not arrived, or cannot be sent.
+//           rows        The entry for an incoming beat still holds a pixel that will be read. Only
+//                       in rows shorter than the pipeline.
+//           downstream
 #pragma once
 
 #include <array>
@@ -48,22 +50,22 @@ class PixelStore final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // storage = memory: between this and the memory port.
+  // storage = memory: connects the links to the memory port.
   void connect(Link<MemoryRequest>& requests, Link<MemoryResponse>& responses);
-  // Bits of a request's tag.
+  // Width of a request's tag.
   static constexpr std::uint32_t kTagBits = 19;
 
-  Counter lines_written{"lines_written", "lines", "lines of 64 bytes written to memory"};
+  Counter lines_written{"lines_written", "lines", "lines of 64 bytes sent to memory"};
   Counter lines_read{"lines_read", "lines", "lines of 64 bytes requested from memory"};
   Counter memory_errors{"memory_errors", "lines", "memory responses with an error"};
 
   static Datasheet datasheet();
 
  private:
-  // What a side did in a clock.
+  // Result of one side in a cycle.
   enum class Did { kNothing, kWork, kWaitsForMemory, kWaitsForRows, kWaitsDownstream };
 
-  // Lines under way in one direction, in their order.
+  // Lines in flight in one direction, in order.
   struct Flight {
     Flight(const char* name, std::uint32_t lines)
         : places(lines),
@@ -72,7 +74,7 @@ class PixelStore final : public Unit {
                       .kind = MemoryKind::kFlops,
                       .write_ports = 2,
                       .latency = 0,
-                      .content = "lines under way: has it come?"}),
+                      .content = "per line in flight: has it arrived?"}),
           come(lines) {}
     bool full() const { return count == places; }
     std::uint32_t send() {
@@ -81,14 +83,14 @@ class PixelStore final : public Unit {
       ++count;
       return place;
     }
-    // Before settle() of its clock. What comes as the oldest goes past its bit.
+    // Call before settle() in a cycle. The oldest line bypasses its bit.
     void arrives(Cycle cycle, std::uint32_t place) {
       passes = place == oldest;
       if (passes) return;
       set.write(cycle, place);
       come[place] = true;
     }
-    // In every clock: has the oldest come? Then it is no longer under way.
+    // Call in every cycle: retires the oldest line if it has arrived.
     bool settle(Cycle cycle) {
       if (count == 0) return false;
       look.read(cycle, oldest);
@@ -110,9 +112,9 @@ class PixelStore final : public Unit {
     WritePort<void> set{bits, "responses"}, clear{bits, "oldest"};
     std::vector<bool> come;
     std::uint32_t next = 0, oldest = 0, count = 0;
-    bool passes = false;  // the line that comes in this clock is the oldest
+    bool passes = false;  // the line that arrives in this cycle is the oldest
   };
-  // A line of the frame, by row and place in it; counted, not divided.
+  // Position of a memory line in the frame; incremented, never divided.
   struct LinePlace {
     std::int32_t row = 0;
     std::uint32_t line = 0;
@@ -127,7 +129,7 @@ class PixelStore final : public Unit {
       return row != other.row ? row < other.row : line < other.line;
     }
   };
-  // storage = memory.
+  // Only with storage = memory.
   struct InMemory {
     explicit InMemory(std::uint32_t outstanding)
         : writes("writes_in_flight", outstanding), reads("reads_in_flight", outstanding) {}
@@ -137,22 +139,22 @@ class PixelStore final : public Unit {
                               .kind = MemoryKind::kFlops,
                               .latency = 0,
                               .mask_bits = 32,
-                              .content = "the line that is being gathered"}};
-    // The last beat of a line goes past it.
+                              .content = "the line being gathered"}};
+    // The last beat of a line bypasses the register.
     WritePort<void> gather{gather_line, "in"};
     ReadPort<void> send{gather_line, "requests"};
     Link<MemoryRequest>* requests = nullptr;
     Link<MemoryResponse>* responses = nullptr;
     Line gathered{};
     Flight writes, reads;
-    LinePlace sent, answered;  // writes; answered: all before this one
-    LinePlace asked, loaded;   // reads; loaded: all before this one
+    LinePlace sent, answered;  // writes; all lines before `answered` are done
+    LinePlace asked, loaded;   // reads; all lines before `loaded` are done
     std::uint32_t row_lines = 0;
-    bool half = false;  // of the line at the responses is stored
+    bool half = false;  // half of the line at `responses` is stored
   };
 
   using Word = LanePixels;
-  // Every fourth row.
+  // One of the four memories: every fourth row.
   struct Lines {
     Lines(const std::string& name, const MemoryShape& shape)
         : memory(name.c_str(), shape), words(shape.words) {}
@@ -163,7 +165,7 @@ class PixelStore final : public Unit {
   };
   static constexpr std::int32_t kLines = 4;
 
-  // Once a clock each, from one place: inline.
+  // Each is called once per cycle from one place, hence inline.
   inline Did fetch(Cycle cycle, const FrameConfiguration& configuration);
   inline void address(Cycle cycle, const FrameConfiguration& configuration);
   inline void send(Cycle cycle, const FrameConfiguration& configuration);
@@ -177,7 +179,7 @@ class PixelStore final : public Unit {
   bool settle(Cycle cycle);
   bool request(Cycle cycle, const FrameConfiguration& configuration);
   void begin_frame(const FrameConfiguration& configuration);
-  // Has the row whose place row y takes been asked for up to this beat for the last time?
+  // Is the entry that row y overwrites free up to this beat?
   bool is_free(std::int32_t y, std::uint32_t beat) const {
     const std::int32_t last = y - rows_ + 1 + lag_;
     return y < rows_ || asked_row_ > last || (asked_row_ == last && asked_beat_ > beat);
@@ -192,22 +194,22 @@ class PixelStore final : public Unit {
             static_cast<std::size_t>(y % rows_ / kLines) * stride_};
   }
 
-  const std::int32_t lanes_, lag_;  // lag: rows from a slot to the row that it blends
-  const std::int32_t rows_;         // kept on the chip
-  const std::size_t stride_;        // words a row
+  const std::int32_t lanes_, lag_;  // lag_: rows from a slot to the row that it blends
+  const std::int32_t rows_;         // rows on the chip
+  const std::size_t stride_;        // words per row
   Activity memory_stall_, rows_stall_;
   std::vector<std::unique_ptr<Lines>> lines_;
-  Row in_;  // of the beat that comes in
-  // Around the slot row `around_row_`.
+  Row in_;  // row of the incoming beat
+  // Rows around the blended row of slot row `around_row_`.
   Row above_, centre_, below_;
   std::int32_t around_row_ = -1;
   std::optional<InMemory> memory_;
 
-  // The slot that comes next into stage 1.
+  // The next slot for stage 1.
   std::int32_t asked_row_ = 0;
   std::uint32_t asked_beat_ = 0;
-  // Stage 2. The output registers of the lines hold the words as they were in the clock of the
-  // address, whatever is stored there from that clock on.
+  // Stage 2. The lines' output registers hold the words as read in the cycle of the address; later
+  // writes do not change them.
   bool fetched_ = false;
   std::uint32_t beat_ = 0;
   PixelToken words_{};

@@ -11,7 +11,7 @@ TableWeights::TableWeights(const sc_core::sc_module_name& name,
 
 void TableWeights::set_ends(StoredDescriptor& descriptor, std::uint8_t endless) {
   constexpr std::int64_t kHalf = std::int64_t{1} << (spec::morphological::kRecipFractionBits - 1);
-  // S5.12, above the line's lower end.
+  // S5.12, above the lower end of the line.
   const std::int64_t height = (descriptor.t + kHalf + 2048) >> 12;
   constexpr std::int32_t kFirst = -4096, kLast = 4095;  // S13
   const auto limited = [](std::int64_t pixel) {
@@ -37,7 +37,7 @@ void TableWeights::ask(std::size_t edge, const StoredDescriptor& descriptor, std
   search.span = descriptor.span;
 }
 
-// Stage 1: searches end at their limit, and an end beyond it is not seen.
+// Stage 1: limits the distances; an end beyond the limit is dropped from the shape.
 void TableWeights::cut(Cycle cycle, std::int32_t search_steps, Beat& beat) {
   const std::int32_t most_left = 2 * search_steps - 1, most_right = most_left + 1;
   for_each(beat, [&](std::size_t edge, Search& search) {
@@ -57,7 +57,7 @@ void TableWeights::cut(Cycle cycle, std::int32_t search_steps, Beat& beat) {
   });
 }
 
-// Stages 3 to 1, and the arithmetic behind them.
+// Stages 3 to 1; stages 4 and 5 are computed here as well.
 void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration,
                            BeatWeights* weights) {
   pipe_.move();
@@ -77,19 +77,19 @@ void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration,
 Datasheet TableWeights::datasheet() {
   return {
       .unit = "TableWeights",
-      .does = "Weights of an edge by SMAA's table, by its distances to both ends of its line.",
+      .does = "Weights of an edge from SMAA's table, by its distances to both ends of its line.",
       .latency = {5},
-      .stages = {{"1", "k - a, b - 1 - k; limits, cut shape and far bits, addresses of `sqrt_rom`",
-                  "two 13-bit subtracts, one after the other, + choice"},
-                 {"2", "roots, addresses of `area_rom`; which end is nearer",
-                  "ROM read + 5-bit add"},
-                 {"3", "entries, differences of neighbours in l", "ROM read + 9-bit subtract"},
+      .stages = {{"1", "k - a, b - 1 - k; limits, masked shape and far bits, `sqrt_rom` addresses",
+                  "two 13-bit subtracts in series + mux"},
+                 {"2", "roots, `area_rom` addresses; which end is nearer", "ROM read + 5-bit add"},
+                 {"3", "entries, differences of adjacent entries in l",
+                  "ROM read + 9-bit subtract"},
                  {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},
-                 {"5", "second, rounding; sides", "18 x 8 multiply + 25-bit add"}},
+                 {"5", "second interpolation, rounding; sides", "18 x 8 multiply + 25-bit add"}},
       .formats = "a, b S13, distances S14, roots U4.8, entries U0.9 in eight bits, weights U0.8.",
       .cost =
-          "an axis and lane: two reads of sqrt_rom (225 x 12), one of each area_rom (minimal: "
-          "two); three multipliers 9 x 8 and 18 x 8 for each of two values."};
+          "per axis and lane: two reads of sqrt_rom (225 x 12), one of each area_rom (minimal: "
+          "two); three multipliers (9 x 8 and 18 x 8) for each of two values."};
 }
 
 }  // namespace deburr::rtl::morphological

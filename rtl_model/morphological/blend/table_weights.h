@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Weights by SMAA's table of areas: by the distances of an edge to both ends of its line.
+// Computes weights from SMAA's area table, by the distances of an edge to both ends of its line.
 //
-// Where: in the AreaUnit, behind its DescriptorWalk, with whose stages it moves; the tables are the
-// AreaTable's. The model does the arithmetic of its stages 4 and 5, and the corner factor behind
-// them, in stage 3. Where the ends of a line lie is found as it is stored (DescriptorStore), in a
-// clock of its own. Source: SMAA (Jimenez et al. 2012); paper 003.
+// Position  In the AreaUnit after the DescriptorWalk, with whose stages it advances; the tables are
+//           in AreaTable. The model computes stages 4 and 5 and the corner factor in stage 3. The
+//           ends of a line are computed when it is stored (DescriptorStore), in a separate cycle.
+// Source    SMAA (Jimenez et al. 2012); paper 003.
 #pragma once
 
 #include <array>
@@ -26,31 +26,32 @@ class TableWeights final : public sc_core::sc_module {
   TableWeights(const sc_core::sc_module_name& name,
                const spec::morphological::Parameters& parameters);
 
-  // As a line is stored: where its ends lie, as if a step were its whole length, rounded to whole
-  // pixels; an endless one as far away as there is. `endless`: bit 0 the start, bit 1 the end.
+  // Called when a line is stored: positions of its ends, as if a step took its whole length,
+  // rounded to whole pixels; an endless end is as far away as the format allows. `endless`: bit 0
+  // start, bit 1 end.
   static void set_ends(StoredDescriptor& descriptor, std::uint8_t endless);
 
-  // The stages move on: before the walk asks for its beat. `beat`: the weights of the beat in stage
-  // 3 here, stage 6 of the AreaUnit, if there is one.
+  // Advances the stages. Call before the walk's ask() of the same cycle. `beat`: weights of the
+  // beat in stage 3 here (stage 6 of the AreaUnit), or nullptr.
   void move(Cycle cycle, const FrameConfiguration& configuration, BeatWeights* beat) {
     if (!pipe_.empty()) move_on(cycle, configuration, beat);
   }
-  // The walk's last stage: the edge of a beat that is pixel k of this record.
+  // Last stage of the walk: the edge is pixel k of this descriptor.
   void ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t k);
   void reset() { pipe_.reset(); }
 
   static Datasheet datasheet();
 
  private:
-  // An edge on its way through the table.
+  // An edge in flight.
   struct Search {
-    std::int32_t left = 0, right = 0;  // S14, pixels before and behind
+    std::int32_t left = 0, right = 0;  // S14, pixels before and after
     AreaTable::Query query;
     std::uint8_t far = 0, near = 0;
     std::uint16_t span = 0;
   };
   struct Beat {
-    std::uint8_t asks;  // bit: an edge that asks
+    std::uint8_t asks;  // bit mask of edges with a query
     std::array<Search, kBeatEdges> search;
   };
   template <class Visit>
@@ -64,7 +65,7 @@ class TableWeights final : public sc_core::sc_module {
   void cut(Cycle cycle, std::int32_t search_steps, Beat& beat);
 
   AreaTable table_;
-  Pipe<Beat, 4> pipe_;  // the walk's last stage, and stages 1 to 3
+  Pipe<Beat, 4> pipe_;  // last stage of the walk, then stages 1 to 3
 };
 
 }  // namespace deburr::rtl::morphological

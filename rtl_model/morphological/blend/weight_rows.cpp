@@ -5,7 +5,7 @@ namespace deburr::rtl::morphological {
 namespace {
 
 constexpr std::uint32_t kWeightBits = 8, kWeightSpanBits = 12;
-// Of a left edge both weights and the span, of a top one the second weight and the span.
+// Left edge: both weights and the span. Top edge: the second weight and the span.
 constexpr std::uint32_t kWordBits = 3 * kWeightBits + 2 * kWeightSpanBits;
 
 }  // namespace
@@ -17,24 +17,25 @@ WeightRows::WeightRows(const sc_core::sc_module_name& name,
       columns_(columns),
       memory_("weight_lines", {.words = columns,
                                .word_bits = kWordBits,
-                               // A row of one beat is read as it is written.
+                               // In a row of one beat, the read and the write are in the same
+                               // cycle.
                                .read_during_write = ReadDuringWrite::kNewWord,
                                .banks = static_cast<std::uint32_t>(2 * lanes_),
                                .span = static_cast<std::uint32_t>(lanes_ + 1),
-                               .content = "blend weights of the edges of the row above, by column",
+                               .content = "per column, the weights of the edges in the row above",
                                .columns = static_cast<std::uint64_t>(p.line_pixels)}),
       words_(columns / lanes_) {}
 
 Datasheet WeightRows::datasheet() {
-  return {
-      .unit = "WeightRows",
-      .does = "Keeps the weights of a row, and brings those of two rows to the Blender.",
-      .latency = {1, "1; the row above is addressed a clock before"},
-      .stages = {{"0", "address of the weights above"}, {"1", "weights, write back", "SRAM read"}},
-      .formats = "weights U0.8, spans U12.",
-      .cost =
-          "weight_lines, a word of 48 bits a column: first, second and span of its left edge, "
-          "second and span of its top edge; 1R1W, 2 x lanes banks."};
+  return {.unit = "WeightRows",
+          .does = "Stores the weights of a row and joins those of two rows for the Blender.",
+          .latency = {1, "1; the row above is addressed one cycle earlier"},
+          .stages = {{"0", "address of the weights in the row above"},
+                     {"1", "weights, write-back", "SRAM read"}},
+          .formats = "weights U0.8, spans U12.",
+          .cost =
+              "weight_lines, one 48-bit word per column: first, second and span of its left edge, "
+              "second and span of its top edge; 1R1W, 2 x lanes banks."};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Keeps the weights of a row of edges for the next one, and brings those of both to the Blender.
+// Stores the weights of a row of edges and joins them with the next row's for the Blender.
 //
-// Where: the end of the AreaUnit: a beat's columns are addressed in its stage 8 and written in 9,
-// in which the weights of the row above leave with those of the top edges as they come from the
-// units of weights. So a pixel gets the weights of the edges about it, of row y - 1. A read sees
-// what is written in its clock, so that rows of any length, of one beat as well, need no stall. Of
-// top edges only what the row below takes is kept. Source: Reshetov 2009.
+// Position  Stages 8 (address) and 9 (read, write) of the AreaUnit. In stage 9 the weights of the
+//           row above leave together with those of this row's top edges, so the pixels of row y - 1
+//           get the weights of all edges around them.
+// Memory    A read in the cycle of a write returns the new word, so rows of any length, even one
+//           beat, need no stall. Of a top edge only the weight for the row below is stored.
+// Source    Reshetov 2009.
 #pragma once
 
 #include <algorithm>
@@ -23,21 +24,21 @@ namespace deburr::rtl::morphological {
 
 class WeightRows final : public sc_core::sc_module {
  public:
-  // `columns`: as the DescriptorStore's.
+  // `columns`: as in DescriptorStore.
   WeightRows(const sc_core::sc_module_name& name, const spec::morphological::Parameters& parameters,
              std::size_t columns);
 
-  // The columns of a beat, which begins at x, and the one beside it.
+  // Reads the columns of the beat that begins at x, and the column to its right.
   void read(Cycle cycle, std::size_t x) {
     read_.read(cycle, x, std::min<std::size_t>(lanes_ + 1, columns_ - x));
   }
-  // In the clock after: the weights of this row take their place. The words have not changed since
-  // but by what was written in the clock of the read, which that sees.
+  // One cycle after read(): stores the weights of this row. Between the two, the words change only
+  // by a write in the cycle of the read, and that read returns the new word.
   void write(Cycle cycle, std::size_t x, std::size_t beat, const BeatWeights& weights) {
     write_.write(cycle, x, lanes_);
     words_[beat] = weights;
   }
-  // Before that: what the `count` pixels of the row above get, in a frame of this width.
+  // Before write(): weights for `count` pixels of the row above, in a frame of this width.
   inline void join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,
                    std::size_t beat, const BeatWeights& below, WeightToken& out) const;
 
@@ -48,7 +49,7 @@ class WeightRows final : public sc_core::sc_module {
   Memory<void> memory_;
   ReadPort<void> read_{memory_, "row above"};
   WritePort<void> write_{memory_, "row"};
-  std::vector<BeatWeights> words_;  // by beat; of top, `first` is used as it is evaluated
+  std::vector<BeatWeights> words_;  // by beat; top.first is not stored in hardware
 };
 
 void WeightRows::join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The registers that load the tables of learned weights: WEIGHTS_ADDRESS, WEIGHTS_DATA,
-// WEIGHTS_SUM.
+// Registers that load the tables of learned weights: WEIGHTS_ADDRESS, WEIGHTS_DATA, WEIGHTS_SUM.
 //
-// Where: between the registers and the LoadPort of the WeightsRom; only in an engine that was built
-// with learned weights. Timing: a word written to WEIGHTS_DATA goes to the entry that
-// WEIGHTS_ADDRESS names, which counts on; no word is taken while a frame is inside (as any write).
-// A reset keeps the tables. Source: ours (docs/reference/morphological/learned_weights.md).
+// Position  Between the registers and the LoadPort of WeightsRom; only with learned weights.
+// Timing    A write to WEIGHTS_DATA goes to the entry in WEIGHTS_ADDRESS, which increments. As with
+//           any register, writes are ignored while a frame is inside. Reset keeps the tables.
+// Source    Ours (docs/reference/morphological/learned_weights.md).
 #pragma once
 
 #include <cstdint>

@@ -13,16 +13,16 @@ namespace {
 
 using spec::morphological::RunPart;
 
-constexpr std::int32_t kUnseen = 0xFFF;  // farther than any end
+constexpr std::int32_t kUnseen = 0xFFF;  // larger than any distance
 constexpr int kLeastSum = -128, kMostSum = 127;
 
-// Eight classes of a distance.
+// Maps a distance to one of eight classes.
 unsigned class_of_distance(std::int32_t d) {
   if (d < 4) return static_cast<unsigned>(d);
   return d < 6 ? 4 : d < 9 ? 5 : d < 16 ? 6 : 7;
 }
 
-// An end as one of the pixels sees it.
+// An end of the run, seen from one side of the edge.
 struct End {
   std::int32_t distance = kUnseen;
   unsigned code = 0, e = 0;
@@ -34,7 +34,7 @@ End seen(unsigned code, unsigned crossing_class, std::int32_t distance, bool sec
   return {distance, code, kBase[code] + crossing_class};
 }
 
-// Addresses of one side.
+// Addresses for one side.
 void ask_side(WeightsRom::Query& query, std::size_t side, const End& start, const End& end,
               unsigned length_class) {
   const bool start_is_near =
@@ -46,7 +46,7 @@ void ask_side(WeightsRom::Query& query, std::size_t side, const End& start, cons
   query.c[side] = static_cast<std::uint16_t>(far.e << 5 | far_d << 2 | length_class);
 }
 
-constexpr unsigned kLongest = 3;  // class of a length
+constexpr unsigned kLongest = 3;  // length class
 
 MemoryShape table_shape(std::size_t words, int lanes, const char* content) {
   return {.words = words,
@@ -62,15 +62,15 @@ MemoryShape table_shape(std::size_t words, int lanes, const char* content) {
 WeightsRom::WeightsRom(int lanes)
     : tables_{{{"weights_a",
                 table_shape(spec::morphological::kWeightsOfCodes.size(), lanes,
-                            "learned weights, by codes and distances of both ends"),
+                            "learned weights by codes and distances of both ends"),
                 std::span<const std::int8_t>(spec::morphological::kWeightsOfCodes)},
                {"weights_b",
                 table_shape(spec::morphological::kWeightsOfNear.size(), lanes,
-                            "learned weights, by class and distance of the nearer end"),
+                            "learned weights by class and distance of the nearer end"),
                 std::span<const std::int8_t>(spec::morphological::kWeightsOfNear)},
                {"weights_c",
                 table_shape(spec::morphological::kWeightsOfFar.size(), lanes,
-                            "learned weights, by class and distance of the farther end"),
+                            "learned weights by class and distance of the farther end"),
                 std::span<const std::int8_t>(spec::morphological::kWeightsOfFar)}}},
       weight_rom_("weight_rom",
                   {.words = spec::morphological::kWeightOfSum.size(),
@@ -78,7 +78,7 @@ WeightsRom::WeightsRom(int lanes)
                    .kind = MemoryKind::kRom,
                    .read_ports = static_cast<std::uint32_t>(4 * lanes),
                    .write_ports = 0,
-                   .content = "blend weight for a sum of learned words"},
+                   .content = "weight by the sum of three learned words"},
                   spec::morphological::kWeightOfSum) {
   for (int port = 0; port < 4 * lanes; ++port) {
     const std::string user = "lane " + std::to_string(port / 4) +
@@ -152,7 +152,7 @@ WeightsRom::Weights WeightsRom::weights(Cycle cycle, std::size_t reader, const Q
   return {weight(0), weight(1)};
 }
 
-// The table of an entry, whose index becomes the address in it.
+// Table of an entry; `index` becomes the address in that table.
 const Memory<std::int8_t>* WeightsRom::find(std::size_t& index) const {
   for (const Memory<std::int8_t>& table : tables_) {
     if (index < table.words()) return &table;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Learned weights: those of an edge whose line no staircase tells, by what both ends of its run
-// look like, from three tables whose words add up.
+// Learned weights of an edge whose line cannot be found from a staircase. They depend on both ends
+// of its run and are the sum of words from three tables.
 //
-// Where: in the LearnedWeights, a stage of which each call is one (its datasheet has formats and
-// cost). A reader is a lane and axis; each has two sides, the pixels across its edge.
-// The three tables can be loaded through the registers while no frame is inside, when nobody reads:
-// so the ports that read are written. They keep their words in a reset. The sum that the registers
-// show is kept up with each word: the old word is on the output register when the new one comes.
-// Source: ours (docs/reference/morphological/learned_weights.md).
+// Position  In LearnedWeights; each call is one stage (formats and cost: its datasheet). A reader
+//           is a lane and axis and has two sides, the pixels across its edge.
+// Loading   Through the registers, only while no frame is inside and no port reads: the read ports
+//           also write. Reset keeps the words. The checksum register is updated with each word,
+//           using the old word from the port's output register.
+// Source    Ours (docs/reference/morphological/learned_weights.md).
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ namespace deburr::rtl::morphological {
 
 class WeightsRom {
  public:
-  // The side of the bus that loads the tables, which knows no cycles: a handle, as of a memory's
-  // port. Entries of A, B, C, one behind the other; beyond them 0, and nothing is kept.
+  // Backdoor of the bus for loading the tables; not clocked. Entries of A, B, C are concatenated;
+  // beyond them reads return 0 and writes are ignored.
   class LoadPort {
    public:
     std::uint8_t entry(std::size_t index) const { return rom_->entry(index); }
@@ -37,13 +37,13 @@ class WeightsRom {
     WeightsRom* rom_;
   };
 
-  // What a record says of its ends.
+  // What a descriptor says about its ends.
   struct Descriptor {
     std::uint8_t shape = 0;  // index of kRunShapes
     std::uint8_t start_class = 0, end_class = 0;
     spec::morphological::RunPart part{};
   };
-  // An edge on its way.
+  // An edge in flight.
   struct Query {
     std::array<std::uint16_t, 2> a{}, b{}, c{};  // addresses, by side
     std::array<std::int16_t, 2> z{};
@@ -57,22 +57,22 @@ class WeightsRom {
 
   LoadPort load_port() { return LoadPort(*this); }
 
-  // --- The LearnedWeights' stages: the first two calls are in stage 1, the others in 2 to 4 ---
-  // The pixel `before` pixels behind the record's start, `after` before its end.
+  // --- Stages of LearnedWeights: the first two calls are in stage 1, the others in 2 to 4 ---
+  // Pixel with `before` pixels between it and the run's start, `after` between it and its end.
   static Query ask(const Descriptor& descriptor, std::int32_t before, std::int32_t after);
-  // An edge of no record.
+  // An edge without a descriptor.
   static Query ask_gap();
   void address(Cycle cycle, std::size_t reader, const Query& query);
   void add(Cycle cycle, std::size_t reader, Query& query);
   void address_weights(Cycle cycle, std::size_t reader, Query& query);
   Weights weights(Cycle cycle, std::size_t reader, const Query& query);
 
-  // --- The LoadPort's ---
+  // --- For the LoadPort ---
   std::uint8_t entry(std::size_t index) const;
   void load(std::size_t index, std::uint8_t entry);
   std::uint32_t sum() const { return sum_; }
 
-  // For checks: the addresses of every edge.
+  // For checks: called with the addresses of every edge.
   std::function<void(const Query&)> observer;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of the frame inside, decoded from the registers: the wire that every unit reads. It is
-// loaded with the first beat of a frame and stands still until the next one.
+// Configuration of the current frame, decoded from the registers: a wire that every unit reads.
+// Loaded with the first beat of a frame and constant until the next frame.
 #pragma once
 
 #include <cstddef>
@@ -15,27 +15,27 @@ namespace deburr::rtl::morphological {
 
 struct FrameConfiguration {
   std::uint16_t width = 0, height = 0;  // pixels
-  std::uint32_t beats = 0;              // a row
-  std::uint32_t rows = 0;               // of slots: height + R + 5
-  std::uint16_t last_count = 0;         // lanes of the last beat of a row
+  std::uint32_t beats = 0;              // per row
+  std::uint32_t rows = 0;               // slot rows: height + R + 5
+  std::uint16_t last_count = 0;         // lanes used in the last beat of a row
   spec::morphological::EdgeSource source{};
   bool dynamic = false;
   spec::morphological::DynamicLuma dynamic_luma{};
   spec::morphological::LocalContrast local_contrast{};
-  // Thresholds of luma steps.
+  // Thresholds for luma steps.
   std::uint32_t threshold = 0, threshold_on = 0, threshold_off = 0, floor = 0;
   std::uint32_t alpha = 0, depth_threshold = 0;
   spec::morphological::Predictor predictor{};
   std::uint16_t steps = 0;
   bool contiguous = false, safe = false, trim = false, linear_light = false;
-  bool crossings = false;               // where runs end
-  bool clamp = false;                   // edges beyond the frame are those of the nearest pixel
-  bool table = false, learned = false;  // where areas come from
+  bool crossings = false;               // runs also end at crossings
+  bool clamp = false;                   // edges outside the frame repeat the nearest pixel's
+  bool table = false, learned = false;  // source of areas; both false: analytic
   std::uint16_t search_steps = 0;       // 1..112
   std::uint16_t diagonal_steps = 0;     // 0: none
-  bool corners = false;                 // are rounded
+  bool corners = false;                 // corners are rounded
   std::uint16_t corner_loss = 0;        // 256 - corner_rounding
-  bool strongest = false;               // blend
+  bool strongest = false;               // blend = strongest
   spec::morphological::Bypass bypass{};
   bool text_guard = false;
   std::uint32_t pixel_base = 0;  // bytes
@@ -79,7 +79,7 @@ struct FrameConfiguration {
   }
 };
 
-// What the registers say of a frame; `valid`: its size is one that the engine takes.
+// Decoded registers; `valid`: SIZE is in range.
 struct Decoded {
   FrameConfiguration configuration;
   bool valid = false;
@@ -103,7 +103,7 @@ inline bool has_table(const spec::morphological::Parameters& p) {
          p.area != spec::morphological::AreaSource::kLearned;
 }
 
-// What of them is built. `within`: what they are in.
+// Widths of the fields that are built. `within`: prefix of the field names.
 inline PayloadShape configuration_shape(const spec::morphological::Parameters& p,
                                         const std::string& within = "") {
   const bool crossings = p.ends == spec::morphological::Ends::kCrossings;

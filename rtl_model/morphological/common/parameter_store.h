@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The registers' side of the engine: the rules of a frame, and the sticky bits of STATUS.
+// Register side of the engine: configuration of a frame, and the sticky bits of STATUS.
 //
-// Where: beside the pipe, in front of the registers. Timing: a write counts from the next clock
-// edge on. When the first beat of a frame waits (`first_beat`), `enabled` tells whether it may be
-// taken. In the clock that takes it (`latch`) the registers become the rules, which units read from
-// the next clock on; `latched` shows them to the SlotSequencer at once, or that SIZE is out of
-// range, which sets the framing bit and nothing else. A write while a frame is inside is ignored
-// (CONTROL and STATUS excepted) and sets a sticky bit. A pulse of a sticky bit sets it in its
-// clock. Codes of CONFIG that no choice has count as code 0; steps are limited to
-// window_rows / 2 - 2, those of SMAA's searches to their ranges; what was not built (depth lines
-// with source = luma) reads as 0, and `contiguous`, crossings, clamp, tables, diagonals, corners
-// and the text guard count as off in an engine that was built without them, and so do learned
-// weights, whose registers read 0 then (else: WeightsLoader). A reset gives every register its
-// reset value; SIZE is 0 then and must be written again. Nothing in here is ticked. Cost: 15 x 32
-// flip-flops. Made for 300 MHz; longest path: the least of three 5-bit numbers.
+// Position  Next to the pipeline, connected to the registers. Never clocked.
+// Timing    A write takes effect at the next clock edge. When the first beat of a frame waits
+//           (`first_beat`), `enabled` says whether it may be taken. In the cycle that takes it
+//           (`latch`) the registers become the configuration, which units read from the next cycle
+//           on. `latched` shows it to the SlotSequencer in the same cycle, or that SIZE is out of
+//           range; that sets only the framing bit.
+// Writes    While a frame is inside, writes are ignored and set a sticky bit, except to CONTROL and
+//           STATUS.
+// Decoding  Undefined codes of CONFIG count as code 0. Steps are limited to window_rows / 2 - 2,
+//           those of the SMAA searches to their ranges. Features that are not built read as off,
+//           depth as 0, and the registers of learned weights (WeightsLoader) as 0.
+// Reset     Every register takes its reset value. SIZE becomes 0 and must be written again.
+// Cost      15 x 32 flip-flops.
+// Path      Made for 300 MHz; longest: minimum of three 5-bit numbers.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,7 @@
 
 namespace deburr::rtl::morphological {
 
-// CONTROL and STATUS, for the engine's ControlRegisters.
+// Layout of CONTROL and STATUS for the engine's ControlRegisters.
 ControlLayout control_layout();
 
 Decoded decode(const ControlRegisters& registers, const spec::morphological::Parameters& p);
@@ -40,11 +41,11 @@ class ParameterStore final : public sc_core::sc_module {
   WireOut<bool, WireKind::kCombinational> enabled_out{"enabled_out"};
   OnPulse latch_in{"latch_in", [this](Cycle cycle) { latch(cycle); }};
   WireOut<Decoded, WireKind::kCombinational> latched_out{"latched_out"};
-  // Each sets its bit of STATUS.
+  // Each pulse sets its bit of STATUS.
   OnPulse frame_done_in, framing_in;
   std::optional<OnPulse> memory_error_in;  // with storage = memory
 
-  // Gives the registers the reset values that parameters set.
+  // Sets the registers' reset values from the parameters.
   ParameterStore(const sc_core::sc_module_name& name, ControlRegisters& registers,
                  const spec::morphological::Parameters& parameters);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The wires between the blocks of the morphological engine: one struct a link, with its fields and
-// their widths. Lanes that a frame does not use hold old bits.
+// Payloads of the links of the morphological engine: one struct per link, with fields and widths.
+// Lanes that a frame does not use keep old bits.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ using Lanes32 = std::array<std::uint32_t, spec::morphological::kMaxLanes>;
 using Lanes8 = std::array<std::uint8_t, spec::morphological::kMaxLanes>;
 using LanePixels = std::array<spec::morphological::Rgba8, spec::morphological::kMaxLanes>;
 
-// A place in the frame's raster of slots. Rows 0..height - 1 take input, R + 5 more flush.
+// Position in the frame's raster of slots. Rows 0 .. height - 1 take input; R + 5 more rows flush.
 struct Slot {
   std::uint32_t number;  // U27, from 0 in each frame
   std::uint16_t row;     // U14
@@ -56,9 +56,8 @@ struct BeatToken {
   }
 };
 
-// SlotSequencer -> TextGuard: rows 0..height + kGuardRows - 1 of the frame's slots, the last ones
-// without pixels.
-inline constexpr std::int32_t kGuardRows = 8;  // from a row to the last one that it depends on
+// SlotSequencer -> TextGuard: slot rows 0 .. height + kGuardRows - 1; the last rows have no pixels.
+inline constexpr std::int32_t kGuardRows = 8;  // rows after a row on which its result depends
 struct GuardSlotToken {
   std::uint16_t row;   // U14
   std::uint16_t beat;  // U13
@@ -71,7 +70,7 @@ struct GuardSlotToken {
   }
 };
 
-// TextGuard -> Blender: a beat, in raster order.
+// TextGuard -> Blender: one beat, in raster order.
 struct GuardToken {
   std::uint8_t guarded;  // bit k: lane k
   template <class Self, class Visit>
@@ -84,7 +83,7 @@ struct GuardToken {
 inline constexpr std::uint32_t kMarkedLuma = 1u << 24;
 struct LumaToken {
   Slot slot;
-  Lanes32 luma;   // U8.16, or for edges from colour R, G and B, U0.8 each; kMarkedLuma: no edge
+  Lanes32 luma;   // U8.16; with colour edges R, G, B in U0.8; kMarkedLuma: no edge
   Lanes32 depth;  // U24
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -94,7 +93,7 @@ struct LumaToken {
   }
 };
 
-// EdgeDetector -> RunExtractor: edges of row slot.row - 1, bit k: lane k.
+// EdgeDetector -> RunExtractor: edges of row slot.row - 1; bit k is lane k.
 struct EdgeToken {
   Slot slot;
   std::uint8_t left, top;
@@ -106,8 +105,8 @@ struct EdgeToken {
   }
 };
 
-// RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended, and with learned
-// weights of the row below, whose weights are being found.
+// RunExtractor -> AreaUnit: edges of row slot.row - R - 5, which is being blended; with learned
+// weights also of the row below, whose weights are being looked up.
 struct AreaSlotToken {
   Slot slot;
   std::uint8_t left, top;
@@ -129,7 +128,7 @@ inline PayloadShape area_slot_shape(const spec::morphological::Parameters& p, in
   return shape;
 }
 
-// RunExtractor -> PixelStore: the slot blends a row of the frame, so it needs pixels.
+// RunExtractor -> PixelStore: sent if the slot blends a row of the frame and needs its pixels.
 struct FetchToken {
   Slot slot;
   template <class Self, class Visit>
@@ -138,8 +137,8 @@ struct FetchToken {
   }
 };
 
-// RunExtractor -> DiagonalUnit: columns of the beat about row slot.row - R - 3. Bit k: row k - M
-// from that one, M as built.
+// RunExtractor -> DiagonalUnit: the beat's columns around row y = slot.row - R - 3. Bit k is row y
+// + k - M, with M as built.
 struct DiagonalColumnsToken {
   Slot slot;
   std::array<std::uint64_t, spec::morphological::kMaxLanes> left, top;
@@ -154,10 +153,10 @@ inline PayloadShape diagonal_columns_shape(const spec::morphological::Parameters
   const auto rows = static_cast<std::uint32_t>(2 * p.diagonal_steps + 1);
   return {.lanes = static_cast<std::uint32_t>(lanes), .widths = {{"left", rows}, {"top", rows}}};
 }
-// Beats from a column to the pixels that need no later one.
+// Beats from a column to the last column that its pixels depend on.
 inline int diagonal_delay(int steps, int lanes) { return (steps + 1 + lanes - 1) / lanes; }
 
-// DiagonalUnit -> AreaUnit: of each lane whose top edge takes its weights from a diagonal.
+// DiagonalUnit -> AreaUnit: lanes whose top edge takes its weights from a diagonal.
 struct DiagonalWeightsToken {
   std::uint8_t taken;  // bit k: lane k
   Lanes8 first, second;
@@ -171,7 +170,7 @@ struct DiagonalWeightsToken {
   }
 };
 
-// Weights of the neighbours of one pixel, and the spans of the lines that give them.
+// Weights of one pixel's neighbours, and the spans of the lines that produce them.
 struct Weights {
   std::uint8_t up, down, left, right;                       // U0.8
   std::uint16_t span_up, span_down, span_left, span_right;  // U12
@@ -191,7 +190,7 @@ struct Weights {
 // AreaUnit -> Blender.
 struct WeightToken {
   Slot slot;
-  bool any;  // one of the weights below is not 0; if not, they hold old bits
+  bool any;  // a weight below is not 0; if false, the weights hold old bits
   std::uint8_t left, top;
   std::array<Weights, spec::morphological::kMaxLanes> weights;
   template <class Self, class Visit>
@@ -204,8 +203,8 @@ struct WeightToken {
   }
 };
 
-// PixelStore -> Blender: the pixels of a beat, the beats above and below, and the two pixels beside
-// it. Beyond the frame: old bits.
+// PixelStore -> Blender: the pixels of a beat, of the beats above and below, and the pixels left
+// and right of it. Outside the frame: old bits.
 struct PixelToken {
   LanePixels above, centre, below;
   spec::morphological::Rgba8 before, after;  // left of lane 0, right of the last lane
@@ -219,12 +218,12 @@ struct PixelToken {
   }
 };
 
-// The low bits of a slot's number, which go with a record. When the AreaUnit sees them, the slot is
-// the next one there or the one after, or at most two rows of 8192 beats behind.
+// Low bits of the slot number in a descriptor. When the AreaUnit sees them, the slot is the next
+// one, the one after, or at most two rows of 8192 beats earlier.
 inline constexpr std::uint32_t kSlotMask = (1u << 15) - 1;
 
-// Fields of a record that not every engine has, by where in its token the RunToken is ("run.") and
-// the RunDescriptor in that.
+// Removes fields that are not built. `token`, `run`: prefixes of the RunToken ("run.") and of its
+// RunDescriptor.
 inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p,
                                      const std::string& token, const std::string& run) {
   PayloadShape shape;
@@ -236,7 +235,7 @@ inline PayloadShape descriptor_shape(const spec::morphological::Parameters& p,
   return shape;
 }
 
-// Fields of learned weights, by where in its token they are.
+// Removes the fields of learned weights. `line`: their prefix.
 inline void leave_out_weights(PayloadShape& shape, const spec::morphological::Parameters& p,
                               const std::string& line) {
   if (p.area != spec::morphological::AreaSource::kLearned)
@@ -263,23 +262,23 @@ inline PayloadShape line_shape(const spec::morphological::Parameters& p) {
 // RunExtractor -> EndpointPredictor.
 struct RunToken {
   spec::morphological::RunDescriptor run;
-  // With crossings: which of its column's two it is, vertical; edges along the run go on, bit 0
-  // before its start, bit 1 behind its end.
+  // With crossings: entry is which of its column's two entries a vertical run uses. beyond: edges
+  // along the run continue, bit 0 before its start, bit 1 after its end.
   std::uint8_t entry, beyond;
-  std::uint32_t slot;  // low bits of the slot that the run was found in
+  std::uint32_t slot;  // low bits of the number of the slot in which the run was found
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("run", self.run);
     visit("slot", self.slot, 15, "U15");
     visit("entry", self.entry, 1, "U1");
-    visit("beyond", self.beyond, 2, "edges go on: before the start, after the end");
+    visit("beyond", self.beyond, 2, "edges continue: before the start, after the end");
   }
 };
 
-// EndpointPredictor -> LineUnit: corners -left..right + 1 of the line, as sums.
+// EndpointPredictor -> LineUnit: sums over corners -left .. right + 1 of the line.
 struct SumsToken {
   RunToken run;
-  bool learned;                         // no line
+  bool learned;                         // learned weights: no line
   std::uint8_t start_class, end_class;  // of its crossings, if learned
   std::uint8_t left, right;             // steps kept
   std::int16_t first, last;             // positions of the outermost corners
@@ -312,7 +311,7 @@ struct LineToken {
   }
 };
 
-// AreaUnit -> RunExtractor: records that are finished, by the parity of the row of their slot.
+// AreaUnit -> RunExtractor: number of finished descriptors, by parity of their slot's row.
 struct FinishToken {
   std::array<std::uint8_t, 2> count;  // U4
   template <class Self, class Visit>
@@ -323,14 +322,14 @@ struct FinishToken {
 
 // Blender -> SlotSequencer: the last beat of the frame has been pushed.
 struct FrameDoneToken {
-  std::uint32_t slot;  // U27, number of its slot
+  std::uint32_t slot;  // U27, its slot number
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("slot", self.slot, 27, "U27");
   }
 };
 
-// One link, one port a lane. Only the lanes that are built.
+// One link or port per built lane.
 template <class T>
 struct LaneLinks {
   std::deque<Link<T>> lane;
@@ -346,7 +345,7 @@ class LanePorts {
       at_[static_cast<std::size_t>(i)] = &lane_.emplace_back((name + std::to_string(i)).c_str());
   }
   Port& operator[](std::size_t i) { return *at_[i]; }
-  // Can anything be popped from any of the first `lanes` ports?
+  // Is data available at any of the first `lanes` ports?
   bool any_arrives(Cycle cycle, std::size_t lanes) const {
     bool arrives = false;
     for (std::size_t i = 0; i < lanes; ++i) arrives |= at_[i]->can_pop(cycle);
@@ -358,7 +357,7 @@ class LanePorts {
   }
 
  private:
-  std::deque<Port> lane_;  // a port stays where it is
+  std::deque<Port> lane_;  // a deque, since ports must not move
   std::array<Port*, spec::morphological::kMaxLanes> at_{};
 };
 

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint32_t distance(std::uint32_t a, std::uint32_t b) { return a > b ? a - b : b - a; }
 
-// The largest step of the three codes, U8.16.
+// Largest step of the three codes, U8.16.
 constexpr std::uint32_t colour_distance(std::uint32_t a, std::uint32_t b) {
-  if (a == b) return 0;  // in most of a frame
+  if (a == b) return 0;  // true in most of a frame
   const auto of = [&](int shift) { return distance(a >> shift & 0xFF, b >> shift & 0xFF); };
   return std::max({of(0), of(8), of(16)}) << 16;
 }
@@ -28,8 +28,8 @@ EdgeDetector::Lines::Lines(const char* name, const MemoryShape& shape, std::size
   rows_.fill(std::vector<std::uint32_t>(shape.words + spec::morphological::kMaxLanes));
 }
 
-// The memory says first whether the columns are there. Lanes that are not built are written too:
-// the next beat replaces them, before anyone looks.
+// The memory first checks that the columns are valid. Lanes that are not built are also written;
+// the next beat overwrites them before they are read.
 inline void EdgeDetector::Lines::take(Cycle cycle, const Slot& slot, const Lanes32& pixels) {
   const std::uint64_t x = slot.beat * lanes_;
   above_.read(cycle, x, std::min(span_, memory_.words() - x));
@@ -40,16 +40,16 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
                            const spec::morphological::Parameters& p)
     : Unit(name, clock),
       lanes_(static_cast<std::uint32_t>(built_lanes(p))),
-      // The columns of a beat and the one beside it lie in banks of their own.
+      // The columns of a beat and the adjacent one are in different banks.
       luma_("luma_lines",
             {.words = std::max<std::uint64_t>(words_for(p.line_pixels, lanes_),
                                               std::uint64_t{2} * lanes_),
              .word_bits = 3 * 25,
-             // A row of one beat is read as it is written.
+             // In a row of one beat, the read and the write are in the same cycle.
              .read_during_write = ReadDuringWrite::kNewWord,
              .banks = 2 * lanes_,
              .span = lanes_ + 1,
-             .content = "last three rows of luma or colour and marks, one word per column",
+             .content = "per column, the last three rows of luma or colour, and marks",
              .columns = static_cast<std::uint64_t>(p.line_pixels)},
             lanes_) {
   if (p.edge_source == spec::morphological::EdgeSource::kLuma ||
@@ -58,23 +58,23 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
   depth_.emplace("depth_lines",
                  MemoryShape{.words = words_for(p.line_pixels, lanes_),
                              .word_bits = 2 * 24,
-                             // A row of one beat is read as it is written.
+                             // In a row of one beat, the read and the write are in the same cycle.
                              .read_during_write = ReadDuringWrite::kNewWord,
                              .banks = lanes_,
                              .span = lanes_,
-                             .content = "a column of the last two rows of depth",
+                             .content = "per column, the last two rows of depth",
                              .columns = static_cast<std::uint64_t>(p.line_pixels)},
                  lanes_);
 }
 
-// Those that are large enough, of `count` pixels of row y, where there is a neighbour at all. By
-// the plain rules, luma or colour alone, no mask: `large(pixel, neighbour)`; by the others.
+// Steps that count as edges, for `count` pixels of row y with a neighbour. plain_steps(): luma or
+// colour without mask, decided by `large(pixel, neighbour)`. steps(): all other configurations.
 template <class Large>
 inline EdgeDetector::Edges EdgeDetector::plain_steps(std::int32_t first, std::int32_t count,
                                                      std::int32_t y, Large&& large) const {
   const std::uint32_t *const here = luma_.row(y) + first, *const above = luma_.row(y - 1) + first;
   std::uint32_t before = first == 0 ? 0 : here[-1];
-  // With one lane the loop costs as much as its pixel.
+  // With one lane, the loop costs as much as its pixel.
   if (count == 1) return {large(*here, before), large(*here, *above)};
   Edges edges;
   for (std::int32_t i = 0; i < count; ++i) {
@@ -162,7 +162,7 @@ void EdgeDetector::keep_strong(Edges& edges, std::int32_t first, std::int32_t y)
   }
 }
 
-// Both pixels are inside.
+// Both pixels are inside the frame.
 bool EdgeDetector::is_edge(Position p, Position q) const {
   const FrameConfiguration& configuration = *configuration_;
   const std::uint32_t c = contrast(p, q);
@@ -178,7 +178,7 @@ bool EdgeDetector::is_edge(Position p, Position q) const {
   return is_dynamic_edge(c, luma_[p], luma_[q]);
 }
 
-// U9.40: both sides are products with U0.24, of twice the luma.
+// Compares U9.40 products with U0.24, both for twice the luma.
 bool EdgeDetector::is_dynamic_edge(std::uint32_t c, std::uint32_t here,
                                    std::uint32_t across) const {
   const FrameConfiguration& configuration = *configuration_;
@@ -186,7 +186,7 @@ bool EdgeDetector::is_dynamic_edge(std::uint32_t c, std::uint32_t here,
          (std::uint64_t{c} << 25) > std::uint64_t{configuration.alpha} * doubled_luma(here, across);
 }
 
-// Twice the luma that alpha multiplies, U9.16: the mean is exact.
+// Twice the luma that alpha multiplies, U9.16: doubled so that the mean is exact.
 std::uint32_t EdgeDetector::doubled_luma(std::uint32_t here, std::uint32_t across) const {
   switch (configuration_->dynamic_luma) {
     case spec::morphological::DynamicLuma::kMax:
@@ -202,7 +202,7 @@ std::uint32_t EdgeDetector::doubled_luma(std::uint32_t here, std::uint32_t acros
 }
 
 bool EdgeDetector::depth_edge(Position p, Position q) const {
-  if (!depth_) return false;  // not built: all of it is 0
+  if (!depth_) return false;  // not built: reads as 0
   if ((luma_[p] | luma_[q]) & kMarkedLuma) return false;
   const std::uint32_t a = (*depth_)[p], b = (*depth_)[q];
   return a != b && (std::uint64_t{distance(a, b)} << 16) >=
@@ -220,8 +220,8 @@ std::uint32_t EdgeDetector::step(Position p, Position q) const {
   return inside(p) && inside(q) ? contrast(p, q) : 0;
 }
 
-// Is the step from p to its neighbour `across` (left or top) more than half of the largest step
-// near it (`smaa`: half of it at least)? `along` is the other one of the two neighbours.
+// Keeps the edge between p and its neighbour `across` (left or top) if its step is more than half
+// of the largest step nearby (`smaa`: at least half). `along` is the other neighbour.
 bool EdgeDetector::survives(Position p, Position across, Position along) const {
   const std::int32_t ax = p.x - across.x, ay = p.y - across.y;  // from `across` to p
   const std::int32_t bx = p.x - along.x, by = p.y - along.y;
@@ -244,20 +244,20 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
 
 Datasheet EdgeDetector::datasheet() {
   return {.unit = "EdgeDetector",
-          .does = "Left and top edge bits of each pixel from steps of luma, colour or depth.",
+          .does = "Left and top edge bits of each pixel from steps in luma, colour or depth.",
           .latency = {4},
           .stages = {{"1", "address"},
-                     {"2", "words of the columns, write back", "SRAM read"},
+                     {"2", "column words, write-back", "SRAM read"},
                      {"3", "differences, maxima of two pairs, products with the thresholds",
-                      "25 x 24 multiply, or a 24-bit compare with its choice"},
-                     {"4", "last maxima, decision", "three 24-bit compares with their choices"}},
+                      "25 x 24 multiply, or 24-bit compare and mux"},
+                     {"4", "last maxima, decision", "three 24-bit compares with muxes"}},
           .formats =
-              "U8.16 luma or three codes U0.8, U24 depth; thresholds U8.16, alpha U0.24, of depth "
-              "U0.16.",
+              "U8.16 luma or three U0.8 codes, U24 depth; thresholds U8.16, alpha U0.24, depth "
+              "threshold U0.16.",
           .cost =
-              "a lane: two differences and compares (fixed), six differences of 8 bits and two "
-              "maxima (colour), two multipliers 25 x 24 more (dynamic, depth), nine differences "
-              "and an 8-input maximum a bit (local contrast)."};
+              "per lane: two differences and compares (fixed), six 8-bit differences and two "
+              "maxima (colour), two more 25 x 24 multipliers (dynamic, depth), and per edge bit "
+              "nine differences and an 8-input maximum (local contrast)."};
 }
 
 }  // namespace deburr::rtl::morphological

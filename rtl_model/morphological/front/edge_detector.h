@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Left and top edge bits of each pixel from steps of luma, of colour, of depth, or of luma with a
-// threshold that depth moves; drops edges beside a step of twice the contrast. A pixel that is
-// masked makes no step.
+// Computes the left and top edge bits of each pixel from steps in luma, in colour, in depth, or in
+// luma with a depth-dependent threshold. Drops edges next to a step of twice the contrast. A masked
+// pixel makes no step.
 //
-// Where: between LumaUnit and RunExtractor. In slot row s it stores row s and decides row s - 1,
-// which needs one row below and two above. A word of luma_lines holds a column of the last three
-// rows; it is read with the word to its right, and written back with the new row in stage 2, so
-// that rows of any length read what was written. Registers hold the two columns to the left.
-// Stalled by `downstream` only. Memory: luma_lines a column 3 rows x 25 bits (the mark),
-// depth_lines 2 rows x 24 bits if built for depth; 1R1W, a read sees what is written in its clock.
-// Source: paper 003, eq (1) to (3); SMAA 1x; the symmetric form, minimum and mean are ours.
+// Position  LumaUnit -> EdgeDetector -> RunExtractor. Slot row s stores row s and decides row s -
+//           1, which needs one row below and two above.
+// Stalls    downstream
+// Memory    A word of luma_lines holds a column of the last three rows (3 x 25 bits with the mark).
+//           It is read with the word to its right and written back with the new row in stage 2, so
+//           rows of any length work. Registers hold the two columns to the left. depth_lines: 2 x
+//           24 bits per column, if built for depth. Both 1R1W; a read in the cycle of a write
+//           returns the new word.
+// Source    Paper 003, eq (1) to (3); SMAA 1x. The symmetric form, minimum and mean are ours.
 #pragma once
 
 #include <array>
@@ -47,15 +49,14 @@ class EdgeDetector final : public Unit {
   struct Position {
     std::int32_t x, y;
   };
-  // A memory of lines, its content by rows: row y is at y modulo 4, which holds the row that comes
-  // in and the three above it. A word of the memory is what stands in a column above that row.
-  // Beats read and write back in the order of the raster, and a read sees what is written in its
-  // clock: so a beat finds in stage 2 what was read for it in stage 1. Its own pixels stand in
-  // their row from stage 1 on, when the beat before has been decided.
+  // A line memory, modelled by rows: row y is at y modulo 4, which covers the incoming row and the
+  // three above it. A word of the memory is the part of a column above the incoming row. Beats read
+  // and write back in raster order and reads return new words, so stage 2 finds what stage 1 read.
+  // The beat's own pixels are in their row from stage 1 on, after the previous beat was decided.
   class Lines {
    public:
     Lines(const char* name, const MemoryShape& shape, std::size_t lanes);
-    // Stage 1; stage 2: the words go back, a row on.
+    // take() is stage 1. shift() is stage 2: words are written back, shifted by one row.
     void take(Cycle cycle, const Slot& slot, const Lanes32& pixels);
     void shift(Cycle cycle, const Slot& slot) {
       above_.check(cycle, slot.beat * lanes_);
@@ -73,7 +74,7 @@ class EdgeDetector final : public Unit {
     WritePort<void> shift_{memory_, "shift"};
     std::array<std::vector<std::uint32_t>, 4> rows_;
   };
-  // Bit k: lane k.
+  // Bit k is lane k.
   struct Edges {
     std::uint32_t left = 0, top = 0;
   };
@@ -90,18 +91,18 @@ class EdgeDetector final : public Unit {
   bool survives(Position p, Position across, Position along) const;
 
   bool inside(Position p) const {
-    const auto below = [](std::int32_t at, std::int32_t end) {  // and not negative
+    const auto below = [](std::int32_t at, std::int32_t end) {  // and at >= 0
       return static_cast<std::uint32_t>(at) < static_cast<std::uint32_t>(end);
     };
     return below(p.x, configuration_->width) && below(p.y, configuration_->height);
   }
-  // c of two pixels, U8.16: their step of luma or colour; 0 if one is masked.
+  // Contrast c of two pixels, U8.16: their step in luma or colour; 0 if one is masked.
   std::uint32_t contrast(Position p, Position q) const;
-  // The same, 0 if one is outside.
+  // contrast(), or 0 if a pixel is outside the frame.
   std::uint32_t step(Position p, Position q) const;
 
   const std::uint32_t lanes_;
-  const FrameConfiguration* configuration_ = nullptr;  // on the wire in this clock
+  const FrameConfiguration* configuration_ = nullptr;  // value of the wire in this cycle
   Lines luma_;
   std::optional<Lines> depth_;
   Pipe<EdgeToken, spec::morphological::kEdgeLatency> pipe_;

@@ -32,12 +32,12 @@ Activity LumaUnit::tick(Cycle cycle) {
 
 Datasheet LumaUnit::datasheet() {
   return {.unit = "LumaUnit",
-          .does = "Luma of each pixel, or its three codes as they are.",
+          .does = "Luma of each pixel, or its three codes unchanged.",
           .latency = {2},
-          .stages = {{"1", "three products, or the three codes as they are", "8 x 16 multiply"},
-                     {"2", "their sum"}},
-          .formats = "U8.16 luma, or three codes U0.8.",
-          .cost = "a lane: three constant multipliers 8 x 16, two adders, a choice of two.",
+          .stages = {{"1", "three products, or the three codes unchanged", "8 x 16 multiply"},
+                     {"2", "sum"}},
+          .formats = "U8.16 luma, or three U0.8 codes.",
+          .cost = "per lane: three constant 8 x 16 multipliers, two adders, a 2 : 1 mux.",
           .megahertz = 300};
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact; or, for edges from colour, its
-// three codes as they are. Beside it its mark, if the rule `leave` masks.
+// Computes the luma of each pixel: 13933 R + 46871 G + 4732 B, U8.16, exact. With edges from colour
+// it forwards the three codes. With bypass = masked it adds the mark.
 //
-// Where: between SlotSequencer and EdgeDetector. Stalled by `downstream` only.
+// Position  SlotSequencer -> LumaUnit -> EdgeDetector.
+// Stalls    downstream
 #pragma once
 
 #include <cstddef>

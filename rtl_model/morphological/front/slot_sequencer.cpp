@@ -8,7 +8,7 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
     : Unit(name, clock),
       lanes_(built_lanes(p)),
       probe_(probe),
-      upstream_(declare_stall("upstream", "within a frame, no beat is available")) {
+      upstream_(declare_stall("upstream", "waits for an input beat inside a frame")) {
   if (p.text_guard) guard_slots_out.emplace("guard_slots_out");
 }
 
@@ -33,7 +33,8 @@ SlotSequencer::SlotSequencer(const sc_core::sc_module_name& name, ClockDomain& c
   probe_.enters(cycle);
 }
 
-// False: it has no room. A slot that waits for something else is not sent yet.
+// Returns false if the TextGuard's link is full. A slot that waits for something else is not sent
+// yet.
 bool SlotSequencer::send_to_guard(Cycle cycle, std::int32_t height) {
   const bool input = next_.row < height;
   if (next_.row >= height + kGuardRows || !slots_out.can_push(cycle)) return true;
@@ -53,12 +54,12 @@ Activity SlotSequencer::tick(Cycle cycle) {
   const FrameConfiguration* configuration = &configuration_in.read(cycle);
   if (slots_ != Slots::kSome) [[unlikely]] {
     if (slots_ == Slots::kSent) {
-      if (!frames_done_in.can_pop(cycle)) return kIdle;  // it is on its way out
+      if (!frames_done_in.can_pop(cycle)) return kIdle;  // the frame is still in the pipeline
       frames_done_in.pop(cycle);
       slots_ = Slots::kNone;
       frame_done_out.raise(cycle);
       ++frames;
-      // The token was pushed with the last beat; how long it waited here does not count.
+      // The token was pushed with the last beat; its wait in the link does not count.
       frame_cycles.reset();
       frame_cycles += frames_done_in.link().last_push() + 1 - first_cycle_;
     }
@@ -66,7 +67,7 @@ Activity SlotSequencer::tick(Cycle cycle) {
       if (!pixels_in.can_pop(cycle)) return kIdle;
       first_beat_out.raise(cycle);
       if (!enabled_in.read(cycle)) return kIdle;
-      // The frame is inside from the clock on that takes its first beat.
+      // The frame is inside from the cycle that takes its first beat.
       if (!slots_out.can_push(cycle) || !beats_out.can_push(cycle)) return kStalledDownstream;
       if (guard_slots_out && !guard_slots_out->can_push(cycle)) return kStalledDownstream;
       latch_out.raise(cycle);
@@ -105,11 +106,11 @@ void SlotSequencer::reset() {
 
 Datasheet SlotSequencer::datasheet() {
   return {.unit = "SlotSequencer",
-          .does = "Counts the slots of a frame, and takes a beat in each that has input.",
+          .does = "Counts the slots of a frame and takes a beat in each input slot.",
           .latency = {1},
-          .stages = {{"1", "counts, takes, says what disagrees with SIZE",
+          .stages = {{"1", "counts, takes a beat, checks it against SIZE",
                       "14-bit compare + 27-bit count"}},
-          .cost = "three counters of 14 bits.",
+          .cost = "three 14-bit counters.",
           .megahertz = 300};
 }
 

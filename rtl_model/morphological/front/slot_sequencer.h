@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Counts the slots of a frame: takes a beat a clock in the rows that have input, then flushes.
+// Counts the slots of a frame: takes one beat per cycle in input rows, then flushes.
 //
-// Where: first block of the engine, in front of the LumaUnit and the PixelStore. The first slot has
-// the ParameterStore latch the rules, and goes by those that it gets in the same clock; the next
-// frame begins after the last beat of this one has been pushed. Stalls: `upstream` (no beat in an
-// input slot), `downstream` (the pipe is full: further on something waits for records, memory or
-// room). A beat whose marks disagree with SIZE sets the framing bit and is taken as SIZE says.
+// Position  First unit of the engine, before LumaUnit and PixelStore. The first slot latches the
+//           configuration in the ParameterStore and uses it in the same cycle. The next frame
+//           starts after the last beat of this frame has been pushed.
+// Stalls    upstream    No beat in an input slot.
+//           downstream  The pipeline is full: a later unit waits for descriptors, memory or the
+//                       output.
+// Errors    A beat whose marks disagree with SIZE sets the framing bit; SIZE wins.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +29,12 @@ class SlotSequencer final : public Unit {
   In<FrameDoneToken> frames_done_in{"frames_done_in"};
   Out<SlotToken> slots_out{"slots_out"};
   Out<BeatToken> beats_out{"beats_out"};
-  std::optional<Out<GuardSlotToken>> guard_slots_out;  // for the TextGuard, if it is built
+  std::optional<Out<GuardSlotToken>> guard_slots_out;  // only with text_guard
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
-  // The first beat of a frame waits; whether it may be taken, in the same clock.
+  // The first beat of a frame waits; the answer comes in the same cycle.
   PulseOut first_beat_out{"first_beat_out"};
   WireIn<bool, WireKind::kCombinational> enabled_in{"enabled_in"};
-  // The registers become the rules; what they are, in the same clock.
+  // Latches the registers; the configuration comes back in the same cycle.
   PulseOut latch_out{"latch_out"};
   WireIn<Decoded, WireKind::kCombinational> latched_in{"latched_in"};
   PulseOut frame_done_out{"frame_done_out"}, framing_out{"framing_out"};
@@ -42,21 +44,20 @@ class SlotSequencer final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // No frame is inside. Between edges.
+  // True if no frame is inside. Call between clock edges.
   bool idle() const { return slots_ == Slots::kNone; }
 
   Counter frames{"frames", "frames", "frames delivered"};
   Counter beats{"beats", "beats", "beats taken"};
-  Counter framing_errors{"framing_errors", "beats", "beats whose frame marks contradict SIZE"};
-  Counter frame_cycles{
-      "frame_cycles", "clk",
-      "cycles of the last frame, from its first input beat to its last output beat, both included"};
+  Counter framing_errors{"framing_errors", "beats", "beats whose marks disagree with SIZE"};
+  Counter frame_cycles{"frame_cycles", "clk",
+                       "cycles of the last frame, from first beat in to last beat out inclusive"};
 
   static Datasheet datasheet();
 
  private:
-  // No frame is inside; of the one that is, all are sent, some are left, or each goes to the
-  // TextGuard, too.
+  // kNone: no frame inside. kSent: all slots of the frame were sent. kSome: slots remain. kGuarded:
+  // slots remain and also go to the TextGuard.
   enum class Slots : std::uint8_t { kNone, kSent, kSome, kGuarded };
 
   void take_beat(Cycle cycle, const FrameConfiguration& configuration);

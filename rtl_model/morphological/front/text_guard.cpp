@@ -10,25 +10,25 @@ namespace deburr::rtl::morphological {
 namespace {
 
 constexpr std::int32_t kHashWidth = 6;
-constexpr std::int32_t kHashRows = 10;   // above the newest one
-constexpr std::int32_t kStroke = 3;      // pixels of a run, at most
+constexpr std::int32_t kHashRows = 10;   // above the newest row
+constexpr std::int32_t kStroke = 3;      // maximum length of a run, pixels
 constexpr std::int32_t kWindow = 5;      // pixels to each side
-constexpr int kLeast = 3;                // pixels with H, and with V
-constexpr int kEnough = 24;              // of both
-constexpr std::int32_t kCountRows = 11;  // of a column, whose strokes are counted
-// From the newest row to the one whose column runs it completes.
+constexpr int kLeast = 3;                // minimum number of pixels with H, and with V
+constexpr int kEnough = 24;              // minimum of their sum
+constexpr std::int32_t kCountRows = 11;  // rows per column in which strokes are counted
+// Rows from the newest row up to the row whose column runs it completes.
 constexpr std::int32_t kRunRows = kStroke;
 constexpr std::uint32_t kHBits = kCountRows + kRunRows - 1, kVBits = kCountRows - 1;
-constexpr std::int32_t kColourRows =
-    kGuardRows - kWindow;  // that two colours are known before the counts
-// More than the slots on their way from the SlotSequencer to the Blender: 27, two in each of five
-// links (slots, lumas, edge_bits, area_slots, weights) and one a stage of the four units between.
+// Rows by which the two colours are known before the counts.
+constexpr std::int32_t kColourRows = kGuardRows - kWindow;
+// More than the 27 slots that can be between SlotSequencer and Blender: two in each of five links
+// (slots, lumas, edge_bits, area_slots, weights) and one per stage of the four units between them.
 constexpr std::int32_t kUnderWay = 32;
 static_assert(kUnderWay >
               5 * 2 + spec::morphological::kLumaLatency + spec::morphological::kEdgeLatency +
                   spec::morphological::kExtractorLatency + spec::morphological::kAreaLatency);
 
-// The contract's folds and rotations are wires: an equation a bit.
+// The hash of the contract, written as one xor equation per bit (folds and rotations are wires).
 constexpr std::uint8_t hash_of(const std::array<std::uint8_t, 3>& rgb) {
   const auto r = [&](int bit) { return rgb[0] >> bit & 1; };
   const auto g = [&](int bit) { return rgb[1] >> bit & 1; };
@@ -41,7 +41,7 @@ constexpr std::uint8_t hash_of(const std::array<std::uint8_t, 3>& rgb) {
   const int h5 = r(5) ^ g(4) ^ b(2);
   return static_cast<std::uint8_t>(h5 << 5 | h4 << 4 | h3 << 3 | h2 << 2 | h1 << 1 | h0);
 }
-// Of a column's word: that of the row `above` the newest one, 1..10.
+// From a column's word: hash of the row `above` (1..10) rows above the newest one.
 constexpr std::uint8_t kept_hash(std::uint64_t hashes, std::int32_t above) {
   return static_cast<std::uint8_t>(hashes >> ((above - 1) * kHashWidth)) % (1u << kHashWidth);
 }
@@ -62,7 +62,7 @@ std::uint32_t fifo_words(const spec::morphological::Parameters& p) {
 MemoryShape row_shape(const spec::morphological::Parameters& p, std::int32_t lanes) {
   return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes)),
           .word_bits = static_cast<std::uint32_t>(kHashWidth * lanes),
-          // The next row takes the place of this one, in the clock of its read at the earliest.
+          // The next row overwrites this one, at the earliest in the cycle of the read.
           .read_during_write = ReadDuringWrite::kOldWord,
           .content = "hashes of the newest row",
           .columns = static_cast<std::uint64_t>(p.line_pixels)};
@@ -71,7 +71,7 @@ MemoryShape column_shape(const spec::morphological::Parameters& p, std::int32_t 
                          std::uint32_t bits, std::string content) {
   return {.words = static_cast<std::uint64_t>(beats_for(p.line_pixels, lanes) * lanes),
           .word_bits = bits,
-          // A row of one beat is read as it is written.
+          // In a row of one beat, the read and the write are in the same cycle.
           .read_during_write = ReadDuringWrite::kNewWord,
           .banks = static_cast<std::uint32_t>(lanes),
           .span = static_cast<std::uint32_t>(lanes),
@@ -91,12 +91,12 @@ TextGuard::TextGuard(const sc_core::sc_module_name& name, ClockDomain& clock,
       row_("guard_row", row_shape(p, built_lanes(p))),
       columns_("guard_columns",
                column_shape(p, built_lanes(p), kHashRows * kHashWidth + kHBits + kVBits,
-                            "a column of the last rows: hashes, strokes of rows and columns")),
+                            "per column, the last rows: hashes, row and column strokes")),
       colours_("guard_colours", column_shape(p, built_lanes(p), kColourRows,
-                                             "a column of the last rows: are there two colours?")),
+                                             "per column, the last rows: are there two colours?")),
       guards_("guards", fifo_words(p), PayloadShape{.lanes = lanes_}) {}
 
-// In. Flush rows have no pixels.
+// Input side. Flush rows have no pixels.
 void TextGuard::store(Cycle cycle) {
   const GuardSlotToken& token = slots_in.take(cycle);
   const FrameConfiguration& configuration = *configuration_;
@@ -123,7 +123,7 @@ void TextGuard::enter(Cycle cycle) {
   ++next_row_;
 }
 
-// Of a column of the row about the beat in hand.
+// Value of a column near the current beat, in its row.
 inline std::uint8_t TextGuard::hash_at(std::int32_t x) {
   const std::int32_t lanes = static_cast<std::int32_t>(lanes_), beat = x / lanes;
   return at(row_stage_ + at(row_stage_).beat - beat).hash[static_cast<std::size_t>(x % lanes)];
@@ -134,7 +134,7 @@ inline const TextGuard::Column& TextGuard::column_at(std::int32_t x) {
       .column[static_cast<std::size_t>(x % lanes)];
 }
 
-// The first stage that has the columns to the right.
+// Runs in the first stage in which the columns to the right are available.
 void TextGuard::find_h(Beat& beat) {
   beat.h = 0;
   if (!is_row(beat.row)) return;
@@ -152,11 +152,11 @@ void TextGuard::find_h(Beat& beat) {
   }
 }
 
-// Of the pixel in the middle of seven rows.
+// Is the vertical run of the pixel in the middle of seven rows short?
 bool TextGuard::find_v(const Word& word, std::uint8_t newest, std::int32_t row) const {
   const std::int32_t y = row - kRunRows;
   if (!is_row(y)) return false;
-  const auto hash = [&](std::int32_t above) {  // the newest row
+  const auto hash = [&](std::int32_t above) {  // 0: the newest row
     return above == 0 ? newest : kept_hash(word.hashes, above);
   };
   const auto same = [&](std::int32_t above) {
@@ -180,7 +180,7 @@ TextGuard::Colours TextGuard::merged(const Colours& a, const Colours& b) {
   return both;
 }
 
-// `word` is as it is written back.
+// `word`: value before the new row is shifted in.
 TextGuard::Column TextGuard::column_of(const Word& word, const Beat& beat, std::size_t lane) const {
   Column column{};
   const auto add = [&](std::uint8_t hash) {
@@ -192,7 +192,7 @@ TextGuard::Column TextGuard::column_of(const Word& word, const Beat& beat, std::
   return column;
 }
 
-// Words of the columns. The counts are of rows s - 13..s - 3, so each takes in the newest bit.
+// Column words. The counts cover rows s - 13 .. s - 3, so each includes the newest bit.
 void TextGuard::read_columns(Cycle cycle, Beat& beat) {
   const std::uint64_t first = first_of(beat);
   std::array<Word, kLanes> words;
@@ -214,7 +214,7 @@ void TextGuard::read_columns(Cycle cycle, Beat& beat) {
   shift_.write(cycle, first, std::span<const Word>(words.data(), lanes_));
 }
 
-// The first stage that has the columns to the right.
+// Runs in the first stage in which the columns to the right are available.
 void TextGuard::look_around(Beat& beat) {
   beat.two = beat.enough = 0;
   const auto first = static_cast<std::int32_t>(first_of(beat));
@@ -291,36 +291,37 @@ Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
                      row = row_stage_of(lanes), column = column_stage_of(lanes),
                      last = last_stage_of(lanes);
   const auto clock = [](std::int32_t stage) { return std::to_string(stage + 1); };
-  return {.unit = "TextGuard",
-          .does = "Says of each pixel whether it is of aliased text of two colours.",
-          .latency = {static_cast<std::uint64_t>(last) + 1,
-                      "17 with one lane, 14 with two, 12 with four: from a row's last beat to the "
-                      "first beat of the row eight above"},
-          .stages = {{"1", "hash, stored in guard_row", "5-input xor, SRAM write"},
-                     {clock(1), "address of guard_row"},
-                     {clock(2) + "-" + clock(row),
-                      "hashes of a row, a beat a clock; H in the last one; address of "
-                      "guard_columns",
-                      "SRAM read, 6-bit compare, choice of a run"},
-                     {clock(row + 1), "words of the columns; V; write back",
-                      "SRAM read with bypass, 6-bit compares, choice of a run, SRAM write"},
-                     {clock(row + 2), "least and greatest of 11 hashes, counts of 11 bits",
-                      "four 6-bit compares with their choices"},
-                     {clock(row + 3), "are there others?", "6-bit compare, OR of 11"},
-                     {clock(row + 4) + "-" + clock(column),
-                      "columns, a beat a clock; least and greatest of 11, sums, in the last one",
-                      "four 6-bit compares with their choices"},
-                     {clock(column + 1), "are there others? enough? address of guard_colours",
-                      "6-bit compare, OR of 33"},
-                     {clock(last), "two colours three rows ago, write back, decision",
-                      "SRAM read with bypass, SRAM write"}},
-          .formats = "hashes U6; counts of a column U4, of a window U7.",
-          .cost =
-              "a lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with their "
-              "choices and 22 more for the colours of a column, 20 and 44 for those of a window, "
-              "two counts of 11 bits, two sums of 11 times 4 bits; registers of 11 columns more. "
-              "guard_row holds 6 bits a column, guard_columns 83, guard_colours 3, the FIFO a bit "
-              "a pixel of R - 3 rows and 32 beats."};
+  return {
+      .unit = "TextGuard",
+      .does = "Marks the pixels of aliased two-colour text.",
+      .latency = {static_cast<std::uint64_t>(last) + 1,
+                  "17 with one lane, 14 with two, 12 with four: from the last beat of a row "
+                  "to the first beat of the row eight above"},
+      .stages = {{"1", "hash, stored in guard_row", "5-input xor, SRAM write"},
+                 {clock(1), "address of guard_row"},
+                 {clock(2) + "-" + clock(row),
+                  "hashes of a row, one beat per cycle; H in the last stage; address of "
+                  "guard_columns",
+                  "SRAM read, 6-bit compare, run selection"},
+                 {clock(row + 1), "column words; V; write-back",
+                  "SRAM read with bypass, 6-bit compares, run selection, SRAM write"},
+                 {clock(row + 2), "minimum and maximum of 11 hashes, counts of 11 bits",
+                  "four 6-bit compares with muxes"},
+                 {clock(row + 3), "other hashes?", "6-bit compare, OR of 11"},
+                 {clock(row + 4) + "-" + clock(column),
+                  "columns, one beat per cycle; minimum and maximum of 11, sums in the last stage",
+                  "four 6-bit compares with muxes"},
+                 {clock(column + 1), "other hashes? enough? address of guard_colours",
+                  "6-bit compare, OR of 33"},
+                 {clock(last), "two colours three rows ago, write-back, decision",
+                  "SRAM read with bypass, SRAM write"}},
+      .formats = "hashes U6; counts per column U4, per window U7.",
+      .cost =
+          "per lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with muxes "
+          "and 22 more for the colours of a column, 20 and 44 for those of a window, two counts "
+          "of 11 bits, two sums of 11 times 4 bits; registers for 11 more columns. Per column, "
+          "guard_row holds 6 bits, guard_columns 83, guard_colours 3; the FIFO one bit per "
+          "pixel of R - 3 rows and 32 beats."};
 }
 
 }  // namespace deburr::rtl::morphological

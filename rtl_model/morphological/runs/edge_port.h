@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a predictor reads of the edges: the memory of its axis, through a port of its own. Columns
-// for vertical runs (EdgeWindow), rows for horizontal ones (EdgeRows).
+// Read port of a predictor for the edges of its axis: columns for vertical runs (EdgeWindow), rows
+// for horizontal runs (EdgeRows).
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ class EdgeMemory {
   EdgeMemory& operator=(const EdgeMemory&) = delete;
   virtual ~EdgeMemory() = default;
 
-  // The edges that the trial asks for; it keeps which those are.
+  // Reads the edges that the trial needs, and stores in the trial which columns they are.
   virtual void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     Trial& trial) = 0;
-  // In the clock after.
+  // Results are valid in the cycle after read().
   virtual std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                             const Trial& trial) const = 0;
   virtual std::uint8_t crossing_class(Cycle cycle, const FrameConfiguration& configuration,

@@ -39,10 +39,10 @@ MemoryShape shape(const spec::morphological::Parameters& p) {
   return shape;
 }
 
-// What a read shows: words of a row and of the one above; nullptr: not in the frame.
+// Result of a read: words of a row and of the row above; nullptr if outside the frame.
 struct StepEdges {
   const EdgeWord *row, *above;
-  std::int32_t first, last;  // columns that have been read
+  std::int32_t first, last;  // columns that were read
   std::int32_t width;
 
   static unsigned bit(std::uint64_t word, std::int32_t x) {
@@ -51,10 +51,10 @@ struct StepEdges {
   std::size_t word(std::int32_t x) const {
     return static_cast<std::size_t>((x >> kWordShift) - (first >> kWordShift));
   }
-  // Out of line, so that a check costs a comparison.
+  // Not inlined, to keep the check cheap.
   [[noreturn, gnu::cold, gnu::noinline]] static void fail(std::int32_t x) {
     throw spec::CheckFailed("edge_rows: the corner before column " + std::to_string(x) +
-                            " is not among those that have been read");
+                            " was used but not read");
   }
   std::uint8_t code(std::int32_t x) const {
     if (x < 0 || x > width) return 0;
@@ -70,7 +70,7 @@ struct StepEdges {
   bool along(std::int32_t x) const {
     return row != nullptr && x >= 0 && x < width && bit(row[word(x)].top, x) != 0;
   }
-  // Between two corners with an edge in this row each.
+  // Both corners have an edge in this row.
   bool unbroken(std::int32_t from, std::int32_t end) const {
     for (std::int32_t next; from < end; from = next) {
       next = std::min(end, ((from >> kWordShift) + 1) << kWordShift);
@@ -96,7 +96,7 @@ EdgeRows::EdgeRows(const spec::morphological::Parameters& p)
       steps_of_[parity].emplace_back(memory[parity], "predictors " + std::to_string(i));
 }
 
-// From the corner before the step to the one behind its longest candidate, and to the last edge of
+// From the corner before the step to the one after its longest candidate, and to the last edge of
 // its class.
 inline void EdgeRows::find_columns(const FrameConfiguration& configuration, Trial& trial) const {
   const std::int32_t most = trial.tries ? std::min(trial.length + 1, trial.room) : 0;
@@ -113,7 +113,7 @@ inline void EdgeRows::find_columns(const FrameConfiguration& configuration, Tria
 void EdgeRows::read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
                     Trial& trial) {
   find_columns(configuration, trial);
-  if (trial.first > trial.last) return;  // beyond the frame's border
+  if (trial.first > trial.last) return;  // outside the frame
   const auto words =
       static_cast<std::uint32_t>(trial.last / kWordColumns - trial.first / kWordColumns + 1);
   for (const std::int32_t y : {trial.line, trial.line - 1})

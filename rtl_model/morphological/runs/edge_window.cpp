@@ -11,8 +11,8 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// The two columns beside vertical lattice line `line`. The one before it has the rows of the one
-// behind it, `newest`, or is a row ahead.
+// The two columns next to vertical lattice line `line`. The first column holds the same rows as the
+// second (up to `newest`) or one more.
 struct BesideLine {
   const EdgeWindow& window;
   std::int32_t line;
@@ -24,10 +24,10 @@ struct BesideLine {
     if (age < 0 || age >= rows) [[unlikely]]
       fail(y);
   }
-  // Out of line, so that a check costs a comparison.
+  // Not inlined, to keep the check cheap.
   [[noreturn, gnu::cold, gnu::noinline]] void fail(std::int32_t y) const {
-    throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the " +
-                            std::to_string(rows) + " up to row " + std::to_string(newest));
+    throw spec::CheckFailed("edge_window: row " + std::to_string(y) + " is not among the last " +
+                            std::to_string(rows) + " rows, up to row " + std::to_string(newest));
   }
   std::uint8_t code(std::int32_t y) const {
     check(y);
@@ -59,7 +59,7 @@ MemoryShape shape(const spec::morphological::Parameters& p, std::int32_t lanes) 
   const bool crossings = p.ends == spec::morphological::Ends::kCrossings;
   shape.word_bits = static_cast<std::uint32_t>(2 * (p.window_rows + 1) + (crossings ? 1 : 0));
   shape.read_ports = static_cast<std::uint32_t>(1 + PortSchedule(p).ports());
-  // Readers know by the beat whether a column has moved on.
+  // Readers detect from the raster position whether a column was shifted.
   shape.read_during_write = ReadDuringWrite::kOldWord;
   shape.banks = shape.span = columns;
   shape.content = "left and top edges of window_rows + 1 rows, one word per column";

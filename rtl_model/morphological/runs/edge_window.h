@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The edges of the last rows by columns, both planes: what runs are found in, and the corners of
-// vertical runs.
+// Edges of the last rows, stored by columns, both planes: the runs are searched here, and the
+// corners of vertical runs.
 //
-// Where: written by the RunExtractor, a beat of columns a clock; read by it, and by the predictors
-// of vertical runs. A word is a column: bit k of a plane is the edge of the k-th newest row. The
-// extractor reads the words of its beat, moves them on by a row and writes them back. So the row in
-// hand is always at the same bits, and rows that are not there read as 0: those below the frame
-// come in as zeros, those above it are what slot row 0 clears. Holds window_rows + 1 rows: R on
-// either side of the row whose runs are being predicted, one for the records that are still under
-// way when the next slot row has begun, and the row being written. With crossings a word has one
-// bit more.
-//
-// Synchronous SRAM, latency 1, never stalls. Ports: 1 write and 1 read of a beat (extractor), and
-// reads of the two columns beside a lattice line, as many as the schedule of the predictors has
-// (PortSchedule). Read-first: a word that is read in the clock in which it moves on is the old one;
-// where the beats are in the frame tells which it was. Cost: (window_rows + 1) x 2 bits a column
-// (with crossings one more), a copy a read port, banks by column. Made for 250 MHz; longest path,
-// at the address: a comparator of 13 bits and a choice of two.
+// Position  Written and read by the RunExtractor, one beat of columns per cycle; read by the
+//           predictors of vertical runs.
+// Layout    A word is a column; bit k of a plane is the edge in the k-th newest row. The extractor
+//           reads the words of its beat, shifts them by one row and writes them back, so the
+//           current row is always at the same bits. Rows outside the frame read as 0: zeros are
+//           shifted in below it, and slot row 0 clears the rows above it. It holds window_rows + 1
+//           rows: R on either side of the row being predicted, one for descriptors still in flight
+//           when the next slot row begins, one being written. With crossings a word has one more
+//           bit.
+// Latency   1 (synchronous SRAM); never stalls.
+// Ports     1 write and 1 read of a beat (extractor); reads of the two columns next to a lattice
+//           line by PortSchedule. Read-first: a read in the cycle of the write returns the old
+//           word, which the reader detects from the raster position.
+// Cost      (window_rows + 1) x 2 bits per column and read port (with crossings one more), banks by
+//           column.
+// Path      Made for 250 MHz; longest, at the address: 13-bit comparator and 2 : 1 mux.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +31,7 @@
 
 namespace deburr::rtl::morphological {
 
-// The edges of a beat in a row; bit k: lane k.
+// Edges of one row in a beat; bit k is lane k.
 struct EdgeBits {
   std::uint8_t left = 0, top = 0;
 };
@@ -39,11 +40,11 @@ class EdgeWindow final : public EdgeMemory {
  public:
   EdgeWindow(const char* name, const spec::morphological::Parameters& parameters);
 
-  // --- The extractor: the columns of a beat, which begins at `column` ---
+  // --- Port of the extractor: the columns of a beat that begins at `column` ---
   void read_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column) {
     beat_.read(cycle, at(column), columns(configuration, column));
   }
-  // In a clock after: the words of that beat go back in slot row `row`, moved on by the row above.
+  // One cycle after the read: the words are shifted by one row and written back in slot row `row`.
   void write_beat(Cycle cycle, const FrameConfiguration& configuration, std::int32_t column,
                   std::int32_t row, EdgeBits newest) {
     beat_.check(cycle, at(column));
@@ -54,10 +55,10 @@ class EdgeWindow final : public EdgeMemory {
     else
       bits_[place(column >> lane_bits_, row - 1)] = newest;
   }
-  // Bits of those words, and of the column before them, a register in hardware, which is nothing at
-  // the frame's border.
+  // Edges of these words and of the column before them (a register in hardware; 0 at the frame
+  // border).
   EdgeBits beat(std::int32_t beat, std::int32_t y) const { return bits_[place(beat, y)]; }
-  // The same of all beats of row y, from the first one on.
+  // All beats of row y, beginning with the first.
   const EdgeBits* beats(std::int32_t y) const { return &bits_[place(0, y)]; }
   bool left(std::int32_t x, std::int32_t y) const {
     return beat(x >> lane_bits_, y).left >> lane(x) & 1;
@@ -66,12 +67,12 @@ class EdgeWindow final : public EdgeMemory {
     return beat(x >> lane_bits_, y).top >> lane(x) & 1;
   }
 
-  // --- The extractor, in an engine with crossings: which of its two entries the newest run of a
-  // column has. A bit of the word, which turns over where a run begins.
+  // With crossings: which of its two entries the newest run of a column uses. A bit of the word,
+  // toggled where a run begins.
   std::uint8_t entry(std::int32_t x) const { return entries_[static_cast<std::size_t>(x)]; }
   void turn_entry(std::int32_t x) { entries_[static_cast<std::size_t>(x)] ^= 1; }
 
-  // --- A predictor of vertical runs: both columns beside the trial's lattice line ---
+  // --- Port of a predictor of vertical runs: both columns next to the trial's lattice line ---
   void read(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
             Trial& trial) override;
   std::uint8_t hits(Cycle cycle, const FrameConfiguration& configuration, std::size_t port,
@@ -83,11 +84,11 @@ class EdgeWindow final : public EdgeMemory {
 
  private:
   void clear(std::int32_t beat);
-  // The newest row of a column, by where the beats are in the frame.
+  // Newest row of a column, from the raster position.
   std::int32_t newest_row(std::int32_t column) const {
     return progress_.row - (column < progress_.end ? 1 : 2);
   }
-  // Of a beat's bits of row y; beat -1, in front of the frame, is nothing.
+  // Index of a beat of row y; beat -1, before the frame, holds no edges.
   std::size_t place(std::int32_t beat, std::int32_t y) const {
     return (static_cast<std::uint32_t>(y) & row_mask_) * row_beats_ +
            static_cast<std::uint32_t>(beat + 1);
@@ -106,14 +107,13 @@ class EdgeWindow final : public EdgeMemory {
   ReadPort<void> beat_;
   WritePort<void> update_;
   std::deque<ReadPort<void>> lines_;
-  // The model keeps the bits by rows and beats, row y at y modulo a power of two, and reads them
-  // where they are: a word that has moved on since its read was issued shows the same rows, a bit
-  // further on.
+  // The model stores bits by rows and beats, row y at y modulo a power of two. It reads them in
+  // place: after a shift the same rows are at bits one further on.
   std::vector<EdgeBits> bits_;
   std::vector<std::uint8_t> entries_;  // by column
   struct {
     std::int32_t row = 0, end = 0;
-  } progress_;  // slot row of the last write, and the column behind it
+  } progress_;  // slot row and end column of the last write
 };
 
 }  // namespace deburr::rtl::morphological

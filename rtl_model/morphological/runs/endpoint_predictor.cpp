@@ -16,8 +16,8 @@ EndpointPredictor::EndpointPredictor(const sc_core::sc_module_name& name, ClockD
       units_(static_cast<std::size_t>(p.predictor_units)),
       turn_(lanes_) {
   const Predictor::Counters counters{extended_runs, steps, probes, iterations};
-  // Those of a lane do not follow each other in the schedule: they begin in different cycles, so
-  // that a FIFO that gives a record a clock serves all of them in time.
+  // The predictors of a lane are not adjacent in the schedule: they start in different cycles, so
+  // one FIFO that delivers a descriptor per cycle serves all of them without waiting.
   const int lanes = built_lanes(p);
   for (int lane = 0; lane < lanes; ++lane)
     for (int unit = 0; unit < p.predictor_units; ++unit) {
@@ -44,7 +44,7 @@ Activity EndpointPredictor::work(Cycle cycle) {
     if (held_ == 0 && !arrives) continue;
     Place* const group = &places_[lane * units_];
 
-    // The result registers take turns.
+    // The result registers are sent in rotation.
     Out<SumsToken>& out = sums_out[lane];
     std::size_t& turn = turn_[lane];
     for (std::size_t i = 0, k = turn; full_ != 0 && i < units_;
@@ -67,7 +67,8 @@ Activity EndpointPredictor::work(Cycle cycle) {
     for (std::size_t k = 0; k < units_; ++k) {
       Place& place = group[k];
       Predictor& predictor = place.predictor;
-      // What is joined leaves room for a record in the same clock, and that may leave at once.
+      // A predictor that joins is free for a new descriptor in the same cycle, which may also join
+      // at once.
       const auto join = [&] {
         if (!predictor.joins(cycle)) return;
         if (place.full) {
@@ -111,11 +112,11 @@ void EndpointPredictor::reset() {
 
 Datasheet EndpointPredictor::datasheet() {
   return {.unit = "EndpointPredictor",
-          .variant = "records that are not extended",
-          .does = "Extends clean Z runs to both sides and sums up their corners.",
+          .variant = "not extended",
+          .does = "Extends clean Z runs on both sides and sums their corners.",
           .latency = {2},
-          .stages = {{"1", "a record to the first predictor that is free, its sums"},
-                     {"2", "one result a lane and clock", "choice of 1 in 16 predictors"}}};
+          .stages = {{"1", "descriptor to the first free predictor; its sums"},
+                     {"2", "one result per lane and cycle", "16 : 1 mux of predictors"}}};
 }
 
 Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Parameters& p) {
@@ -123,49 +124,49 @@ Datasheet EndpointPredictor::trial_datasheet(const spec::morphological::Paramete
   const std::uint64_t over = trial >= 3 ? trial : trial == 2 ? 4 : 3;
   return {
       .unit = "EndpointPredictor",
-      .variant = "records that are extended",
+      .variant = "extended",
       .does = datasheet().does,
       .latency = {trial + 5,
-                  "T x trials + 5, and up to T - 1 that it waits for its first trial (T = "
+                  "T x trials + 5, plus up to T - 1 of waiting for the first trial (T = "
                   "`trial_cycles`)"},
       .interval =
           {trial + over,
-           "T x (trials + 1) of one of predictor_units (T = 2: T x trials + 4, T = 1: trials "
-           "+ 3)"},
+           "T x (trials + 1) per predictor, predictor_units of them (T = 2: T x trials + 4, "
+           "T = 1: trials + 3)"},
       .stages =
-          {{"0", "address of the right side's columns (the left side's: here or in clock 1)",
+          {{"0", "address of the right side's columns (of the left side's here or in cycle 1)",
             "13-bit add, 5-bit add"},
-           {"1", "their words come, choice of groups of bits", "SRAM read, 8 : 1 choice"},
+           {"1", "the words arrive; select groups of bits", "SRAM read, 8 : 1 mux"},
            {"2",
-            "choice of bits, codes of the corners compared, edges between them all set; the "
-            "left side's words come",
-            "32 : 1 choice, 4-bit comparison"},
-           {"3", "the same for the left side, if it reads a clock later",
-            "32 : 1 choice, 4-bit comparison"},
+            "select bits; compare corner codes; test that all edges between them are set; the "
+            "left side's words arrive",
+            "32 : 1 mux, 4-bit comparison"},
+           {"3", "the same for the left side if it reads one cycle later",
+            "32 : 1 mux, 4-bit comparison"},
            {"4 = 0'",
-            "bounds: steps taken or rejected; beside it the next address, from the hits alone. "
-            "A read for a side that the bounds end is dropped",
-            "7-bit add, two comparisons, choice"},
+            "bounds: steps accepted or rejected; in parallel the next address, from the hits "
+            "only. A read for a side that the bounds end is discarded",
+            "7-bit add, two comparisons, mux"},
            {"5", "sums of the new corners", "13 x 5 multiply, 24-bit add"},
-           {"6", "after the last trial: the sums of both sides joined", "choice, two 24-bit adds"}},
-      .formats = "positions S13 from the start of the run, sums of a side S18 and S24.",
+           {"6", "after the last trial: join the sums of both sides", "mux, two 24-bit adds"}},
+      .formats = "positions S13 from the start of the run, sums per side S18 and S24.",
       .cost =
-          "a predictor: LineBounds (safe); a side 16 flip-flops of letters, 3 x 60 of sums "
-          "(trim; else 60), five comparators of 4 bits, three adders and a multiplier of 13 x 5 "
-          "bits for its sums, trim another one of 13 x 4 and two adders, a selector 3 : 1 of 60 "
-          "bits; classes the first gap of ten edges a side. A lane predictor_units of these, "
-          "with registers of a SumsToken and their choice."};
+          "per predictor: LineBounds (safe); per side 16 flip-flops of letters, 3 x 60 of sums "
+          "(trim; else 60), five 4-bit comparators, three adders and a 13 x 5 multiplier for the "
+          "sums; trim adds a 13 x 4 multiplier, two adders and a 3 : 1 mux of 60 bits; classes "
+          "add the first gap of ten edges per side. Per lane: predictor_units of these, with "
+          "registers for a SumsToken and a mux."};
 }
 
 Datasheet EndpointPredictor::class_datasheet(const spec::morphological::Parameters& p) {
   const auto trial = static_cast<std::uint64_t>(p.trial_cycles);
   return {
       .unit = "EndpointPredictor",
-      .variant = "classes of crossings alone",
+      .variant = "classes only",
       .does = datasheet().does,
-      .latency = {trial + 2, "T + 2, and up to T - 1 that it waits for its reads"},
-      .interval = {trial, "T of one of predictor_units"},
-      .stages = {{"0-3", "as the first trial of a record that is extended"},
+      .latency = {trial + 2, "T + 2, plus up to T - 1 of waiting for the reads"},
+      .interval = {trial, "T per predictor, predictor_units of them"},
+      .stages = {{"0-3", "as in the first trial of an extended descriptor"},
                  {"4", "class of each crossing: the corner's code, the first gap of ten edges"}}};
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Extends clean Z runs to both sides and sums up their corners: the predictors of an axis.
+// Extends clean Z runs on both sides and sums their corners: all predictors of one axis.
 //
-// Where: between the record FIFOs and the LineUnit, one of these an axis. For each lane a FIFO
-// feeds predictor_units predictors, a record a clock to the first that is free; each has a result
-// register, and one of these a lane and clock goes to the LineUnit. The predictors weight the read
-// ports of their axis' memory by a fixed schedule (PortSchedule). A result is sent in the clock
-// after the one in which its record is let go (Predictor). Stalls: `downstream` (the result
-// registers are still full).
+// Position  Descriptor FIFOs -> EndpointPredictor -> LineUnit; one instance per axis. Per lane, a
+//           FIFO feeds predictor_units predictors: one descriptor per cycle, to the first free
+//           predictor. They share the read ports of their axis' edge memory by a static schedule
+//           (PortSchedule).
+// Output    Each predictor has a result register; one result per lane and cycle goes to the
+//           LineUnit, one cycle after the predictor releases the descriptor.
+// Stalls    downstream  The result registers are full.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ class EndpointPredictor final : public Unit {
   LanePorts<In<RunToken>> descriptors_in;
   LanePorts<Out<SumsToken>> sums_out;
 
-  // Of horizontal runs, which read rows; of vertical runs, which read columns.
+  // Horizontal runs read rows, vertical runs read columns.
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
                     const spec::morphological::Parameters& parameters, EdgeRows& rows);
   EndpointPredictor(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -46,11 +47,12 @@ class EndpointPredictor final : public Unit {
   Counter extended_runs{"extended_runs", "runs", "runs extended by at least one step"};
   Counter steps{"steps", "steps", "extension steps kept"};
   Counter probes{"probes", "corners", "corners tested"};
-  Counter iterations{"iterations", "trials", "trials, of one side or of both"};
-  Counter occupancy{"occupancy", "clk", "occupied cycles, summed over predictors"};
+  Counter iterations{"iterations", "trials", "trials (one side or both)"};
+  Counter occupancy{"occupancy", "clk",
+                    "cycles in which a predictor held a descriptor, summed over predictors"};
 
-  static Datasheet datasheet();  // of a record that is not extended and has no class to be found
-  // Of a record that is extended by one step of both sides.
+  static Datasheet datasheet();  // descriptor that is not extended and needs no class
+  // Descriptor extended by one step on both sides.
   static Datasheet trial_datasheet(const spec::morphological::Parameters& parameters);
   static Datasheet class_datasheet(const spec::morphological::Parameters& parameters);
 
@@ -68,11 +70,11 @@ class EndpointPredictor final : public Unit {
   Activity work(Cycle cycle);
 
   const PortSchedule schedule_;
-  const std::size_t lanes_, units_;  // units_: predictors a lane
+  const std::size_t lanes_, units_;  // units_: predictors per lane
   std::vector<Place> places_;
-  std::vector<std::size_t> turn_;  // of each lane: the predictor whose result is sent next
-  std::uint32_t held_ = 0;         // records and results inside
-  std::uint32_t full_ = 0;         // result registers
+  std::vector<std::size_t> turn_;  // per lane: the predictor whose result is sent next
+  std::uint32_t held_ = 0;         // descriptors and results inside
+  std::uint32_t full_ = 0;         // full result registers
 };
 
 }  // namespace deburr::rtl::morphological

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Can one line have produced these corners? The rule `safe` asks it of every corner that is to be
-// added, at either end.
+// Tests whether one line can have produced all corners: rule `safe`, applied to every corner to be
+// added at either end.
 //
-// Where: one in each Predictor. All steps of a safe record are L or the one L', so corner i lies at
-// L i, and one pixel further for each L' before it: only the letters count, L or L'. Corners are
-// consistent (docs/reference/morphological/algorithm.md) if and only if the letters are those of a
-// digital straight line, and that is known from its slope a / b and from where the corners touch
-// it: Debled-Rennesson and Reveilles, "A linear algorithm for segmentation of digital curves"
-// (1995), for growth at both ends. With i the number of a corner and y the letters L' up to it, the
-// remainder a i - b y lies in a band of b values. A new corner fits if its remainder is in the band
-// (the line stays) or beside it (the line turns about the corner that it touches first). Two new
-// corners that fit alone fit together, unless both turn it and lie on the same side: a bend. The
-// quadratic definition says the same in every case (test).
-//
-// Schedule, of a trial every four cycles: in the clock `bounds` right(), left() and together(),
-// each an adder and two comparators of 7 bits; beside them the new a and b of the right corner. In
-// the next clock the remainders, two products of 6 x 6 bits; then the same for the left corner. The
-// state is there for the next trial's `bounds`.
-// Cost: 8 x 12 flip-flops of corners, 4 x 6 of slope and remainders; 2 products of 6 x 6 bits, 8
-// adders of 7. (By the definition: 34 products of 13 x 6 bits and a running maximum and minimum
-// over them, a corner.) Made for 250 MHz; longest path: 6 x 6 multiply, 12-bit add; with
-// trial_cycles below 4 two and more of these steps weight a clock.
+// Position  One in each Predictor.
+// Method    All steps of a safe descriptor are L or one other value L', so corner i lies at L i
+//           plus one pixel for each L' before it: only the sequence of letters L and L' matters.
+//           Corners are consistent (docs/reference/morphological/algorithm.md) if and only if the
+//           letters form a digital straight line, described by its slope a / b and the corners that
+//           touch it. For corner i with y letters L' before it, the remainder a i - b y lies in a
+//           band of b values. A new corner fits if its remainder is in the band (the line stays) or
+//           adjacent to it (the line turns about the corner that it touches first). Two new corners
+//           that each fit also fit together, unless both turn the line and lie on the same side: a
+//           bend. A test compares this with the quadratic definition.
+// Latency   Trial every four cycles. Cycle `bounds`: right(), left(), together(), each a 7-bit
+//           adder and two 7-bit comparators; in parallel the new a and b for the right corner. Next
+//           cycle: the remainders, two 6 x 6 products. Then the same for the left corner, in time
+//           for the next trial.
+// Cost      8 x 12 flip-flops for corners, 4 x 6 for slope and remainders; two 6 x 6 multipliers,
+//           eight 7-bit adders.
+// Path      Made for 250 MHz; longest: 6 x 6 multiply, 12-bit add. With trial_cycles below 4 two or
+//           more steps share a cycle.
+// Source    Debled-Rennesson and Reveilles, "A linear algorithm for segmentation of digital curves"
+//           (1995), extended to growth at both ends.
 #pragma once
 
 #include <cstdint>
@@ -29,19 +30,19 @@ namespace deburr::rtl::morphological {
 
 class LineBounds {
  public:
-  // What the line does for a new corner.
+  // Effect of a new corner on the line.
   enum class Fit : std::uint8_t { kStays, kTurnsUp, kTurnsDown, kNone };
 
-  // The run itself: corners 0 and 1, a step L between them.
+  // Starts with the run itself: corners 0 and 1, one step L apart.
   void begin() { *this = {}; }
 
-  // The corner behind the last (before the first) one, a step L or L' away, alone.
+  // Fit of one corner a step L or L' after the last (before the first) corner.
   Fit right(bool other) const { return fit(back_ + slope_over_ - (other ? slope_under_ : 0)); }
   Fit left(bool other) const { return fit(front_ - slope_over_ + (other ? slope_under_ : 0)); }
-  // Both, each of which fits alone.
+  // Do both fit together, given that each fits?
   static bool together(Fit right, Fit left) { return right == Fit::kStays || right != left; }
 
-  // Takes a corner that fits. Both of a trial: the right one first.
+  // Adds a corner that fits. Call add_right() before add_left() in a trial with both.
   void add_right(bool other) {
     const Fit how = right(other);
     const Corner corner{last_.index + 1, last_.others + (other ? 1 : 0)};
@@ -94,9 +95,9 @@ class LineBounds {
  private:
   struct Corner {
     std::int32_t index = 0;   // S6, -16..17
-    std::int32_t others = 0;  // S6, steps L' from corner 0 on
+    std::int32_t others = 0;  // S6, steps L' counted from corner 0
   };
-  // The band of remainders is 0..b - 1, counted from the corners that touch the line from above.
+  // The band of remainders is 0 .. b - 1; corners that touch the line from above have remainder 0.
   Fit fit(std::int32_t remainder) const {
     if (remainder == -1) return Fit::kTurnsUp;
     if (remainder == slope_under_) return Fit::kTurnsDown;
@@ -106,17 +107,17 @@ class LineBounds {
     slope_over_ = to.others - from.others;
     slope_under_ = to.index - from.index;
   }
-  // From the first corner's remainder to the last one's.
+  // Remainder of the last corner minus that of the first.
   std::int32_t across() const {
     return slope_over_ * (last_.index - first_.index) -
            slope_under_ * (last_.others - first_.others);
   }
 
-  std::int32_t slope_over_ = 0, slope_under_ = 1;  // a / b: U6, steps L' of all steps
+  std::int32_t slope_over_ = 0, slope_under_ = 1;  // a / b: U6, steps L' per step
   std::int32_t front_ = 0, back_ = 0;              // U6, remainders of the first and last corner
   Corner first_{0, 0}, last_{1, 0};
-  // The outermost corners on either border of the band.
-  // The line has turned before above_last_ or below_first_ is looked at.
+  // Outermost corners on either border of the band. above_last_ and below_first_ are read only
+  // after the line has turned.
   Corner above_first_{0, 0}, above_last_, below_first_, below_last_{1, 0};
 };
 

@@ -14,7 +14,7 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-// The tables are U1.26, the inverse is U12.12.
+// Table U1.26, result U12.12.
 constexpr int kInverseDrop = 26 - spec::morphological::kInverseFractionBits;
 
 std::uint32_t inverse(std::int32_t pixels, std::uint32_t table) {
@@ -25,7 +25,7 @@ std::uint32_t inverse(std::int32_t pixels, std::uint32_t table) {
 
 constexpr std::size_t kWords = spec::morphological::kMaxCorners;
 
-// The tables of the chord, by steps, and of the fit, by steps too: corners - 1.
+// Chord table by steps, then the fit table, also by steps (corners - 1).
 std::vector<std::uint32_t> inverse_words() {
   std::vector<std::uint32_t> words(2 * kWords);
   std::copy(spec::morphological::kChordInverseSlope.begin(),
@@ -60,12 +60,12 @@ LineUnit::LineUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                     .kind = MemoryKind::kRom,
                     .read_ports = static_cast<std::uint32_t>(lanes_),
                     .write_ports = 0,
-                    .content = "inverse slope of a pixel, by steps: chord, fit"},
+                    .content = "inverse slope per pixel, by steps: chord, fit"},
                    inverse_words()),
       dividers_(lanes_) {
   for (std::size_t lane = 0; lane < lanes_; ++lane)
     inverse_.emplace_back(inverse_rom_, "lane " + std::to_string(lane));
-  // As many as are under way when nothing waits: the next one starts when the oldest has gone.
+  // Entries in flight without stalls: a new division starts when the oldest has left.
   for (Divider& divider : dividers_) divider.flight.resize((latency_ + interval_ - 1) / interval_);
 }
 
@@ -129,7 +129,7 @@ Activity LineUnit::work(Cycle cycle) {
   return blocked ? kStalledDownstream : waits ? interval_stall_ : kIdle;
 }
 
-// What goes through as it is.
+// Fields that pass through unchanged.
 LineToken LineUnit::begun(const SumsToken& sums) {
   LineToken token{};
   token.slot = sums.run.slot;
@@ -143,7 +143,7 @@ LineToken LineUnit::begun(const SumsToken& sums) {
   return token;
 }
 
-// Stage 1, and the quotient that comes of it.
+// Stage 1; the model also computes the quotient here.
 void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Division& division) {
   const spec::morphological::RunDescriptor& run = sums.run.run;
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[run.shape];
@@ -154,7 +154,7 @@ void LineUnit::begin(Cycle cycle, std::size_t lane, const SumsToken& sums, Divis
   line.before = shape.before;
   line.after = shape.after;
   if (run.part != spec::morphological::RunPart::kWhole) {
-    // One end of a run of `reach` pixels.
+    // One end of a run of search_range_ pixels.
     line.scale = 2;
     line.offset = run.part == spec::morphological::RunPart::kHead ? search_range_
                                                                   : 2 * run.length - search_range_;
@@ -201,27 +201,30 @@ Datasheet LineUnit::datasheet(const spec::morphological::Parameters& p) {
   return {
       .unit = "LineUnit",
       .variant = "lines",
-      .does = "The line through a record's corners: one division, and an inverse by a table.",
+      .does =
+          "Fits a line through a descriptor's corners: one division, and an inverse by a table.",
       .latency = {static_cast<std::uint64_t>(p.divider_latency) + 1,
-                  "divider.latency, and 1 of its link"},
-      .interval = {static_cast<std::uint64_t>(p.divider_interval), "divider.interval a lane"},
-      .stages = {{"1", "products (of the corners, of their sum), address of the table"},
+                  "divider.latency + 1 of its link"},
+      .interval = {static_cast<std::uint64_t>(p.divider_interval), "divider.interval, per lane"},
+      .stages = {{"1", "products (of the corners, of their sum), table address"},
                  {"2", "numerator, denominator"},
                  {"from 3",
-                  "at most two of 24 quotient bits a clock, beside it the inverse (a multiply in "
-                  "two stages) and its rounding",
-                  "choice of 4 multiples + 29-bit add; half of a 24 x 27 multiply"}},
+                  "at most two of 24 quotient bits per cycle; in parallel the inverse (a multiply "
+                  "in two stages) and its rounding",
+                  "4 : 1 mux of multiples + 29-bit add; half of a 24 x 27 multiply"}},
       .formats = "slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26.",
       .cost =
-          "a lane: a divider 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 "
-          "and 24 x 27, a read of inverse_rom (2 x 34 x 27 bits)."};
+          "per lane: a divider 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 "
+          "and 24 x 27, one read port of inverse_rom (2 x 34 x 27 bits)."};
 }
 
 Datasheet LineUnit::learned_datasheet() {
-  return {.unit = "LineUnit",
-          .variant = "learned records",
-          .does = "The line through a record's corners: one division, and an inverse by a table.",
-          .latency = {1, "1 of its link: it passes the divider"}};
+  return {
+      .unit = "LineUnit",
+      .variant = "learned weights",
+      .does =
+          "Fits a line through a descriptor's corners: one division, and an inverse by a table.",
+      .latency = {1, "1 of its link: bypasses the divider"}};
 }
 
 }  // namespace deburr::rtl::morphological

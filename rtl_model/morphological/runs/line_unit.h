@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The line through a record's corners: scale, offset and shift from the sums, the slope by one
-// division, its inverse by a table.
+// Fits the line through a descriptor's corners: scale, offset and shift from the sums, slope by one
+// division, inverse slope by a table.
 //
-// Where: between an EndpointPredictor and the AreaUnit, one of these an axis, with one divider a
-// lane. divider.latency is at least kLeastLatency: two cycles of products, and at most two of 24
-// quotient bits a clock (radix 4); a longer one takes fewer bits a clock. Stalls: `interval` (the
-// divider cannot start again yet), `downstream` (its pipe of latency / interval places, rounded up,
-// is full; a result leaves in its clock). A learned record has no line: it passes the divider, in
-// the clock that pops it, if no quotient leaves in that clock (else `downstream`). Source:
-// least-squares line with equidistant heights; paper 000 for the chord.
+// Position  EndpointPredictor -> LineUnit -> AreaUnit; one per axis, one divider per lane.
+// Latency   divider.latency >= kLeastLatency: two cycles of products, then at most two of 24
+//           quotient bits per cycle (radix 4). A larger latency computes fewer bits per cycle.
+// Stalls    interval    The divider cannot start yet.
+//           downstream  The divider's pipeline of ceil(latency / interval) entries is full. A
+//                       result leaves in the cycle in which it is ready.
+// Note      A descriptor with learned weights has no line: it bypasses the divider in the cycle
+//           that pops it, if no quotient leaves in that cycle (else stall `downstream`).
+// Source    Least-squares line with equidistant heights; paper 000 for the chord.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +28,7 @@ namespace deburr::rtl::morphological {
 
 class LineUnit final : public Unit {
  public:
-  // Two cycles of products, 24 quotient bits in twelve.
+  // Two cycles of products, 12 cycles for 24 quotient bits.
   static constexpr std::int32_t kLeastLatency = spec::morphological::kLeastDividerLatency;
 
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
@@ -43,21 +45,21 @@ class LineUnit final : public Unit {
   void reset() override;
 
   Counter divides{"divides", "divisions", "divisions started"};
-  // Against lanes x cycles: how full the dividers are.
+  // Relative to lanes x cycles: utilisation of the dividers.
   Counter occupancy{"occupancy", "clk",
                     "cycles in which a divider could not start a division, summed over dividers"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
-  static Datasheet learned_datasheet();  // of a record without a line
+  static Datasheet learned_datasheet();  // descriptor with learned weights
 
  private:
   struct Division {
     LineToken result;
     Cycle ready;          // the quotient is in its register
-    std::int32_t pixels;  // the inverse is so many times a word of the table
-    std::uint32_t word;   // its address
+    std::int32_t pixels;  // factor of the table word, for the inverse
+    std::uint32_t word;   // address of the table word
   };
-  // The divider of a lane; divisions in flight, oldest first, in a ring.
+  // A lane's divider; a ring buffer of divisions in flight, oldest first.
   struct Divider {
     std::vector<Division> flight;
     std::size_t oldest = 0, count = 0;
@@ -74,10 +76,10 @@ class LineUnit final : public Unit {
   const Cycle latency_, interval_;
   Activity interval_stall_;
   Memory<std::uint32_t> inverse_rom_;
-  std::vector<ReadPort<std::uint32_t>> inverse_;  // a lane
+  std::vector<ReadPort<std::uint32_t>> inverse_;  // per lane
   std::vector<Divider> dividers_;
-  std::uint32_t in_flight_ = 0;  // divisions, of all lanes
-  Cycle due_ = 0;                // if none begins: up to here they only go on
+  std::uint32_t in_flight_ = 0;  // divisions in all lanes
+  Cycle due_ = 0;                // without a new input, nothing changes before this cycle
 };
 
 }  // namespace deburr::rtl::morphological

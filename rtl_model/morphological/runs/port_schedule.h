@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Who reads the edges when: the read ports of a memory, shared in time by the predictors of an
-// axis.
+// Static schedule for the edge memories' read ports, shared in time by the predictors of one axis.
 //
-// A predictor makes a trial every trial_cycles cycles, and a trial reads once for each side. These
-// reads have fixed places in a table of trial_cycles x ports that goes round with the clock: the
-// two of the first predictor come first, then those of the second, and so on, each port in turn.
-// Numbers count the lanes first, so that the predictors of a lane begin in different cycles. So
-// nobody waits for a port but for the clock in which a record's first trial may begin, there is
-// nothing to arbitrate, and no memory has more ports than reads a clock. The left side reads in the
-// clock of the right one or, if the table says so, in the next.
+// A predictor starts a trial every trial_cycles cycles and reads once per side. The reads have
+// fixed slots in a table of trial_cycles x ports entries that repeats from reset on: first both
+// reads of predictor 0, then those of predictor 1, and so on, ports in rotation. Predictors are
+// numbered with the lane first, so the predictors of a lane start in different cycles. The ports
+// need no arbiter and are no more than the reads per cycle; a descriptor waits only for its
+// predictor's first cycle. The left side reads in the cycle of the right side or, if the table says
+// so, one later.
 #pragma once
 
 #include "rtl_model/fabric/clocked.h"
@@ -27,10 +26,10 @@ class PortSchedule {
 
   int cycles() const { return cycles_; }
   int ports() const { return ports_; }
-  // Of a predictor and side (0: right, 1: left).
+  // By predictor and side (0: right, 1: left).
   int phase(int predictor, int side) const { return (kSides * predictor + side) / ports_; }
   int port(int predictor, int side) const { return (kSides * predictor + side) % ports_; }
-  // Cycles from the clock `since` the reset on to the first one that has this phase.
+  // Cycles from cycle `since` (counted from reset) to the next cycle with this phase.
   Cycle wait(Cycle since, int phase) const {
     const auto cycles = static_cast<Cycle>(cycles_);
     return (static_cast<Cycle>(phase) + cycles - since % cycles) % cycles;

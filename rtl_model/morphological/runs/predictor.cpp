@@ -6,12 +6,12 @@
 namespace deburr::rtl::morphological {
 namespace {
 
-constexpr int kCrossing = 2;  // of a crossing code, in that of a corner
+constexpr int kCrossing = 2;  // crossing bits of a corner code start here
 
-// Crossing codes of a single edge.
+// Crossing codes with a single edge.
 constexpr int kFirstSide = 1, kSecondSide = 2;
 
-// From the last trial's bounds to the sums and their join.
+// Cycles from the last trial's bounds to the join of the sums.
 constexpr Cycle kJoinAfter = 2;
 
 }  // namespace
@@ -70,7 +70,7 @@ void Predictor::take(Cycle cycle, const FrameConfiguration& configuration, Cycle
     side->open = true;
     side->other = 0;
     side->letters = 0;
-    // No step yet: nothing to give back, and the half of none is none.
+    // No step yet: all prefixes are empty.
     side->reached[kBeforeLast] = side->reached[kFirstHalf] = side->reached[kAll];
     side->trial.length = length_;
     side->trial.to_the_right = side->to_the_right;
@@ -80,7 +80,7 @@ void Predictor::take(Cycle cycle, const FrameConfiguration& configuration, Cycle
   bounds_.begin();
 }
 
-// The class of an end's crossing, if it has a single one.
+// Sets up the class of an end's crossing if it has exactly one.
 void Predictor::look_at(End& end, int code) {
   const spec::morphological::RunDescriptor& run = run_.run;
   end.crossing_class = 0;
@@ -93,7 +93,7 @@ void Predictor::look_at(End& end, int code) {
   end.trial.looks = whole ? std::min(kMostLooks, search_range_ - length_) : 0;
 }
 
-// The reads of a record's classes alone.
+// Reads for the classes of a descriptor that is not extended.
 void Predictor::look(Cycle cycle) {
   const Cycle clock = cycle - trial_at_;
   if (clock == 1) see(cycle, right_);
@@ -105,7 +105,7 @@ void Predictor::look(Cycle cycle) {
   join_at_ = cycle;
 }
 
-// What was read comes in before what is decided by it, and that before the next read.
+// Order matters: see data that were read, decide, then issue the next read.
 void Predictor::run_trial(Cycle cycle) {
   Cycle clock = cycle - trial_at_;
   if (clock == 1) see(cycle, right_);
@@ -123,7 +123,7 @@ void Predictor::run_trial(Cycle cycle) {
   if (clock == left_after_) read(cycle, left_);
 }
 
-// The longest step that stays within the reach.
+// Longest step within the search range.
 std::int32_t Predictor::room(const End& end) const {
   const std::int32_t x = end.reached[kAll].position;
   return search_range_ - (end.to_the_right ? x : length_ - x);
@@ -169,7 +169,7 @@ bool Predictor::decide() {
   return (right_.open || left_.open) && step_ < configuration_->steps;
 }
 
-// The first candidate that hits, or 0.
+// First candidate that hits, or 0.
 std::int32_t Predictor::chosen(const End& end) const {
   if (!end.open) return 0;
   if (end.hits & kEqual) return length_;
@@ -177,7 +177,7 @@ std::int32_t Predictor::chosen(const End& end) const {
   return end.hits & kLonger && (end.other == 0 || end.other > length_) ? length_ + 1 : 0;
 }
 
-// Each end by itself, with an L' of its own.
+// Each end has its own L'.
 void Predictor::decide_apart() {
   for (End* const end : {&right_, &left_}) {
     if (!end->open) continue;
@@ -191,7 +191,7 @@ void Predictor::decide_apart() {
   }
 }
 
-// Both ends weight L', and every corner must lie on one line with all the others.
+// Both ends share L', and all corners must lie on one line.
 void Predictor::decide_together() {
   using Fit = LineBounds::Fit;
   std::int32_t right = chosen(right_), left = chosen(left_);
@@ -238,7 +238,8 @@ void Predictor::accept(End& end, std::int32_t step) {
   add(half, end.letters >> half.steps & 1 ? end.other : length_);
 }
 
-// The line is lost, unless a candidate that lies beyond the reach might have gone on with it.
+// The last step is lost too, unless a candidate beyond the search range might have continued the
+// line.
 void Predictor::lose(End& end) {
   const std::int32_t largest = end.other == 0 ? length_ + 1 : std::max(length_, end.other);
   close(end, largest > room(end) ? kAll : kBeforeLast);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One side of a trial of a predictor: what it asks of the edges, which candidates hit, and the
-// class of the crossing that it begins at.
+// One side of a predictor's trial: the edges it needs, the candidates that hit, and the class of
+// the crossing at its start.
 #pragma once
 
 #include <algorithm>
@@ -8,36 +8,36 @@
 
 namespace deburr::rtl::morphological {
 
-// Positions count along the axis, lattice lines across it, both from the frame's border.
+// Positions along the axis and lattice lines across it, both counted from the frame border.
 struct Trial {
-  std::int32_t line;    // that the corners lie on
-  std::int32_t from;    // where the step begins
+  std::int32_t line;    // lattice line of the corners
+  std::int32_t from;    // start of the step
   std::int32_t length;  // L
-  std::int32_t room;    // the longest step that stays within the reach
+  std::int32_t room;    // longest step within the search range
   bool to_the_right;
-  std::uint8_t origin, corner;       // codes of the corners at its beginning and its end
-  bool tries = true;                 // candidates are asked for
-  std::uint8_t crossing = 0;         // of the corner `from`: bit of the edge beyond its crossing
-  bool classes = false;              // its class is asked for ..
-  std::int32_t looks = 0;            // .. and so many edges from there on
-  std::int32_t first = 0, last = 0;  // columns that are read for it, in rows
+  std::uint8_t origin, corner;       // codes of the corners at its start and end
+  bool tries = true;                 // candidates are tested
+  std::uint8_t crossing = 0;         // bit of corner `from`: the edge that continues the crossing
+  bool classes = false;              // the class is needed
+  std::int32_t looks = 0;            // number of edges after `from` for the class
+  std::int32_t first = 0, last = 0;  // columns read (rows memory only)
 
   std::int32_t at(std::int32_t step) const { return to_the_right ? from + step : from - step; }
 };
 
-// Bits of a corner's code: edges along the axis before and after the corner, edges across it on the
+// Bits of a corner code: edges along the axis before and after the corner, edges across it on the
 // first and on the second side.
 inline constexpr std::uint8_t kBeforeBit = 1, kAfterBit = 2, kFirstBit = 4, kSecondBit = 8;
-// Edges that tell one class from another.
+// Largest number of edges that distinguishes two classes.
 inline constexpr std::int32_t kMostLooks = 10;
 
-// Which of the candidates L - 1, L and L + 1 hit.
+// Set of the candidates L - 1, L, L + 1 that hit.
 inline constexpr std::uint8_t kShorter = 1, kEqual = 2, kLonger = 4;
 
-// `edges` shows what has been read: code(p) of the corner at p on the trial's line; unbroken(from,
-// end): are the edges along the axis at from..end - 1 all set? In hardware: four comparators of 4
-// bits and, contiguous, an AND over the edges that all candidates weight (a corner's code holds the
-// last edge of its step).
+// `edges` gives access to the data read: code(p) is the corner code at p on the trial's line;
+// unbroken(from, end) is true if all edges along the axis at from .. end - 1 are set. In hardware:
+// four 4-bit comparators and, with contiguous, an AND over the edges common to all candidates (a
+// corner code contains the last edge of its step).
 template <class Edges>
 std::uint8_t hits_of(const Trial& trial, const Edges& edges, bool contiguous) {
   if (contiguous && edges.code(trial.from) != trial.origin) return 0;
@@ -54,9 +54,9 @@ std::uint8_t hits_of(const Trial& trial, const Edges& edges, bool contiguous) {
   return hits;
 }
 
-// Of the crossing edge at an end, by the corner where it ends: 2 if it goes on, 1 if an edge lies
-// there towards the run, 3 to 8 by the number of those that lead away from it, 0 if there is
-// nothing. In hardware: four bits of the corner's code and the first gap of ten.
+// Class of the crossing edge at an end, from the corner where the edge ends: 2 if it continues, 1
+// if an edge leads back towards the run, 3 to 8 by the number of edges that lead away from the run,
+// else 0. In hardware: four bits of the corner code and the first gap of ten edges.
 template <class Edges>
 std::uint8_t class_of(const Trial& trial, const Edges& edges) {
   const std::uint8_t code = edges.code(trial.from);

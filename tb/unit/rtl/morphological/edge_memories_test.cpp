@@ -307,8 +307,8 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
     EXPECT_NO_THROW(ask(latest - kRows + 2)) << line;
     const int above = latest + 1;
     const int below = latest - kRows + 1;
-    expect_stop([&] { ask(above); }, "is not among the " + std::to_string(kRows) + " up to row " +
-                                         std::to_string(latest));
+    expect_stop([&] { ask(above); }, "is not among the last " + std::to_string(kRows) +
+                                         " rows, up to row " + std::to_string(latest));
     expect_stop([&] { ask(below); }, "row " + std::to_string(below - 1) + " is not among");
   }
 }

@@ -152,7 +152,7 @@ TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
   EXPECT_TRUE(buffer.can_reserve(2));
   EXPECT_EQ(buffer.reserve(2), 1u);
   EXPECT_FALSE(buffer.can_reserve(3));
-  EXPECT_THAT(rejection([&] { buffer.reserve(3); }), Rejects("buffer", "no entry is free"));
+  EXPECT_THAT(rejection([&] { buffer.reserve(3); }), Rejects("buffer", "no free entry"));
   buffer.fill(4, 0, 0, kBeat, true);
   lines.read_ahead(5);
   lines.release(6);
