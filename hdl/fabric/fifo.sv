@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A FIFO of many places (docs/explanation/fabric.md, "Memories"): a memory with one read and one write
-// port, read ahead into two output registers, past which a beat goes while they have room. To both sides it is
-// a link: pushed in t, poppable from t + 1; freed in t, refillable from t + 1. PLACES counts all beats that it
-// holds, in the memory and in the registers.
+// Function  A FIFO with many entries: a memory with one read and one write port, prefetched into two output registers.
+//           A beat bypasses the memory while these have room. Both sides have the link protocol.
+// Latency   1: pushed in t, poppable from t + 1; freed in t, refillable from t + 1.
+// Source    docs/explanation/fabric.md, "Memories".
+//
+// ENTRIES counts all beats that it holds, in the memory and in the registers.
 module fifo #(
   parameter integer BITS = 8,
   parameter integer ENTRIES = 64
@@ -22,19 +24,19 @@ module fifo #(
   localparam integer LAST_INDEX = ENTRIES - 1;
   localparam logic [ENTRY_BITS-1:0] LAST = LAST_INDEX[ENTRY_BITS-1:0];
 
-  // All beats, and those that stand in the memory and are not being read.
+  // All beats; beats in the memory that are not being read.
   logic [COUNT_BITS-1:0] count, stored;
   logic [ENTRY_BITS-1:0] write_place, read_place;
-  // Two output registers, the oldest in first; a read of the clock before brings `word`.
+  // Two output registers, the oldest beat in `first`; a read of the previous cycle delivers `word`.
   logic [1:0] ready;  // beats in the registers, 0 to 2
-  logic reading;      // `word` holds a beat that no register has
+  logic reading;      // `word` holds a beat that is not in a register yet
   logic [BITS-1:0] first, second, word;
   logic [BITS-1:0] memory[0:ENTRIES-1];
 
-  // What is there after this clock's pop, and who fills it.
+  // Beats left after this cycle's pop, which decide on a read.
   wire [1:0] left = ready + {1'b0, reading} - {1'b0, pop};
   wire read = stored != {COUNT_BITS{1'b0}} && left < 2'd2;
-  // Nothing waits in the memory and there is room: the beat goes past it.
+  // The memory is empty and the registers have room: the beat bypasses it.
   wire past = push && stored == {COUNT_BITS{1'b0}} && left < 2'd2;
   wire write = push && !past;
 
@@ -66,10 +68,10 @@ module fifo #(
       ready <= left + {1'b0, past};
     end
 
-  // The beat that the consumer sees: of the registers, or, when they are empty, what was read.
+  // The beat that the consumer sees: from the registers or, if they are empty, the word just read.
   assign front = ready != 2'd0 ? first : word;
   always_ff @(posedge clk) begin
-    // Beats in their order: first, second, word (at most two of them), then the one that goes past.
+    // Beats in order: first, second, word (at most two of them), then the bypassing one.
     if (pop) begin
       if (ready == 2'd2) first <= second;
       else if (ready == 2'd1 && reading) first <= word;
@@ -87,7 +89,7 @@ module fifo #(
   end
 
 `ifdef FORMAL
-  // As of a link: the count, and one beat that the solver picks among all that are pushed.
+  // The proof of a link: the count, and one beat that the solver picks among all pushed beats.
   reg f_past = 1'b0;
   always @(posedge clk) f_past <= 1'b1;
   always @* if (!f_past) assume (!rst_n);
@@ -121,7 +123,7 @@ module fifo #(
         end else f_ahead <= f_ahead - 1'b1;
       end
     end
-  // Where the beat stands that has f_ahead before it.
+  // Position of the picked beat, which has f_ahead beats before it.
   wire [COUNT_BITS-1:0] f_out = {{(COUNT_BITS - 2) {1'b0}}, ready} + {{(COUNT_BITS - 1) {1'b0}}, reading};
   wire [COUNT_BITS:0] f_far = {1'b0, f_ahead} - {1'b0, f_out} + {{(COUNT_BITS + 1 - ENTRY_BITS) {1'b0}}, read_place};
   wire [COUNT_BITS:0] f_wrapped = f_far >= {1'b0, FULL} ? f_far - {1'b0, FULL} : f_far;

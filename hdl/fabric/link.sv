@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A link (docs/explanation/fabric.md): a valid/ready channel with registered hand-over. A beat that is
-// pushed in clock t can be popped from t + 1; a place that is freed in t can be refilled from t + 1;
-// one push and one pop a clock. Flip-flops, so for few places; fifo.sv is for many.
+// Function  A link: a valid/ready channel with a registered hand-over, built of flip-flops for few entries (fifo.sv for
+//           many).
+// Latency   1: a beat pushed in cycle t can be popped from t + 1; an entry freed in t can be refilled from t + 1.
+// Interval  1: one push and one pop per cycle.
+// Source    docs/explanation/fabric.md, "A link".
 //
-// can_push and can_pop are registers: no path goes through a link. Who pushes without can_push or pops
-// without can_pop breaks the protocol, which the assertions say under `ifdef FORMAL.
+// can_push and can_pop are registers: no combinational path passes through a link. A push without can_push or a pop
+// without can_pop violates the protocol, which assertions under `ifdef FORMAL check.
 module link #(
   parameter integer BITS = 8,
   parameter integer ENTRIES = 2
@@ -35,7 +37,7 @@ module link #(
       can_pop <= next_count != {COUNT_BITS{1'b0}};
     end
 
-  // The oldest beat stands in place 0; a pop moves the others down, and a push goes behind them.
+  // The oldest beat is in entry 0; a pop shifts the others down, and a push goes to the first free entry.
   logic [BITS-1:0] place[0:ENTRIES-1];
   wire  [COUNT_BITS-1:0] behind = count - {{(COUNT_BITS - 1) {1'b0}}, pop};
   assign front = place[0];
@@ -55,8 +57,8 @@ module link #(
   endgenerate
 
 `ifdef FORMAL
-  // Under the protocol of both sides: the count is right, and a beat that the solver picks among all that
-  // are pushed comes out unchanged and in its turn. `ahead` counts the beats before it.
+  // If both sides keep the protocol: the count is right, and a beat that the solver picks among all pushed beats comes
+  // out unchanged and in order. `ahead` counts the beats before it.
   reg f_past = 1'b0;
   always @(posedge clk) f_past <= 1'b1;
   always @* if (!f_past) assume (!rst_n);
@@ -66,7 +68,7 @@ module link #(
   end
   (* anyseq *) wire f_pick;
   reg f_held = 1'b0;               // the picked beat is in the link
-  reg f_done = 1'b0;               // it has left: one is followed
+  reg f_done = 1'b0;               // it has left: only one beat is followed
   reg [BITS-1:0] f_beat;
   reg [COUNT_BITS-1:0] f_ahead;
   reg [31:0] f_pushed, f_popped;   // since the reset, modulo 2^32

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The valid bits of a pipeline that holds still as a whole while its last stage cannot leave
-// (docs/explanation/fabric.md, docs/reference/texture/hardware.md "Stages"). STAGES counts the registers:
-// a unit with a latency of n cycles has n - 1, since the link behind it is the last one. The data registers are
-// the unit's; they move with `move`.
+// Valid bits of a pipeline that stalls as a whole while its last stage cannot leave (docs/explanation/fabric.md;
+// docs/reference/texture/hardware.md, "Stages"). STAGES is the number of registers: a unit with a latency of n cycles
+// has n - 1, since the output link is the last one. The unit owns the data registers and enables them with `move`.
 module pipe #(
   parameter integer STAGES = 1
 ) (

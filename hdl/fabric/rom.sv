@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ROM with one read port: the word of an address of clock t is on the output register in t + 1 and
-// stays there until the next read.
+// A ROM with one read port: the word addressed in cycle t is on the output register in t + 1 and stays there until the
+// next read.
 module rom #(
   parameter integer BITS = 8,
   parameter integer WORDS = 2,
@@ -12,7 +12,7 @@ module rom #(
   input  logic [ADDRESS_BITS-1:0] address,
   output logic [BITS-1:0]         word
 );
-  // An array, which synthesis makes a memory of; a choice of bits from CONTENTS would be gates.
+  // An array, from which synthesis infers a memory; indexing CONTENTS would give gates.
   logic [BITS-1:0] words[0:WORDS-1];
   integer i;
   initial

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A memory with one read and one write port (docs/explanation/fabric.md, "Memories"): the word of an
-// address of clock t is on the output register in t + 1 and stays there until the next read. What is written in
-// the clock of a read is read as it was before.
+// A memory with one read and one write port (docs/explanation/fabric.md, "Memories"): the word addressed in cycle t is
+// on the output register in t + 1 and stays there until the next read. A read of a word that is written in the same
+// cycle returns the old word.
 module sram_1r1w #(
   parameter integer BITS = 8,
   parameter integer WORDS = 2,
@@ -22,7 +22,7 @@ module sram_1r1w #(
   end
 
 `ifdef FORMAL
-  // A proof looks at one word.
+  // A proof observes one word.
   wire [ADDRESS_BITS-1:0] f_address;
   wire [BITS-1:0] f_word = memory[f_address];
 `endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From quads to bilinear requests: the blocks of the figure in docs/reference/texture/index.md, one behind the
-// other, with a link of two places between each.
+// From quads to bilinear requests: the units of the figure in docs/reference/texture/index.md in series, with links of
+// two entries between them.
 `include "tokens.svh"
 `include "tables.svh"
 `include "descriptor.svh"
@@ -22,13 +22,13 @@ module address_unit #(
   output logic                         out_push,
   input  logic                         out_ready,
   output logic [`TEXEL_TOKEN_BITS-1:0] out_data,
-  // Registers of the descriptors, a word at a time.
+  // Descriptor registers, one word at a time.
   input  logic                         write,
   input  logic [3:0]                   write_handle,
   input  logic [4:0]                   write_word,
   input  logic [31:0]                  write_data,
-  output logic                         saturated,  // counts one in SATURATED
-  // What the links between the blocks do in this clock, the first one in bit 0: for a bench.
+  output logic                         saturated,  // increments SATURATED
+  // Activity of the links between the units in this cycle, the first link in bit 0, for a testbench.
   output logic [4:0]                   link_push,
   output logic [4:0]                   link_pop
 );

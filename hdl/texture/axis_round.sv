@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One component of an axis: the magnitude of the sum rounded at 7 bits, then its sign, so that mirrored
+// One component of an axis: the magnitude of the sum is rounded at 7 bits and then gets its sign, so that mirrored
 // coordinates give mirrored samples (docs/reference/texture/formats.md, "Axes").
 module axis_round (
   input  logic signed [41:0] sum,

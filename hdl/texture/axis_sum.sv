@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// C x + S y of one of eight directions, every 22.5 degrees, of which `kAxes` gives C and S in 1/128
-// (docs/reference/texture/formats.md, "Axes"). The multiples stand in registers before it, the sum is exact.
+// C x + S y for one of eight directions, 22.5 degrees apart; `kAxes` gives C and S in 1/128
+// (docs/reference/texture/formats.md, "Axes"). The inputs are registered multiples, the sum is exact.
 module axis_sum #(
   parameter integer BITS = 41
 ) (

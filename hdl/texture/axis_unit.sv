@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The major axis among four or eight directions, and the area of the footprint (`axes = four`, `eight`).
-// `axis_cycles` measures the candidates in groups, one group a clock (docs/reference/datasheets.md, "AxisUnit").
+// The major axis among four or eight directions, and the area of the footprint (`axes = four`, `eight`). `axis_cycles`
+// measures the candidates in groups, one group per cycle (docs/reference/datasheets.md, "AxisUnit").
 `include "tokens.svh"
 `include "tables.svh"
 module axis_unit #(
@@ -19,7 +19,7 @@ module axis_unit #(
 );
   localparam integer CANDIDATES = AXES == `AXES_EIGHT ? 8 : 4;
   localparam integer STEP = 8 / CANDIDATES;  // directions from one candidate to the next
-  localparam integer SLOTS = CANDIDATES / AXIS_CYCLES;  // candidates a group
+  localparam integer SLOTS = CANDIDATES / AXIS_CYCLES;  // candidates per group
   localparam integer GROUP_DIRECTIONS = SLOTS * STEP;
   localparam logic [2:0] SLOT_STEP = STEP[2:0], GROUP_STEP = GROUP_DIRECTIONS[2:0];
   localparam integer EXACT = RULE == `FOOTPRINT_EXACT ? 1 : 0;
@@ -28,8 +28,8 @@ module axis_unit #(
   localparam integer LAST_GROUP_INDEX = AXIS_CYCLES - 1;
   localparam logic [1:0] LAST_GROUP = LAST_GROUP_INDEX[1:0];
 
-  // A fragment stays in the first register while its groups leave it; a group is valid in registers 2 to
-  // 5, and the fragment is again behind its last one.
+  // A fragment stays in the first register while its groups leave it. Registers 2 to 5 hold groups; after the last
+  // group, registers hold the fragment again.
   logic [REGISTERS:1] valid;
   logic [1:0] group_1, group_2, group_3, group_4, group_5;
   wire move = out_ready || !valid[REGISTERS];
@@ -55,7 +55,7 @@ module axis_unit #(
       group_5 <= group_4;
     end
 
-  // What goes with the fragment: ticket, coordinate, differences.
+  // Data that accompany the fragment: ticket, coordinate, differences.
   localparam integer WITH_BITS = `DERIVATIVE_TOKEN_BITS - 4 * 31;
   logic [WITH_BITS-1:0] with_it[1:REGISTERS];
   logic [46:0] area[2:REGISTERS];
@@ -71,8 +71,8 @@ module axis_unit #(
     end
   endgenerate
 
-  // 1: multiples of the derivatives in texels, which have the sign of their difference; products of the
-  // area, of magnitudes with 8 fraction bits.
+  // 1: multiples of the derivatives in texels, with the sign of their difference; products for the area, of magnitudes
+  // with 8 fraction bits.
   wire [30:0] size_s_x = in_data[`DERIVATIVE_TOKEN_SIZE_S_X], size_t_x = in_data[`DERIVATIVE_TOKEN_SIZE_T_X];
   wire [30:0] size_s_y = in_data[`DERIVATIVE_TOKEN_SIZE_S_Y], size_t_y = in_data[`DERIVATIVE_TOKEN_SIZE_T_Y];
   wire minus_s_x = in_data[`DERIVATIVE_TOKEN_S_X_TOP], minus_t_x = in_data[`DERIVATIVE_TOKEN_T_X_TOP];
@@ -81,7 +81,7 @@ module axis_unit #(
   wire signed [39:0] p_t_x = minus_t_x ? -$signed({9'd0, size_t_x}) : $signed({9'd0, size_t_x});
   wire signed [39:0] p_s_y = minus_s_y ? -$signed({9'd0, size_s_y}) : $signed({9'd0, size_s_y});
   wire signed [39:0] p_t_y = minus_t_y ? -$signed({9'd0, size_t_y}) : $signed({9'd0, size_t_y});
-  logic signed [39:0] s_x[0:3], t_x[0:3], s_y[0:3], t_y[0:3];  // 128, 118, 90 and 49 times
+  logic signed [39:0] s_x[0:3], t_x[0:3], s_y[0:3], t_y[0:3];  // multiplied by 128, 118, 90 and 49
   logic signed [46:0] product_1, product_2;
   logic signed [46:0] direct, crossed;
   assign direct = $signed({24'd0, size_s_x[30:8]}) * $signed({24'd0, size_t_y[30:8]});
@@ -109,7 +109,7 @@ module axis_unit #(
       product_2 <= minus_t_x != minus_s_y ? -crossed : crossed;
     end
 
-  // 2: candidates and area. A group is SLOTS neighbours.
+  // 2: candidates and area. A group has SLOTS neighbouring candidates.
   wire signed [47:0] determinant = $signed({product_1[46], product_1}) - $signed({product_2[46], product_2});
   wire [47:0] area_magnitude = determinant < 0 ? -determinant : determinant;
   wire unused_area = &{1'b0, area_magnitude[47]};
@@ -162,8 +162,8 @@ module axis_unit #(
     end
   endgenerate
 
-  // 5: the longest of up to four; 6: of both halves of a group and of the cycles before. The smallest
-  // candidate of equals, so only a longer one replaces another.
+  // 5: the longest of up to four; 6: of both halves of a group and of the previous groups. The first of equal
+  // candidates wins, so only a longer one replaces another.
   localparam integer PARTS = SLOTS > 4 ? 2 : 1;
   localparam integer EACH = SLOTS / PARTS;
   logic [PARTS*MEASURE_BITS-1:0] longest_5;
@@ -210,7 +210,7 @@ module axis_unit #(
       direction_6 <= group_direction;
     end
 
-  // 7: multiples of the coordinate differences; 8: their sum of the direction found.
+  // 7: multiples of the coordinate differences; 8: their sum for the chosen direction.
   wire signed [40:0] d_s_x = {{8{with_it[6][`DERIVATIVE_TOKEN_S_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_X]};
   wire signed [40:0] d_t_x = {{8{with_it[6][`DERIVATIVE_TOKEN_T_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_T_X]};
   wire signed [40:0] d_s_y = {{8{with_it[6][`DERIVATIVE_TOKEN_S_Y_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_Y]};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads the texels of a request from the banks and writes the fills that it ordered
-// (docs/reference/texture/cache.md, "Banks" and "Order of fills"; docs/reference/datasheets.md, "DataStage").
-// Stage 1 works at the head of the LatencyFifo and pops the request in its last clock; stage 2 has its words.
-// Both stand still while stage 2 cannot leave.
+// Reads the texels of a request from the banks and writes the fills that it requested (docs/reference/texture/cache.md,
+// "Banks" and "Order of fills"; docs/reference/datasheets.md, "DataStage"). Stage 1 processes the head of the
+// LatencyFifo and pops the request in its last cycle; stage 2 holds its words. Both stall while stage 2 cannot leave.
 `include "tokens.svh"
 `include "tables.svh"
 module data_stage #(
@@ -33,7 +32,7 @@ module data_stage #(
   wire move = !valid_2 || out_ready;
   assign out_push = valid_2 && out_ready;
 
-  // ---- 1: passes over the banks, then fills; the first fill in the clock of the last pass
+  // ---- 1: passes over the banks, then fills; the first fill in the cycle of the last pass
   wire [4*ENTRY_BITS-1:0] places = in_data[`CACHE_TOKEN_PLACE];
   wire [11:0] sources = in_data[`CACHE_TOKEN_SOURCE];
   wire [4*SLOT_BITS-1:0] victims = in_data[`CACHE_TOKEN_VICTIM];
@@ -46,7 +45,7 @@ module data_stage #(
   wire [2:0] passes;
   bank_passes #(.WORD_BITS(ENTRY_BITS - 2), .BANK_BITS(BANK_BITS)) order (.hit, .words, .pass(pass_of), .passes);
 
-  logic [2:0] pass, fill;  // that are done
+  logic [2:0] pass, fill;  // completed passes and fills
   wire works = in_valid && move;
   wire read = works && pass < passes;
   wire passed = pass + 3'd1 >= passes;
@@ -71,7 +70,7 @@ module data_stage #(
       end
     end
 
-  // The banks: word w of a line that is not turned in bank w.
+  // The banks: word w of a line that is not turned is in bank w.
   wire [SLOT_BITS-1:0] victim = victims[fill[1:0]*SLOT_BITS +: SLOT_BITS];
   localparam logic [BANK_BITS-1:0] TURN = TURN_WORDS[BANK_BITS-1:0];
   wire [BANK_BITS-1:0] turn = turned[fill[1:0]] ? TURN : {BANK_BITS{1'b0}};
@@ -97,7 +96,7 @@ module data_stage #(
     end
   endgenerate
 
-  // ---- 2: words of the last pass from their banks, the others and those of fills from registers
+  // ---- 2: words of the last pass from their banks, other words and those of fills from registers
   logic [`TICKET_BITS-1:0] ticket;
   logic [`TEXEL_QUAD_TOKEN_CONTROL_BITS-1:0] control;
   always_ff @(posedge clk)

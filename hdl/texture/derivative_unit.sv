@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits a quad into its covered fragments, each with the differences of coordinates along its own row
-// and column, and their magnitudes in texels of level 0 (docs/reference/datasheets.md, "DerivativeUnit").
+// Splits a quad into its covered fragments, each with the coordinate differences along its row and column, and their
+// magnitudes in texels of level 0 (docs/reference/datasheets.md, "DerivativeUnit").
 `include "tokens.svh"
 `include "descriptor.svh"
 module derivative_unit (
@@ -12,13 +12,13 @@ module derivative_unit (
   output logic                              out_push,
   input  logic                              out_ready,
   output logic [`DERIVATIVE_TOKEN_BITS-1:0] out_data,
-  output logic                              saturated,  // counts one in SATURATED
-  output logic [3:0]                        handle,  // of the fragment that is in stage 1
+  output logic                              saturated,  // increments SATURATED
+  output logic [3:0]                        handle,  // of the fragment in stage 1
   input  logic [`DESCRIPTOR_BITS-1:0]       descriptor
 );
-  // 1: the next covered lane, of the quad that is at the link or of the one that was taken before.
+  // 1: the next covered lane, of the quad at the link or of the quad taken before.
   logic [`QUAD_BITS-1:0] held;
-  logic [3:0] left;  // lanes of `held` that are still to come
+  logic [3:0] left;  // lanes of `held` not yet processed
   wire  [`QUAD_BITS-1:0] quad = left == 4'd0 ? in_data : held;
   wire  [3:0] lanes = left == 4'd0 ? in_data[`QUAD_COVERAGE] & {4{in_valid}} : left;
   wire  [1:0] lane = lanes[0] ? 2'd0 : lanes[1] ? 2'd1 : lanes[2] ? 2'd2 : 2'd3;
@@ -48,7 +48,7 @@ module derivative_unit (
   wire [31:0] s = lane[1] ? (lane[0] ? s_3[31:0] : s_2[31:0]) : (lane[0] ? s_1[31:0] : s_0[31:0]);
   wire [31:0] t = lane[1] ? (lane[0] ? t_3[31:0] : t_2[31:0]) : (lane[0] ? t_1[31:0] : t_0[31:0]);
 
-  // The quad carries 8 bits of a handle, of which 16 name a descriptor.
+  // The quad carries an 8-bit handle, of which 4 bits select a descriptor.
   wire [7:0] texture = quad[`QUAD_TEXTURE];
   assign handle = texture[3:0];
   wire known = texture[7:4] == 4'd0 && descriptor[`DESCRIPTOR_VALID];
@@ -73,7 +73,7 @@ module derivative_unit (
       with_1 <= {t, s, ticket};
     end
 
-  // 2: times the size of level 0.
+  // 2: multiplication by the size of level 0.
   logic signed [46:0] p_s_x, p_t_x, p_s_y, p_t_y;
   logic signed [32:0] s_x_2, t_x_2, s_y_2, t_y_2;
   wire signed [46:0] w = $signed({34'd0, width}), h = $signed({34'd0, height});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the words of a descriptor are valid: size, levels, codes, N_max, bases of the levels that are
-// present (docs/reference/texture/index.md, "Invalid descriptors").
+// Validity of a descriptor's words: size, levels, codes, N_max, bases of the existing levels
+// (docs/reference/texture/index.md, "Invalid descriptors").
 `include "descriptor.svh"
 `include "tables.svh"
 module descriptor_check (
@@ -12,7 +12,7 @@ module descriptor_check (
   wire [3:0] levels = words[`DESCRIPTOR_MODE_LEVELS];
   wire [15:0] longer = width > height ? width : height;
 
-  // Level k is there if it has a texel of its own: the longer side shifted by k is not 0.
+  // Level k exists if the longer side shifted right by k is not 0.
   wire [15:0] coarsest = longer >> (levels - 4'd1);
   wire size_ok = width != 16'd0 && height != 16'd0 && longer <= 16'd4096;
   wire levels_ok = levels != 4'd0 && coarsest != 16'd0;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The 16 texture descriptors, as their registers hold them, in flip-flops without output register: one
-// word is written at a time, three units read (docs/reference/texture/index.md, "Registers of a descriptor").
-//
-// A read gives the words of a descriptor, word 0 in the lowest bits, and above them whether they are
-// valid ("Invalid descriptors").
+// The 16 texture descriptors in flip-flops without output register: one word is written at a time, three units read
+// (docs/reference/texture/index.md, "Registers of a descriptor"). A read returns the words of a descriptor, word 0 in
+// the lowest bits, and above them its validity ("Invalid descriptors").
 `include "descriptor.svh"
 module descriptors (
   input  logic                        clk,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lines on their way from memory (docs/reference/datasheets.md, "FillBuffer"): places are reserved one after the
-// other, filled in any order, and used in the order of their reservation. The oldest line is read ahead:
-// it is on the output register two cycles after the beat that completes it.
+// Buffer for lines in flight from memory (docs/reference/datasheets.md, "FillBuffer"): entries are reserved in order,
+// filled in any order, and used in the order of reservation. The oldest line is prefetched: it is on the output
+// register two cycles after the beat that completes it.
 `include "tokens.svh"
 `include "tables.svh"
 module fill_buffer #(
@@ -13,17 +13,17 @@ module fill_buffer #(
 ) (
   input  logic                     clk,
   input  logic                     rst_n,
-  // A place for a line that is asked of memory.
+  // Reserves an entry for a requested line.
   input  logic                     reserve,
   output logic                     can_reserve,
   output logic [ENTRY_BITS-1:0]    reserved,
-  // A beat of the line of a place.
+  // A beat of an entry's line.
   input  logic                     arrive,
   input  logic [ENTRY_BITS-1:0]    arrive_place,
-  input  logic [BEATS-1:0]         arrive_beat,  // one of them
+  input  logic [BEATS-1:0]         arrive_beat,  // one-hot
   input  logic                     arrive_last,  // completes the line
   input  logic [8*BEAT_BYTES-1:0]  arrive_data,
-  // The oldest line; used, its place is free.
+  // The oldest line; using it frees its entry.
   output logic                     line_valid,
   output logic [8*LINE_BYTES-1:0]  line,
   input  logic                     use_line
@@ -33,9 +33,9 @@ module fill_buffer #(
   localparam integer LAST_INDEX = ENTRIES - 1;
   localparam logic [ENTRY_BITS-1:0] LAST = LAST_INDEX[ENTRY_BITS-1:0];
 
-  logic [COUNT_BITS-1:0] held;  // reserved and not used
+  logic [COUNT_BITS-1:0] held;  // reserved and not yet used
   logic [ENTRY_BITS-1:0] read_place;
-  logic [ENTRIES-1:0] arrived;   // and not read yet
+  logic [ENTRIES-1:0] arrived;   // arrived and not yet read
   wire read = arrived[read_place] && (!line_valid || use_line);
   wire [COUNT_BITS-1:0] next_held = held + {{(COUNT_BITS - 1) {1'b0}}, reserve} -
                                     {{(COUNT_BITS - 1) {1'b0}}, use_line};

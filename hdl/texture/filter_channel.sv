@@ -12,7 +12,7 @@ module filter_channel #(
   input  logic        srgb_2,
   input  logic [7:0]  u_2, v_4,
   input  logic [8:0]  level_weight_5,
-  input  logic        second_5,  // of two levels: the first one is in the sum
+  input  logic        second_5,  // second of two levels: the sum holds the first one
   input  logic        valid_5,   // a request is in register 5
   input  logic [8:0]  weight_6,
   input  logic        first_sample_6,

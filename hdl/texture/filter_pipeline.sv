@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Filters four texels a clock to the colour of a fragment: eight stages, nine with `srgb_output = encoded`
-// (docs/reference/texture/formats.md, docs/reference/datasheets.md "FilterPipeline").
+// Filters four texels per cycle to the colour of a fragment: eight stages, nine with `srgb_output = encoded`
+// (docs/reference/texture/formats.md; docs/reference/datasheets.md, "FilterPipeline").
 `include "tokens.svh"
 `include "tables.svh"
 module filter_pipeline #(
@@ -17,15 +17,15 @@ module filter_pipeline #(
   input  logic                              out_ready,
   output logic [`COLOUR_BITS-1:0]           out_data
 );
-  // A request that completes no fragment leaves nothing behind, so only fragments are in the last registers.
+  // Only requests that complete a fragment proceed to the last registers.
   localparam integer LAST = OUTPUT == `SRGB_OUTPUT_ENCODED ? 8 : 7;
   logic [LAST:1] valid;
   wire move = out_ready || !valid[LAST];
   assign in_pop = in_valid && move;
   assign out_push = out_ready && valid[LAST];
 
-  // 1: fields. What goes on: ticket, index of the sample, N - 1, format, ends, weights of a request.
-  logic [40:0] ticket[1:LAST];  // and, in the highest bit, whether its format is sRGB
+  // 1: fields. Passed on: ticket, sample index, N - 1, format, ends, weights of a request.
+  logic [40:0] ticket[1:LAST];  // the highest bit: sRGB format
   wire [2:0] format = in_data[`TEXEL_QUAD_TOKEN_CONTROL_FORMAT];
   wire is_srgb = format == `FORMAT_SRGB8_A8;
   wire [31:0] channels_0, channels_1, channels_2, channels_3;
@@ -83,13 +83,13 @@ module filter_pipeline #(
       if (LAST > 7) valid[LAST] <= valid[LAST-1];
     end
 
-  // Whether the request in register 5 is the second one of its sample: the one before it was not the end.
+  // True if the request in register 5 is the second one of its sample: the previous one was not its end.
   logic open_6;
   always_ff @(posedge clk)
     if (!rst_n) open_6 <= 1'b0;
     else if (move && valid[5]) open_6 <= !end_of_sample[5];
 
-  // The weight of a sample: of 2^n in a box wires, else a word of the ROM.
+  // The weight of a sample: wiring for a box of 2^n samples, otherwise a ROM word.
   logic [8:0] weight_6;
   generate
     if (COUNT == `COUNT_ANY || KERNEL == `KERNEL_TENT) begin : g_weights

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lengths of both sides of a footprint and the difference of coordinates along the longer one, for
-// `axes = two`. Two stages, with `exact` 19 (docs/reference/datasheets.md, "FootprintUnit").
+// Lengths of both sides of a footprint and the coordinate difference along the longer one, for `axes = two`. Two
+// stages, 19 with `exact` (docs/reference/datasheets.md, "FootprintUnit").
 `include "tokens.svh"
 `include "tables.svh"
 module footprint_unit #(
@@ -23,19 +23,19 @@ module footprint_unit #(
 
   wire [30:0] s_x = in_data[`DERIVATIVE_TOKEN_SIZE_S_X], t_x = in_data[`DERIVATIVE_TOKEN_SIZE_T_X];
   wire [30:0] s_y = in_data[`DERIVATIVE_TOKEN_SIZE_S_Y], t_y = in_data[`DERIVATIVE_TOKEN_SIZE_T_Y];
-  // Ticket, coordinate and both differences, until it is known which side is longer.
+  // Ticket, coordinate and both differences, until the longer side is known.
   localparam integer WITH_BITS = `DERIVATIVE_TOKEN_BITS - 4 * 31;
   wire [WITH_BITS-1:0] with_in = in_data[WITH_BITS-1:0];
   logic [WITH_BITS-1:0] with_out;
   logic [31:0] d_x, d_y;
-  logic column;  // the longer side is that along the column; of equals the row
+  logic column;  // the longer side is along the column; if equal, the row
 
   generate
     if (RULE == `FOOTPRINT_EXACT) begin : g_exact
-      // Registers 1 and 2: squares, sums; 3 to 17: root bits; 18: the sides and which one is longer.
+      // Registers 1 and 2: squares, sums; 3 to 17: root bits; 18: the sides and the choice of the longer one.
       logic [61:0] ss_x, tt_x, ss_y, tt_y;
       logic [62:0] sum_x, sum_y;
-      logic [15:0] longer;  // of register 3 on, the newest in bit 0
+      logic [15:0] longer;  // from register 3 on, the newest in bit 0
       logic [WITH_BITS-1:0] with_it[1:18];
       logic [31:0] root_x, root_y;
       root_pipe of_x (.clk, .move, .radicand(sum_x), .root(root_x));

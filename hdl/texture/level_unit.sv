@@ -17,7 +17,7 @@ module level_unit #(
   output logic                         out_push,
   input  logic                         out_ready,
   output logic [`LEVEL_TOKEN_BITS-1:0] out_data,
-  output logic [3:0]                   handle,  // of the token that is at the link
+  output logic [3:0]                   handle,  // of the token at the link
   input  logic [`DESCRIPTOR_BITS-1:0]  descriptor
 );
   logic move;
@@ -29,8 +29,8 @@ module level_unit #(
   wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
   assign handle = in_data[`LOG2_TOKEN_TICKET_TEXTURE];
 
-  // 1: how much of L is taken as samples. Of an area the minor side is the quotient, so that L is twice
-  // the major logarithm without that of the area.
+  // 1: the part of L that is taken as samples. With an area, the minor side is the quotient, so L is twice the major
+  // logarithm minus that of the area.
   wire signed [19:0] lb_max = {{2{in_data[`LOG2_TOKEN_LB_MAX_TOP]}}, in_data[`LOG2_TOKEN_LB_MAX]};
   wire signed [19:0] lb_minor = {{2{in_data[`LOG2_TOKEN_LB_MINOR_TOP]}}, in_data[`LOG2_TOKEN_LB_MINOR]};
   wire signed [19:0] quotient = AXES == `AXES_TWO ? lb_max - lb_minor : (lb_max <<< 1) - lb_minor;
@@ -38,7 +38,7 @@ module level_unit #(
   wire [2:0] most = descriptor[`DESCRIPTOR_MODE_MAX_COUNT_LOG2];
   wire [14:0] limit = {most, 12'd0};
   wire positive = lb_max > 0;
-  // The footprint's own length as a limit: never closer than a texel. lb d_max is at most 16.
+  // The length of the footprint limits the count: samples are at least a texel apart. lb d_max is at most 16.
   wire [19:0] length_up = lb_max + 20'd4095;
   wire [19:0] cap = CAP == `CAP_NONE ? 20'hFFFFF :
                     COUNT == `COUNT_ANY ? lb_max : {length_up[19:12], 12'd0};
@@ -99,7 +99,7 @@ module level_unit #(
     end
   endgenerate
 
-  logic [20:0] l_2;  // above 0, U8.12 (a clamp is U8.8)
+  logic [20:0] l_2;  // positive, U8.12 (a clamp is U8.8)
   logic magnified_2;
   logic [3:0] last_2;
   always_ff @(posedge clk)
@@ -113,8 +113,8 @@ module level_unit #(
       levels_2 <= levels_1;
     end
 
-  // 3: level, fraction and filter by mode. Modes 2 to 5 have mip levels, 4 and 5 mix two of them; the odd
-  // ones are linear limited a level.
+  // 3: level, fraction and filter by mode. Modes 2 to 5 use mip levels, 4 and 5 blend two of them; odd modes filter
+  // linearly within a level.
   wire [3:0] coarsest = levels_2 - 4'd1;
   wire [20:0] nearest = l_2 + 21'd2047;
   wire [20:0] rounded = l_2 + 21'd8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is added to n + y by the rules `corrected` and `segments`: constants and shift-adds of y
+// Correction added to n + y by the configurations `corrected` and `segments`: constants and shift-adds of y
 // (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_correction #(

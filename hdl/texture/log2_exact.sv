@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rule `exact`: between two neighbours of a table, in the stages 2 and 3 of a Log2Unit
+// Configuration `exact`: interpolation between two neighbouring table entries, in stages 2 and 3 of a Log2Unit
 // (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_exact (

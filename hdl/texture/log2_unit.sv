@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Binary logarithms of the longer side of a footprint and of what tells the minor one, the other side
-// or the area. `mitchell` is wires behind the leading one, latency 1; the other rules take three stages:
-// leading one and shift, table, correction (docs/reference/datasheets.md, "Log2Unit").
+// Binary logarithms of the longer side of a footprint and of the other side or the area, from which the minor side
+// follows. `mitchell` is wiring after the leading one, latency 1; other configurations take three stages: leading one
+// and shift, table, correction (docs/reference/datasheets.md, "Log2Unit").
 `include "tokens.svh"
 `include "tables.svh"
 module log2_unit #(
@@ -23,7 +23,7 @@ module log2_unit #(
     .value(in_data[`FOOTPRINT_TOKEN_D_MAX]), .mitchell(major));
   log2_value #(.BITS(`FOOTPRINT_TOKEN_MINOR_BITS)) of_minor (
     .value(in_data[`FOOTPRINT_TOKEN_MINOR]), .mitchell(minor));
-  // Ticket, coordinate and axis stand below the sides and go on as they are.
+  // Ticket, coordinate and axis are below the sides and pass through unchanged.
   wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
 
   generate

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sends missed lines to memory, one a clock, in their order (docs/reference/texture/cache.md, "Time of a
-// miss"). Up to four lines of a request come in one clock, when there are places for all of them; a place from
-// which a line is sent in this clock counts.
+// Sends missed lines to memory in order, one per cycle (docs/reference/texture/cache.md, "Time of a miss"). Accepts up
+// to four lines of a request in one cycle if there are entries for all; an entry that is sent in this cycle counts as
+// free.
 `include "tokens.svh"
 `include "tables.svh"
 module miss_queue #(
@@ -36,7 +36,7 @@ module miss_queue #(
   localparam logic [COUNT_BITS:0] FULL = ENTRIES[COUNT_BITS:0];
   assign in_pop = in_valid && with_these <= FULL;
 
-  // The place i behind another one.
+  // The entry i after another one.
   function automatic [ENTRY_BITS-1:0] behind(input [ENTRY_BITS-1:0] place, input [2:0] i);
     logic [ENTRY_BITS:0] sum;
     begin
@@ -69,7 +69,7 @@ module miss_queue #(
   wire [LINE_BITS-1:0] line = lines[read_place];
   localparam logic [`MEMORY_REQUEST_LINES_BITS-1:0] BURST = LINES_A_BURST[`MEMORY_REQUEST_LINES_BITS-1:0];
   always_comb begin
-    // A read: no data and no mask.
+    // A read request: without data and mask.
     request_data = {`MEMORY_REQUEST_BITS{1'b0}};
     request_data[`MEMORY_REQUEST_ADDRESS] = {line, {(32 - LINE_BITS) {1'b0}}};
     request_data[`MEMORY_REQUEST_TAG] = reserved;
@@ -77,7 +77,7 @@ module miss_queue #(
   end
 
 `ifdef FORMAL
-  // A proof looks into one place (tb/hdl/formal/miss_path_proof.sv).
+  // A proof observes one entry (tb/hdl/formal/miss_path_proof.sv).
   wire [ENTRY_BITS-1:0] f_place;
   wire [LINE_BITS-1:0] f_line = lines[f_place];
 `endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Integer square root of a 63-bit sum of squares, U31.32 to U16.16, two bits a stage. The radicand
-// stands in a register before it; 15 registers are inside, and the root comes in the same clock as the
-// 16th stage works.
+// Integer square root of a 63-bit sum of squares, U31.32 to U16.16, two bits per stage. The radicand is registered at
+// the input; 15 registers are inside, and the root is valid in the cycle of the 16th stage.
 module root_pipe (
   input  logic        clk,
   input  logic        move,
@@ -37,8 +36,8 @@ module root_pipe (
         wire unused = &{1'b0, next_rest, next_digits};
       end
 `ifdef FORMAL
-      // Each stage has the digits that are to come of the radicand its root and rest are of, and nothing is cut
-      // off. What a stage does with them: tb/hdl/formal/root_stage_proof.sv.
+      // In each stage, the remaining digits belong to the radicand of its root and remainder, and nothing is truncated.
+      // The step of a stage is proved in tb/hdl/formal/root_stage_proof.sv.
       wire f_there = i == 0 ? 1'b1 : f_come[i > 0 ? i : 1];
       wire [63:0] f_whole = i == 0 ? {1'b0, radicand} : f_radicands[i > 0 ? i : 1];
       if (i < 15) begin : g_known

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Two bits of an integer square root, most significant first, one subtraction behind the other.
-// `root` has the bits that are known, right-aligned; `rest` is what is left of the radicand's digits
-// that were used; `digits` are those to come, left-aligned. 32 bits of root take 16 stages.
+// Two bits of an integer square root, most significant first, by two subtractions in series. `root` holds the known
+// bits, right-aligned; `rest` the remainder for the digits of the radicand used so far; `digits` the remaining digits,
+// left-aligned. A root of 32 bits takes 16 stages.
 module root_stage (
   input  logic [31:0] root,
   input  logic [33:0] rest,
@@ -21,6 +21,6 @@ module root_stage (
   assign next_root = {root[29:0], bit_1, bit_2};
   assign next_rest = rest_2[33:0];
   assign next_digits = {digits[59:0], 4'd0};
-  // A rest is at most twice the root, so its upper bits are zero.
+  // A remainder is at most twice the root, so its upper bits are zero.
   wire unused = &{1'b0, rest_1[35:34], rest_2[35:34]};
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks N samples along the major axis and emits the bilinear requests of each: a request a clock, stages
-// that move one by one (docs/reference/texture/formats.md, "Sample walker"; docs/reference/datasheets.md,
+// Walks N samples along the major axis and emits the bilinear requests of each, one request per cycle; its stages
+// advance independently (docs/reference/texture/formats.md, "Sample walker"; docs/reference/datasheets.md,
 // "SampleWalker").
 `include "tokens.svh"
 `include "tables.svh"
@@ -28,13 +28,13 @@ module sample_walker #(
   wire signed [33:0] axis_t = {{(35 - AXIS_BITS) {in_data[`LEVEL_TOKEN_AXIS_T_TOP]}},
                                in_data[`LEVEL_TOKEN_AXIS_T_LOW]};
   wire ok = in_data[`LEVEL_TOKEN_TICKET_VALID];
-  // The fragment of an invalid descriptor takes a request and a clock.
+  // The fragment of an invalid descriptor takes one request and one cycle.
   wire [3:0] last_index = ok ? in_data[`LEVEL_TOKEN_LAST_INDEX] : 4'd0;
   wire [7:0] fraction = ok ? in_data[`LEVEL_TOKEN_FRACTION] : 8'd0;
   wire [7:0] spread = KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
   wire signed [42:0] wide_spread = $signed({35'd0, spread});
 
-  // What goes with a fragment to its requests.
+  // Data that pass from a fragment to its requests.
   localparam integer WITH_BITS = 40 + 64 + 4 + 4 + 8 + 1;
   wire [WITH_BITS-1:0] with_in = {in_data[`LEVEL_TOKEN_LINEAR], fraction, in_data[`LEVEL_TOKEN_LEVEL],
                                   last_index, in_data[`LEVEL_TOKEN_T], in_data[`LEVEL_TOKEN_S],
@@ -42,7 +42,7 @@ module sample_walker #(
   wire unused = &{1'b0, in_data};
 
   logic full_1;
-  logic leave_1;  // the first register gives its fragment to the next one
+  logic leave_1;  // the first register passes its fragment to the next one
   wire enter_1 = in_valid && (!full_1 || leave_1);
   assign in_pop = enter_1;
   logic [WITH_BITS-1:0] with_1;
@@ -57,16 +57,16 @@ module sample_walker #(
       wide_t_1 <= $signed({{9{axis_t[33]}}, axis_t}) * wide_spread;
     end
 
-  // ---- the walking register: what it takes, and when
+  // ---- input of the walking register
   logic walking;
-  logic walk_takes;  // it has room in this clock
+  logic walk_takes;  // it accepts a fragment in this cycle
   logic arrives;     // a fragment for it
   logic [WITH_BITS-1:0] arriving;
   logic signed [60:0] step_s, step_t, first_s, first_t;  // 46 fraction bits
 
   generate
     if (COUNT == `COUNT_ANY) begin : g_any
-      // 2: times 1 / N from its ROM.
+      // 2: multiplication by 1 / N from a ROM.
       logic [`RECIPROCAL_BITS-1:0] reciprocal;
       rom #(.BITS(`RECIPROCAL_BITS), .WORDS(17), .ADDRESS_BITS(5), .CONTENTS(`RECIPROCAL)) reciprocals (
         .clk, .read(enter_1), .address({1'b0, last_index} + 5'd1), .word(reciprocal));
@@ -109,11 +109,11 @@ module sample_walker #(
     end
   endgenerate
 
-  // ---- the last stage: a request a clock
+  // ---- the last stage: one request per cycle
   logic [WITH_BITS-1:0] at;
   logic signed [60:0] offset_s, offset_t, stride_s, stride_t;
   logic [3:0] index;
-  logic second;  // of two levels
+  logic second;  // second of two levels
   wire [7:0] at_fraction = at[119:112];
   wire [3:0] at_last = at[107:104];
   wire last_of_sample = second || at_fraction == 8'd0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Length of one side of a footprint by the rules that need no root, in two stages: by its components
-// (`low`, `high`, to be registered), then the longer of both lines (docs/reference/texture/formats.md,
-// "Footprint").
+// Length of one side of a footprint by the configurations without a root, in two stages: first from its components
+// (`low`, `high`, to be registered), then the longer of both results (docs/reference/texture/formats.md, "Footprint").
 `include "tables.svh"
 module side_length #(
   parameter integer RULE = `CHOSEN_FOOTPRINT

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One line looked up in its set, and the set afterwards (docs/reference/texture/formats.md, "Cache and
-// traffic"): a hit makes the line the most recently used one (`lru` alone), a miss takes an invalid way, the
-// lowest first, or replaces one. A bit for each pair of ways says which of both is older.
+// Looks up one line in its set and updates the set (docs/reference/texture/formats.md, "Cache and traffic"): a hit
+// makes the line the most recently used one (only with `lru`); a miss takes the lowest invalid way, or replaces a line.
+// One bit per pair of ways tells the older one.
 `include "tables.svh"
 module tag_look_up #(
   parameter integer WAYS = 2,
@@ -10,19 +10,19 @@ module tag_look_up #(
   parameter integer WAY_BITS = WAYS > 1 ? $clog2(WAYS) : 1,
   parameter integer ORDER_BITS = WAYS > 1 ? WAYS * (WAYS - 1) / 2 : 1
 ) (
-  input  logic [WAYS-1:0]          valid,   // the set, a bit or a tag a way
+  input  logic [WAYS-1:0]          valid,   // the set: one bit or tag per way
   input  logic [WAYS-1:0]          turned,
   input  logic [WAYS*TAG_BITS-1:0] tags,
-  input  logic [ORDER_BITS-1:0]    order,   // of the ways i < j: i is older
+  input  logic [ORDER_BITS-1:0]    order,   // for ways i < j: i is older
   input  logic                     enable,
   input  logic [TAG_BITS-1:0]      tag,
-  input  logic                     turn,    // the line is stored turned if it is filled now
+  input  logic                     turn,    // a line filled now is stored turned
   input  logic [WAY_BITS-1:0]      random,
   output logic                     hit,
   output logic                     miss,
   output logic                     replaces,  // a miss, and all ways are valid
-  output logic [WAY_BITS-1:0]      way,     // that has the line, or gets it
-  output logic                     is_turned,  // the line that is hit
+  output logic [WAY_BITS-1:0]      way,     // way that has the line or gets it
+  output logic                     is_turned,  // the line that hits is turned
   output logic [WAYS-1:0]          valid_next,
   output logic [WAYS-1:0]          turned_next,
   output logic [WAYS*TAG_BITS-1:0] tags_next,
@@ -33,7 +33,7 @@ module tag_look_up #(
   generate
     for (i = 0; i < WAYS; i = i + 1) begin : g_way
       assign equal[i] = valid[i] && tags[i*TAG_BITS +: TAG_BITS] == tag;
-      // Older than each other one.
+      // Older than every other way.
       logic [WAYS-1:0] older;
       for (j = 0; j < WAYS; j = j + 1) begin : g_pair
         if (i < j) begin : g_older

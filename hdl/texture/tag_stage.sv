@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Looks up the lines of a request, allocates those that miss and orders them, in two stages
+// Looks up the lines of a request, allocates those that miss and requests them, in two stages
 // (docs/reference/texture/cache.md, "Tags"; docs/reference/texture/formats.md, "Cache and traffic").
 `include "tokens.svh"
 `include "tables.svh"
@@ -31,13 +31,13 @@ module tag_stage #(
   localparam integer TAG_BITS = LINE_BITS - SET_BITS;
   localparam integer ORDER_BITS = WAYS > 1 ? WAYS * (WAYS - 1) / 2 : 1;
   localparam integer SLOT_BITS = $clog2(BYTES) - OFFSET_BITS;
-  // Of a set: tags, turned bits and order of use; the valid bits have a reset and stand apart.
+  // Contents of a set: tags, turned bits and order of use; the valid bits have a reset and are separate.
   localparam integer TURNED_AT = WAYS * TAG_BITS;
   localparam integer ORDER_AT = TURNED_AT + WAYS;
   localparam integer VALID_AT = ORDER_AT + ORDER_BITS;
   localparam integer STORED_BITS = VALID_AT;
   localparam integer STATE_BITS = VALID_AT + WAYS;
-  // Odd rows of the linear layout: their words change places by half a tile.
+  // Odd rows of the linear layout: lines are turned, their words swapped by half a tile.
   localparam integer TURN_BYTES = LINE_BYTES / 2 < 32 ? LINE_BYTES / 2 : 32;
 
   logic valid_2;
@@ -73,11 +73,11 @@ module tag_stage #(
 
   logic [STORED_BITS-1:0] sets[0:SETS-1];
   logic [SETS*WAYS-1:0] valids;
-  // What the request in stage 2 makes of its sets; they are written when it leaves.
+  // The sets as updated by the request in stage 2; written when it leaves.
   wire [STATE_BITS-1:0] next_0, next_1, next_2, next_3;
   wire write_0, write_1, write_2, write_3;
   logic [INDEX_BITS-1:0] at_0, at_1, at_2, at_3;
-  // Write-first: of four writes to a set the last one counts, which has seen the others.
+  // Write-first: of four writes to a set the last one counts, which includes the others.
   wire [STATE_BITS-1:0] read_0 = write_3 && at_3 == index_0 ? next_3 : write_2 && at_2 == index_0 ? next_2 :
                                  write_1 && at_1 == index_0 ? next_1 : write_0 && at_0 == index_0 ? next_0 :
                                  {valids[index_0*WAYS +: WAYS], sets[index_0]};
@@ -136,7 +136,7 @@ module tag_stage #(
       same_32 <= line_3 == line_2;
     end
 
-  // ---- 2: look-ups, each in the set as those before it have left it
+  // ---- 2: lookups, each in the set as updated by the previous ones
   wire asks = valid_2 && ticket[`TICKET_VALID];
   wire on_0 = asks;
   wire on_1 = asks && !same_10;
@@ -147,7 +147,7 @@ module tag_stage #(
   wire [STATE_BITS-1:0] seen_3 = on_2 && at_2 == at_3 ? next_2 : on_1 && at_1 == at_3 ? next_1 :
                                  on_0 && at_0 == at_3 ? next_0 : set_3;
 
-  // A step of the shift register, before each use.
+  // Steps of the shift register, one before each use.
   logic [15:0] drawn;
   wire [15:0] step_0 = {drawn[0] ^ drawn[2] ^ drawn[3] ^ drawn[5], drawn[15:1]};
   wire replaces_0, replaces_1, replaces_2, replaces_3;
@@ -194,7 +194,7 @@ module tag_stage #(
   assign write_3 = leave && on_3;
   wire unused = &{1'b0, hit_0, hit_1, hit_2, hit_3, way_0, way_1, way_2, way_3};
 
-  // Where a line is in the data banks: its set, then its way.
+  // Position of a line in the data banks: its set, then its way.
   wire [SLOT_BITS-1:0] slot_0, slot_1, slot_2, slot_3;
   generate
     if (WAYS == 1) begin : g_direct
@@ -215,12 +215,12 @@ module tag_stage #(
     end
   endgenerate
 
-  // Misses in their order: number k of the request's.
+  // Misses in order: index within the request.
   wire [2:0] number_1 = {2'd0, miss_0};
   wire [2:0] number_2 = number_1 + {2'd0, miss_1};
   wire [2:0] number_3 = number_2 + {2'd0, miss_2};
   wire [2:0] fills = number_3 + {2'd0, miss_3};
-  // Each texel's own line, or the first one that is the same: its look-up tells all.
+  // The lookup of each texel: its own line's, or that of the first texel with the same line.
   wire [1:0] of_1 = same_10 ? 2'd0 : 2'd1;
   wire [1:0] of_2 = same_20 ? 2'd0 : same_21 ? 2'd1 : 2'd2;
   wire [1:0] of_3 = same_30 ? 2'd0 : same_31 ? 2'd1 : same_32 ? 2'd2 : 2'd3;
@@ -246,7 +246,7 @@ module tag_stage #(
     end
   endgenerate
 
-  // Fill number k is the miss before which there are k.
+  // Fill number k is the miss with k misses before it.
   wire [LINE_BITS-1:0] asks_0 = asked_0[31:OFFSET_BITS], asks_1 = asked_1[31:OFFSET_BITS];
   wire [LINE_BITS-1:0] asks_2 = asked_2[31:OFFSET_BITS], asks_3 = asked_3[31:OFFSET_BITS];
   wire [4*SLOT_BITS-1:0] victims;
@@ -269,7 +269,7 @@ module tag_stage #(
     end
   endgenerate
 
-  // Both links take their part in one clock.
+  // Both links accept in the same cycle.
   assign leave = valid_2 && out_ready && (fills == 3'd0 || miss_ready);
   assign out_push = leave;
   assign miss_push = leave && fills != 3'd0;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Byte address of a texel in a level, row after row or in tiles of 64 bytes
-// (docs/reference/texture/formats.md, "Addresses").
+// Byte address of a texel in a level, row by row or in tiles of 64 bytes (docs/reference/texture/formats.md,
+// "Addresses").
 module texel_address (
   input  logic [11:0] x, y,
   input  logic [12:0] width, height,
   input  logic        tiled,
-  input  logic [1:0]  lb_bytes,  // of a texel
+  input  logic [1:0]  lb_bytes,  // log2 of the bytes of a texel
   input  logic [31:0] base,
   output logic [31:0] address
 );
-  // Row after row: the pitch is rounded up to 64 bytes.
+  // Row by row: the pitch is rounded up to 64 bytes.
   wire [14:0] row_bytes = {2'd0, width} << lb_bytes;
   wire [15:0] padded = {1'b0, row_bytes} + 16'd63;
   wire [31:0] column = {20'd0, x} << lb_bytes;

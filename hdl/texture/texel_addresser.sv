@@ -13,7 +13,7 @@ module texel_addresser (
   output logic                          out_push,
   input  logic                          out_ready,
   output logic [`TEXEL_TOKEN_BITS-1:0]  out_data,
-  output logic [3:0]                    handle,  // of the token that is at the link
+  output logic [3:0]                    handle,  // of the token at the link
   input  logic [`DESCRIPTOR_BITS-1:0]   descriptor
 );
   logic move;
@@ -41,7 +41,7 @@ module texel_addresser (
       bases_1 <= descriptor[32*`DESCRIPTOR_BASE_WORD +: 32*`DESCRIPTOR_BASES];
     end
 
-  // 2: the level in it, wrapping.
+  // 2: the level within the descriptor, wrapping.
   localparam integer WITH_BITS = 40 + 9 + 4 + 4 + 1 + 1 + 1 + 3;
   wire [3:0] level = sample_1[`SAMPLE_TOKEN_LEVEL];
   wire [12:0] width_at = width_1 >> level;
@@ -71,7 +71,7 @@ module texel_addresser (
       base_2 <= bases_1[32*level +: 32];
     end
 
-  // 3: times the level's size.
+  // 3: multiplication by the size of the level.
   logic signed [46:0] product_s, product_t;
   always_ff @(posedge clk)
     if (move) begin
@@ -137,7 +137,7 @@ module texel_addresser (
   assign out_data[`TEXEL_TOKEN_ADDRESS_1] = address_10;
   assign out_data[`TEXEL_TOKEN_ADDRESS_2] = address_01;
   assign out_data[`TEXEL_TOKEN_ADDRESS_3] = address_11;
-  // The lines of odd rows are stored with their banks turned in the linear layout.
+  // In the linear layout, lines of odd rows are stored turned.
   assign out_data[`TEXEL_TOKEN_TURNED_0] = !tiled_4 && y0_4[0];
   assign out_data[`TEXEL_TOKEN_TURNED_1] = !tiled_4 && y1_4[0];
 endmodule

@@ -11,7 +11,7 @@ module texel_axis (
   output logic [11:0]        second,
   output logic [7:0]         fraction
 );
-  // Half a texel less, rounded to 8 fraction bits; the nearest texel is truncated.
+  // Minus half a texel, rounded to 8 fraction bits; the nearest texel is truncated.
   wire signed [46:0] rounded = product - 47'sd8388608 + 47'sd32768;  // 2^23, 2^15
   wire signed [22:0] low = linear ? rounded[46:24] : product[46:24];
   wire signed [22:0] high = linear ? low + 23'sd1 : low;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From bilinear requests to their texels: TagStage, MissQueue with the FillBuffer, LatencyFifo and
-// DataStage (docs/reference/texture/cache.md). Requests to memory and its responses go through links outside.
+// From bilinear requests to their texels: TagStage, MissQueue with the FillBuffer, LatencyFifo and DataStage
+// (docs/reference/texture/cache.md). Memory requests and responses use links outside.
 `include "tokens.svh"
 `include "tables.svh"
 module texture_cache #(
@@ -28,7 +28,7 @@ module texture_cache #(
   input  logic [`MEMORY_RESPONSE_BITS-1:0]  response_data,
   // CONTROL.invalidate, while the cache is empty.
   input  logic                              invalidate,
-  // What the links inside do in this clock, for a bench: misses, requests, entries of the LatencyFifo.
+  // Activity of the internal links in this cycle, for a testbench: misses, requests, entries of the LatencyFifo.
   output logic [2:0]                        link_push,
   output logic [2:0]                        link_pop
 );
@@ -46,7 +46,7 @@ module texture_cache #(
     .clk, .rst_n, .push(miss_push), .push_data(miss_in), .can_push(miss_ready),
     .pop(miss_pop), .front(miss_out), .can_pop(miss_valid));
 
-  // The LatencyFifo: a beat moves on as soon as there is room.
+  // The LatencyFifo: a beat advances as soon as there is room.
   logic entry_ready, entry_valid, entry_pop;
   logic [`CACHE_TOKEN_BITS-1:0] entry;
   wire entry_push = tagged_valid && entry_ready;
@@ -64,7 +64,7 @@ module texture_cache #(
     .clk, .rst_n, .in_valid(miss_valid), .in_pop(miss_pop), .in_data(miss_out), .request_push, .request_ready,
     .request_data, .reserve, .can_reserve, .reserved);
 
-  // There is room for each response. A line that came with an error is zero already.
+  // There is room for each response. A line with an error is already zero.
   assign response_pop = response_valid;
   wire [`MEMORY_RESPONSE_LINE_BITS-1:0] beat = response_data[`MEMORY_RESPONSE_LINE];
   wire [BEATS-1:0] beat_at;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Morton index of a tile in a level: the low bits of both axes interleave, x in the even places, as far
-// as both have tiles; the rest of the longer axis stands above (docs/reference/texture/formats.md,
-// "Addresses").
+// Morton index of a tile in a level: the low bits of both axes are interleaved, x in the even positions, as far as both
+// axes have tiles; the remaining bits of the longer axis are above (docs/reference/texture/formats.md, "Addresses").
 module tile_index (
   input  logic [9:0]  x, y,
   input  logic [9:0]  last_x, last_y,  // of the level's tiles
   output logic [19:0] index
 );
   // Bits that an axis needs; the number of tiles is rounded up to a power of two.
-  logic [9:0] used_x, used_y;  // ones below that place
+  logic [9:0] used_x, used_y;  // ones below that position
   integer i;
   always_comb
     for (i = 0; i < 10; i = i + 1) begin

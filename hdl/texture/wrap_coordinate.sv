@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A coordinate by its wrap mode: U0.24, or S9.24 as it is for clamping (docs/reference/texture/formats.md,
+// Applies the wrap mode to a coordinate: U0.24, or unchanged S9.24 for clamping (docs/reference/texture/formats.md,
 // "Addresses").
 `include "tables.svh"
 module wrap_coordinate (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Round-robin choice among requesters, and the unit that merges links with it.
+// Round-robin arbiter, and the unit that merges links with it.
 #pragma once
 
 #include <bit>
@@ -14,22 +14,25 @@
 
 namespace deburr::rtl {
 
-// Who is granted last has the lowest priority next time: a requester waits for at most n-1 grants.
-// Combinational; cost: one n-bit priority chain (two with wrap) and a register of log2(n) bits.
-// Made for 250 MHz up to 32 requesters; longest path: their priority chain and the choice of one.
+// Function  Round-robin choice. The requester granted last has the lowest priority next time, so a
+//           requester waits for at most n - 1 grants.
+// Latency   0, combinational.
+// Cost      A priority chain of n bits (two with wrap-around) and a register of log2(n) bits. Meets
+//           250 MHz up to 32 requesters; longest path: priority chain, then the choice of one
+//           requester.
 class RoundRobin {
  public:
   explicit RoundRobin(int requesters) : requesters_(requesters) {
     DEBURR_CHECK(requesters >= 1 && requesters <= 64,
                  "1 to 64 requesters, got " + std::to_string(requesters));
   }
-  // The requester that would be granted among the bits set in `requests`; -1 if none.
+  // The requester to grant among the bits set in `requests`; -1 if none is set.
   int choose(std::uint64_t requests) const {
     const std::uint64_t after = requests & ~((std::uint64_t{1} << next_) - 1);
     const std::uint64_t candidates = after ? after : requests;
     return candidates ? std::countr_zero(candidates) : -1;
   }
-  // The grant was used: the requester goes to the end of the queue.
+  // Called when the grant was used: the requester gets the lowest priority.
   void grant(int requester) { next_ = requester + 1 == requesters_ ? 0 : requester + 1; }
   void reset() { next_ = 0; }
 
@@ -37,7 +40,8 @@ class RoundRobin {
   int requesters_, next_ = 0;
 };
 
-// N links into one, fair, one beat a clock. Latency 1 in addition to the output link, II 1.
+// Merges N links into one, fairly, one beat per cycle. Latency 1 plus that of the output link,
+// initiation interval 1.
 template <class T>
 class Merge final : public Unit {
  public:

@@ -18,7 +18,7 @@
 namespace deburr::rtl {
 namespace {
 
-// What a domain resets, beside its units.
+// Objects besides units that the domain resets.
 bool is_collected(const sc_core::sc_object& object) {
   return dynamic_cast<const LinkBase*>(&object) || dynamic_cast<const WireBase*>(&object) ||
          dynamic_cast<const MemoryBase*>(&object) || dynamic_cast<const Counter*>(&object) ||
@@ -49,7 +49,7 @@ void ClockDomain::add_after(Clocked& clocked) {
   adopt_module(clocked);
   after_.push_back(&clocked);
 }
-// What is ticked by this domain, and is a module, belongs to it.
+// A module that this domain ticks belongs to it.
 void ClockDomain::adopt_module(const Clocked& clocked) {
   const auto* const object = dynamic_cast<const sc_core::sc_object*>(&clocked);
   if (object && !Ownership().given(*object)) adopt(*object);
@@ -62,7 +62,7 @@ void ClockDomain::adopt(const sc_core::sc_object& object) {
   const Ownership ownership;
   const ClockDomain* const other = ownership.given(object);
   DEBURR_CHECK(!other || other == this,
-               fmt::format("{} is given to two clock domains ({} and {})", object.name(),
+               fmt::format("{} belongs to two clock domains ({} and {})", object.name(),
                            other ? other->name() : "", name()));
   if (!other) adopted_.push_back(&object);
 }
@@ -93,19 +93,19 @@ void ClockDomain::claim(WireBase& wire) {
   wires_.push_back(&wire);
 }
 
-// A combinational wire is driven before it is read: its driver is added before its readers, and
-// they keep that order. What is not ticked (registers behind a bus) drives between edges, or in
-// answer to a unit that reads it then, and takes at once.
+// A combinational wire is driven before it is read: the driver is added before its readers, and
+// shuffling keeps that order. A driver that is not ticked (registers on a bus) drives between edges
+// or when a unit reads it, and its value counts at once.
 void ClockDomain::join_combinational() {
-  std::vector<std::size_t> group(
-      units_.size());  // the lowest number of a unit that it is joined to
+  std::vector<std::size_t> group(units_.size());  // lowest index of a unit joined to it
   std::iota(group.begin(), group.end(), std::size_t{0});
   const auto unit_of = [&](const std::string& port) -> std::optional<std::size_t> {
     const sc_core::sc_object* object = sc_core::sc_find_object(port.c_str());
     while (object && !dynamic_cast<const Unit*>(object)) object = object->get_parent_object();
     if (!object) return std::nullopt;
     const auto found = std::find(units_.begin(), units_.end(), object);
-    DEBURR_CHECK(found != units_.end(), fmt::format("{} is a port of no unit of {}", port, name()));
+    DEBURR_CHECK(found != units_.end(),
+                 fmt::format("{} does not belong to a unit of {}", port, name()));
     return static_cast<std::size_t>(found - units_.begin());
   };
   for (const WireBase* wire : wires_) {
@@ -116,7 +116,7 @@ void ClockDomain::join_combinational() {
       const std::optional<std::size_t> reader = unit_of(port);
       if (!reader) continue;
       DEBURR_CHECK(*driver < *reader,
-                   fmt::format("{} is combinational, so {} has to be ticked before {}: construct "
+                   fmt::format("{} is combinational, so {} must be ticked before {}: construct "
                                "it first",
                                wire->name(), units_[*driver]->name(), units_[*reader]->name()));
       const std::size_t from = std::max(group[*driver], group[*reader]),
@@ -143,7 +143,7 @@ void ClockDomain::end_of_elaboration() {
     if (!is_collected(object) || !seen.insert(&object).second) return;
     if (ownership.of(object) == this) collect(object);
   };
-  // What units hold first, in the order of the units.
+  // First the links and memories of units, in the order of the units.
   for (Unit* unit : units_) {
     unit->check_ports();
     walk(*unit, [&](sc_core::sc_object& object) {
@@ -194,7 +194,7 @@ void ClockDomain::reorder() {
   for (const std::vector<const Clocked*>& members : joined_) keep_order(members);
 }
 
-// The places that the members have now are theirs in their own order.
+// Restores the order of `members` within the slots that they occupy now.
 void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
   std::vector<std::size_t> places;
   std::vector<Slot> in_order(members.size());
@@ -204,7 +204,7 @@ void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
     places.push_back(i);
     in_order[static_cast<std::size_t>(member - members.begin())] = slots_[i];
   }
-  // One that something else replaces has no place.
+  // A replaced unit has no slot.
   std::erase_if(in_order, [](const Slot& slot) { return slot.clocked == nullptr; });
   for (std::size_t i = 0; i < places.size(); ++i) slots_[places[i]] = in_order[i];
 }
@@ -213,7 +213,7 @@ sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
   return sc_core::sc_time::from_value(cycle * period_value_);
 }
 
-// A unit of another domain may have called into this one: the offset is that of its edge.
+// A unit of another domain may call into this one: the offset is that of the calling domain's edge.
 sc_core::sc_time ClockDomain::offset() {
   block_end_ = 0;
   for (ClockDomain* domain : domains_) {
@@ -233,9 +233,9 @@ const sc_core::sc_event& ClockDomain::edge() {
   return edge_;
 }
 
-// An activation at the time of an edge. It first lets the other processes of that time go by, if
-// there are any: whether they come before or after this one in the kernel's queue depends on how
-// long the last block was, and must not matter.
+// An activation at the time of an edge. Other processes of that time run first: whether the kernel
+// calls them before or after this process depends on the length of the last block and must not
+// matter.
 void ClockDomain::activate() {
   using sc_core::SC_ZERO_TIME;
   if (!deferred_ &&
@@ -246,7 +246,7 @@ void ClockDomain::activate() {
   }
   deferred_ = false;
   if (phase_ == Phase::kStop) {
-    // The time has caught up with the cycles that were run: this is where sc_start() may return.
+    // Simulation time has caught up with the evaluated cycles: sc_start() may return here.
     phase_ = Phase::kEdge;
     stopped_in_ = sc_core::sc_delta_count();
     sc_core::sc_pause();
@@ -270,7 +270,7 @@ void ClockDomain::activate() {
   ++activations_;
   const bool good = attempt([this] {
     evaluate_edge();
-    if (domains_.size() > 1) hand_on();  // before it runs on: the others are at this time
+    if (domains_.size() > 1) hand_on();  // before running on: others are still at this time
     while (may_run_on()) evaluate_block();
   });
   if (!good) return;
@@ -282,7 +282,7 @@ void ClockDomain::activate() {
   next_trigger(time_of(cycle_ - block_start_));
 }
 
-// Gives false, and ends the run, after an error.
+// Returns false and ends the run after an error.
 template <class Action>
 bool ClockDomain::attempt(const Action& action) {
   evaluating_ = true;
@@ -299,9 +299,9 @@ bool ClockDomain::attempt(const Action& action) {
   return true;
 }
 
-// Edges of several domains at one time take turns. In which order the kernel calls their processes
-// depends on how long their last blocks were. Each evaluates its own edge: SystemC tells by the
-// process who drives a signal.
+// Edges of several domains at the same time take turns, since the order in which the kernel calls
+// their processes depends on the length of their last blocks. Each process evaluates its own edge:
+// SystemC identifies the driver of a signal by the process.
 bool ClockDomain::is_due() const {
   return phase_ == Phase::kEdge && !failure_ && sc_core::sc_time_stamp() == time_of(cycle_);
 }
@@ -311,8 +311,8 @@ void ClockDomain::hand_on() {
     if (domain != this && domain->is_due()) return domain->turn_.notify();
 }
 
-// Does a domain end the run at this time? Then none evaluates an edge of this time before the next
-// run.
+// True if a domain ends the run at this time. Then no domain evaluates an edge of this time before
+// the next run.
 bool ClockDomain::stops_now() const {
   return std::any_of(domains_.begin(), domains_.end(), [](const ClockDomain* domain) {
     return domain->stopped_in_ == sc_core::sc_delta_count() ||
@@ -349,15 +349,15 @@ void ClockDomain::evaluate() {
   }
 }
 
-// evaluate() up to the end of the block, without what is usually not there. Whatever changes that
-// (reset, stop, a call into SystemC) moves the end of the block to before the next cycle.
+// evaluate() up to the end of the block, without the cases that rarely occur. Whatever changes that
+// (reset, stop, a call into SystemC) ends the block before the next cycle.
 void ClockDomain::evaluate_block() {
   if (!reset_n_ || shuffled_ || !before_.empty()) {
     while (cycle_ < block_end_) evaluate();
     return;
   }
   Cycle cycle = cycle_;
-  // Codes are below kActivities: declare_stall() has counted them.
+  // declare_stall() keeps codes below kActivities.
   const auto tick = [&cycle](const Slot& slot) { ++slot.activity[slot.clocked->tick(cycle).code]; };
   const Slot* const begin = slots_.data();
   const Slot* const end = begin + slots_.size();
@@ -380,22 +380,22 @@ void ClockDomain::evaluate_block() {
   } while (cycle < block_end_);
 }
 
-// May the next edge be evaluated in this activation? Only if nobody could tell. Moves the end of
-// the block as far as can be told now.
+// True if the next edge may be evaluated in this activation, which must be unobservable. Extends
+// the end of the block to the latest safe cycle.
 bool ClockDomain::may_run_on() {
   if (!fast_path_ || cycle_by_cycle_ || observed_ || stop_requested_ || done_reached_) return false;
   const std::uint64_t next = (cycle_ - block_start_) * period_value_;
   const std::uint64_t pending = sc_core::sc_time_to_pending_activity().value();
   DEBURR_CHECK(
       pending >= next - period_value_,
-      fmt::format("{}: in one of the cycles {}..{} something was raised in SystemC without adding "
+      fmt::format("{}: an event was notified in one of the cycles {}..{} without adding "
                   "the domain's offset, so its time is wrong: use ClockDomain::notify() or "
                   "offset(), or switch off the fast path",
                   name(), std::max(block_start_, cycle_ - std::min(cycle_, kBlock)), cycle_ - 1));
   if (pending <= next || cycle_ >= horizon_ ||
       sc_core::sc_get_curr_simcontext()->sim_status() != sc_core::SC_SIM_OK)
     return false;
-  // Edges strictly before what is pending, and strictly before the horizon.
+  // Edges strictly before the next pending event and before the horizon.
   block_end_ =
       std::min({cycle_ + kBlock, block_start_ + (pending - 1) / period_value_ + 1, horizon_});
   return true;
@@ -436,8 +436,8 @@ bool ClockDomain::run_until(const std::function<bool()>& done, Cycle limit) {
 
 void ClockDomain::run_free() { start(kNever, sc_core::sc_max_time().value()); }
 
-// The promise made here to all domains is what allows them to run on: sc_start() will not return
-// before `horizon`, unless one of them asks for it.
+// `horizon` promises all domains that sc_start() will not return earlier unless a domain requests
+// it; so they may run on.
 void ClockDomain::start(Cycle end, std::uint64_t horizon) {
   DEBURR_CHECK(!in_run_, fmt::format("{}: run() within run()", name()));
   find_domains();
@@ -473,7 +473,7 @@ void ClockDomain::find_domains() {
   if (domains_.empty()) for_each<ClockDomain>([&](ClockDomain& d) { domains_.push_back(&d); });
 }
 
-// An error in one domain is one of the simulation.
+// An error in one domain ends the whole simulation.
 void ClockDomain::rethrow_failure() const {
   for (const ClockDomain* domain : domains_)
     if (domain->failure_) std::rethrow_exception(domain->failure_);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// One clock: owns the rising edge and ticks its units in a fixed order, in a single SystemC
-// process.
+// A clock domain: generates the rising edge and ticks its units in a fixed order, in a single
+// SystemC process.
 //
-// Edge number c is at the time c x period. What other processes do at that very time, in the same
-// delta cycle, counts as before the edge. While no other process has anything pending up to and
-// including the next edge, the domain runs on through further cycles in the same activation. That
-// is invisible as long as units keep to two rules: they never ask for sc_time_stamp() (use
-// time_of(cycle)), and they raise events and call TLM targets with the offset of the domain added
-// (notify(), offset()). The first rule cannot be checked, the second is checked. It also makes the
-// domain cheap: only after such a call, and every kBlock cycles, does it ask the kernel again.
-// Edges of several domains at one time are evaluated in the order of the module hierarchy: at the
-// top level that of construction.
-// Running on needs to know where sc_start() will end, so it happens inside run(), run_until() and
-// run_free() only; a bare sc_start() gives the same results cycle by cycle.
+// Edge c is at time c x period. Whatever other processes do at that time, in the same delta cycle,
+// counts as before the edge.
+//
+// Running on: while no other process has an event pending up to and including the next edge, the
+// domain evaluates further cycles in the same activation. This is unobservable if units keep two
+// rules: they never call sc_time_stamp() (use time_of(cycle)), which is not checked; and they
+// notify events and call TLM targets with the domain's offset added (notify(), offset()), which is
+// checked. The domain asks the kernel again only after such a call and every kBlock cycles. It must
+// know where sc_start() will end, so it runs on only inside run(), run_until() and run_free(); a
+// bare sc_start() gives the same results cycle by cycle.
+//
+// Edges of several domains at the same time are evaluated in the order of the module hierarchy; at
+// the top level, in the order of construction.
 #pragma once
 
 #include <cstdint>
@@ -37,31 +39,31 @@ class ClockDomain final : public sc_core::sc_module {
   ClockDomain(const sc_core::sc_module_name& name, const sc_core::sc_time& period);
   const char* kind() const override { return "deburr_clock_domain"; }
 
-  // --- Building. Order of addition is order of evaluation. ---
+  // --- Building. Units are evaluated in the order of addition. ---
   void add(Unit& unit);               // done by Unit's constructor
   void add(Clocked& clocked);         // something clocked that is not a Unit
   void add_before(Clocked& clocked);  // ticked before all units (stalls, faults)
   void add_after(Clocked& clocked);   // ticked after all units (checkers, traces)
-  void add(LinkBase& link);  // only for a link that no Unit's port is bound to: reset with the rest
-  // The object belongs to this domain, and what stands in it, but for units of other domains and
-  // what belongs to these: for a module that is not a Unit, and a memory, counter or histogram
-  // that stands in no unit (ownership.h has the rules). Done for a module that is added above.
+  void add(LinkBase& link);           // only a link that is not bound to a unit's port
+  // Assigns the object and everything below it to this domain, except units of other domains and
+  // their parts. For a module that is not a Unit, and for a memory, counter or histogram outside
+  // all units (rules: ownership.h). Modules added above are adopted automatically.
   void adopt(const sc_core::sc_object& object);
 
-  // From now on something else does the work of a unit, at the unit's ports, and counts these of
-  // its counters: the unit is neither ticked nor reset. Its links and counters are reset as before.
-  // Before the first edge.
+  // Another implementation does the work of the unit from now on, at the unit's ports, and updates
+  // the counters in `counted`. The unit is neither ticked nor reset; its links and counters are
+  // reset as before. Call before the first edge.
   void replace(Unit& unit, std::vector<const class Counter*> counted = {});
 
-  // What else an edge in reset does (registers, which are no units).
+  // Adds an action for edges in reset (registers, which are not units).
   void on_reset(std::function<void()> action) { on_reset_.push_back(std::move(action)); }
 
   // --- Options, before or between runs ---
   void set_fast_path(bool on) { fast_path_ = on; }
-  // Evaluates the units in another random order each cycle; nullopt: in the order of addition.
-  // Units that combinational wires join keep their order among themselves.
+  // Evaluates the units in a new random order each cycle; nullopt: in the order of addition. Units
+  // joined by combinational wires keep their order among themselves.
   void shuffle(std::optional<std::uint64_t> seed);
-  // From now on every edge is an activation of its own (traces).
+  // Makes every edge an activation of its own (traces).
   void require_cycle_by_cycle() { cycle_by_cycle_ = true; }
   // Active low. While false, every edge resets instead of ticking.
   void set_reset_n(bool reset_n) {
@@ -71,7 +73,7 @@ class ClockDomain final : public sc_core::sc_module {
 
   // --- Running ---
   void run(Cycle cycles);
-  // Runs until `done` is true after an edge: true; or for `limit` cycles: false.
+  // Returns true once `done` is true after an edge, false after `limit` cycles.
   bool run_until(const std::function<bool()>& done, Cycle limit);
   // Runs until request_stop() is called.
   void run_free();
@@ -86,20 +88,21 @@ class ClockDomain final : public sc_core::sc_module {
   Cycle cycle() const { return cycle_; }  // inside tick: the current edge; outside: the next one
   Cycle cycles_since_reset() const { return cycle_ - reset_cycle_; }
   sc_core::sc_time time_of(Cycle cycle) const;
-  // How far the edge that is being evaluated is ahead of sc_time_stamp(). For a call into SystemC
-  // that is made right after: the domain will look for what it has caused.
+  // Offset of the edge being evaluated from sc_time_stamp(). For a call into SystemC made
+  // immediately after: the domain then checks for events that the call caused.
   sc_core::sc_time offset();
-  // Raises an event `delay` after the edge that is being evaluated (in the next delta if zero).
+  // Notifies an event `delay` after the edge being evaluated (in the next delta cycle if zero).
   void notify(sc_core::sc_event& event, const sc_core::sc_time& delay = sc_core::SC_ZERO_TIME);
-  // Raised at every edge, after the units have been ticked. Asking for it ends running on.
+  // Notified at every edge after the units were ticked. Using it disables running on.
   const sc_core::sc_event& edge();
 
   const std::vector<Unit*>& units() const { return units_; }
   const std::vector<LinkBase*>& links() const { return links_; }  // complete after elaboration
   const std::vector<WireBase*>& wires() const { return wires_; }  // complete after elaboration
-  std::uint64_t activations() const { return activations_; }      // to see whether it runs on
+  std::uint64_t activations() const { return activations_; }      // tells if it runs on
 
-  // Checks busy + stalled + idle = cycles for every unit; run() and run_until() do it at their end.
+  // Checks busy + stalled + idle = cycles for every unit; run() and run_until() call it at their
+  // end.
   void check_accounting() const;
 
  private:
@@ -147,23 +150,23 @@ class ClockDomain final : public sc_core::sc_module {
   std::vector<class Histogram*> histograms_;
   std::vector<std::function<void()>> on_reset_;
   std::vector<const sc_core::sc_object*> adopted_;
-  std::vector<ClockDomain*> domains_;  // all of the simulation, this one included
+  std::vector<ClockDomain*> domains_;  // all domains of the simulation, including this one
   std::uint64_t ignored_[kActivities] = {};
 
   static constexpr Cycle kBlock = 256;
   Cycle cycle_ = 0, block_start_ = 0, reset_cycle_ = 0;
   Cycle block_end_ = 0;  // edges before this one may be evaluated without asking the kernel
-  Cycle horizon_ = 0;    // edges before this one the current run will certainly reach
+  Cycle horizon_ = 0;    // the current run certainly reaches edges before this one
   std::uint64_t activations_ = 0;
   std::uint64_t shuffle_state_ = 0;
   Phase phase_ = Phase::kEdge;
   bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
   bool deferred_ = false, stop_requested_ = false, in_run_ = false, evaluating_ = false;
   bool observed_ = false;
-  std::uint64_t stopped_in_ = ~std::uint64_t{0};  // the delta cycle of the last stop
+  std::uint64_t stopped_in_ = ~std::uint64_t{0};  // delta cycle of the last stop
   const std::function<bool()>* done_ = nullptr;
   bool done_reached_ = false;
-  sc_core::sc_event edge_{"edge"}, turn_{"turn"};  // turn_: to evaluate an edge at this time
+  sc_core::sc_event edge_{"edge"}, turn_{"turn"};  // turn_: evaluates an edge at this time
   std::exception_ptr failure_;
 };
 

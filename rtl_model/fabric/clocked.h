@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a clock domain evaluates once a cycle, and how a unit says what it did in that cycle.
+// Base of everything a clock domain ticks once per cycle, and the activity it reports for that
+// cycle.
 #pragma once
 
 #include <cstddef>
@@ -7,17 +8,17 @@
 
 namespace deburr::rtl {
 
-// Number of a clock edge, counted from 0 at the start of the simulation. It goes on through resets.
+// Number of a clock edge, counted from 0 at the start of the simulation and not cleared by a reset.
 using Cycle = std::uint64_t;
 inline constexpr Cycle kNever = ~Cycle{0};
 
-// What a unit did in one cycle: exactly one of idle, busy, or stalled by a named cause. It is the
-// return value of tick(), so that no cycle can be left out or counted twice.
+// Activity of a unit in one cycle: exactly one of idle, busy, or stalled by a named cause. tick()
+// returns it, so that no cycle is omitted or counted twice.
 struct Activity {
-  std::size_t code = 0;  // an index, which nothing has to widen
+  std::size_t code = 0;  // index, wide enough to need no conversion
   friend constexpr bool operator==(Activity, Activity) = default;
 };
-inline constexpr int kActivities = 16;  // codes 0..15: idle, busy, and at most 14 causes of stalls
+inline constexpr int kActivities = 16;  // codes 0..15: idle, busy, at most 14 stall causes
 inline constexpr Activity kIdle{0};     // nothing to do
 inline constexpr Activity kBusy{1};     // did work
 inline constexpr Activity kStalledDownstream{2};  // had work, but an output was not ready
@@ -30,12 +31,12 @@ class Clocked {
   Clocked& operator=(const Clocked&) = delete;
   virtual ~Clocked() = default;
 
-  // One clock edge. May look only at its own registers and at links, which show what was in them
-  // before this edge: the order in which units are ticked does not matter.
+  // One clock edge. Reads only its own registers and links, which show their state before this
+  // edge, so the order in which units are ticked does not matter.
   virtual Activity tick(Cycle cycle) = 0;
 
-  // Synchronous reset: back to the state after construction. Links, counters and histograms are
-  // reset by the domain.
+  // Synchronous reset to the state after construction. The domain resets links, counters and
+  // histograms.
   virtual void reset() = 0;
 };
 

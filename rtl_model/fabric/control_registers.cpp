@@ -14,15 +14,15 @@ namespace deburr::rtl {
 ControlLayout control_layout(std::span<const spec::RegisterInfo> table, bool busy_ignores_writes) {
   const auto row = [&](std::string_view name) -> const spec::RegisterInfo& {
     const spec::RegisterInfo* const found = spec::register_named(table, name);
-    DEBURR_CHECK(found, fmt::format("an engine without a register {}", name));
+    DEBURR_CHECK(found, fmt::format("the register table has no register {}", name));
     return *found;
   };
   const auto bit = [&](const spec::RegisterInfo& of, std::string_view name, spec::Access access) {
     const std::uint32_t bits = spec::bits_named(of, name);
-    DEBURR_CHECK(bits != 0, fmt::format("{} without a field {}", of.name, name));
+    DEBURR_CHECK(bits != 0, fmt::format("{} has no field {}", of.name, name));
     DEBURR_CHECK(
         (bits & of.bits(access)) == bits,
-        fmt::format("{}.{} has an access that the hardware does not give it", of.name, name));
+        fmt::format("{}.{} has an access that the hardware does not implement", of.name, name));
     return bits;
   };
   using spec::Access;

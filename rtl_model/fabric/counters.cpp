@@ -10,7 +10,7 @@ namespace deburr::rtl {
 Counter::Counter(const char* name, const char* unit, const char* meaning)
     : sc_object(name), unit_(unit), meaning_(meaning) {
   DEBURR_CHECK(!unit_.empty() && !meaning_.empty() && meaning_.find('\n') == std::string::npos,
-               fmt::format("{}: a counter needs a unit and a meaning of one line", this->name()));
+               fmt::format("{}: a counter needs a unit and a one-line meaning", this->name()));
 }
 
 void walk(sc_core::sc_object& root, const std::function<void(sc_core::sc_object&)>& visit) {
@@ -22,7 +22,7 @@ void walk_all(const std::function<void(sc_core::sc_object&)>& visit) {
   for (sc_core::sc_object* object : sc_core::sc_get_top_level_objects()) walk(*object, visit);
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 Counter::~Counter() = default;
 
 }  // namespace deburr::rtl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Event counters. A counter cannot be declared without its unit and its meaning in one line;
-// tables, JSON and docs derive from that. Cost: one 64-bit adder each (a 32-bit register may show
-// part of it).
+// Event counters. Each has a unit and a one-line meaning, from which tables, JSON and docs are
+// generated.
+// Cost      A 64-bit adder each; a 32-bit register may show part of it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace deburr::rtl {
 
-// Declared as a member of the unit that counts: its full name follows the hierarchy.
+// Declared as a member of the counting unit; its full name follows the hierarchy.
 //   Counter lines_fetched_{"lines_fetched", "lines", "cache lines requested from memory"};
 class Counter : public sc_core::sc_object {
  public:
@@ -27,14 +27,14 @@ class Counter : public sc_core::sc_object {
     value_ += amount;
     return *this;
   }
-  // Keeps the larger of the two: for high-water marks.
+  // Keeps the larger value, for high-water marks.
   void raise_to(std::uint64_t value) {
     if (value <= value_) return;
     value_ = value;
     largest_ = true;
   }
   std::uint64_t value() const { return value_; }
-  bool is_largest() const { return largest_; }  // a high-water mark: no sum of anything
+  bool is_largest() const { return largest_; }  // a high-water mark: must not be added up
   void reset() { value_ = 0; }
 
   const std::string& unit() const { return unit_; }  // "lines", "bytes", "clk", ...

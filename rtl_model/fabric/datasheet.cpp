@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kUsualMegahertz = 250;
 
-// But for the cycles of this build, where a text stands in their place.
+// Equal except for the cycle counts of this build, where a text replaces them.
 bool say_the_same(const Datasheet& a, const Datasheet& b) {
   return a.does == b.does && a.latency.shown() == b.latency.shown() &&
          a.interval.shown() == b.interval.shown() && a.stages == b.stages &&
          a.formats == b.formats && a.cost == b.cost && a.megahertz == b.megahertz;
 }
 
-// What a variant shares with the next one of its unit stands behind that.
+// Text shared with the unit's next variant is printed after that variant.
 std::string section(const Datasheet& sheet, bool first, const Datasheet* next) {
   std::string text;
   if (first) text += fmt::format("\n### {}\n\n{}\n", sheet.unit, sheet.does);
@@ -49,13 +49,13 @@ std::string title(const Datasheet& sheet) {
 std::vector<Datasheet> merged(std::span<const std::vector<Datasheet>> builds) {
   std::vector<Datasheet> all;
   for (const std::vector<Datasheet>& build : builds) {
-    auto behind = all.begin();  // the unit before it in its build
+    auto behind = all.begin();  // after the preceding unit of its build
     for (const Datasheet& sheet : build) {
       const auto same = std::find_if(all.begin(), all.end(), [&](const Datasheet& other) {
         return title(other) == title(sheet);
       });
       DEBURR_CHECK(same == all.end() || say_the_same(*same, sheet),
-                   "two datasheets that differ have one title: " + title(sheet));
+                   "different datasheets have the same title: " + title(sheet));
       const auto of_unit = [&](const Datasheet& other) { return other.unit == sheet.unit; };
       if (const auto last = std::find_if(all.rbegin(), all.rend(), of_unit); last != all.rend())
         behind = last.base();

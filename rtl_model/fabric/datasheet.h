@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The datasheet of a unit: what it does in which stage, in how many cycles, on which longest path,
-// with which formats, at which cost. docs/reference/datasheets.md is made of them, and timing tests
-// expect what they say of the simulated hardware, so no number of them is taken from the model's
-// code.
+// The datasheet of a unit: its work per stage, latency, longest paths, formats and cost.
+// docs/reference/datasheets.md is generated from them. Timing tests compare them with the simulated
+// hardware, so no number is computed by the model's own code.
 //
 //   Datasheet Halver::datasheet(const Parameters& p) {
 //     return {.unit = "Halver",
@@ -19,8 +18,8 @@
 
 namespace deburr::rtl {
 
-// A number of cycles. `text` says what it depends on, and is printed in its place; the number is
-// that of the build that the datasheet was asked for, and the least where tokens differ.
+// A number of cycles. `text` says what it depends on and is printed instead of it; the number is
+// that of the given build, and the minimum where tokens differ.
 struct Cycles {
   std::uint64_t cycles = 0;
   std::string text{};
@@ -31,30 +30,30 @@ struct Cycles {
 struct Stage {
   std::string clock;  // "1", "5-17"
   std::string work;
-  std::string path{};  // longest path, an estimate from the operators; empty: shorter than others
+  std::string path{};  // longest path, estimated from the operators; empty: not critical
   friend bool operator==(const Stage&, const Stage&) = default;
 };
 
 struct Datasheet {
-  std::string unit;       // its class
-  std::string variant{};  // the build, or the kind of token, that it holds for; empty: all
-  std::string does{};     // a sentence
-  // From the clock in which a token is taken to the clock in which the next unit can take its
-  // result; one token behind the other.
+  std::string unit;       // class name
+  std::string variant{};  // build or kind of token that it describes; empty: all
+  std::string does{};     // one sentence
+  // latency: from the cycle in which a token is taken to the cycle in which the next unit can take
+  // its result. interval: between consecutive tokens.
   Cycles latency{}, interval{1};
   std::vector<Stage> stages{};
   std::string formats{}, cost{};
-  int megahertz = 250;  // the clock that it is made for
+  int megahertz = 250;  // target clock frequency
 };
 
 // "FootprintUnit, `footprint = exact`".
 std::string title(const Datasheet& sheet);
 
-// The datasheets of several builds as one list: each once, variants of a unit behind each other.
-// Two that have one title must say the same.
+// Merges the datasheets of several builds into one list without duplicates; variants of a unit
+// follow each other. Datasheets with the same title must be equal.
 std::vector<Datasheet> merged(std::span<const std::vector<Datasheet>> builds);
 
-// A table of all, then each with its stages.
+// A table of all units, then the stages of each.
 std::string datasheets_markdown(std::span<const Datasheet> sheets);
 
 }  // namespace deburr::rtl

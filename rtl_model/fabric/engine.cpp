@@ -10,7 +10,7 @@ const Unit* unit_of_port(const std::string& port) {
   const sc_core::sc_object* const found = sc_core::sc_find_object(port.c_str());
   return found ? dynamic_cast<const Unit*>(found->get_parent_object()) : nullptr;
 }
-// Between two replaced units of one module: what does their work there has links of its own.
+// True for a link between two replaced units of one module: their replacement has its own links.
 bool unused(const LinkBase& link) {
   const auto within = [&](const std::string& port) {
     const Unit* const unit = unit_of_port(port);
@@ -66,7 +66,7 @@ std::vector<const MemoryBase*> Engine::memories() const { return below<MemoryBas
 std::vector<const Histogram*> Engine::histograms() const { return below<Histogram>(*this); }
 std::vector<const LinkBase*> Engine::links() const { return below<LinkBase>(*this); }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 Engine::~Engine() = default;
 
 }  // namespace deburr::rtl

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Base of every engine: its registers, its memory socket if it has one, and what reports find in
-// it.
+// Base of every engine: its registers, its memory socket if it has one, and access for reports.
 //
 //   class Smoother final : public Engine {
 //    public:
@@ -12,8 +11,8 @@
 //     bool idle() const override { return ...; }
 //
 // A clear command (CONTROL) resets every Counter below the engine, whether a register shows it or
-// not, and nothing else: the account of cycles and the histograms are instruments of the model and
-// go on. A reset gives every register its reset value, and lowers the interrupt.
+// not. Cycle accounts and histograms belong to the model's instruments and are not cleared. A reset
+// loads the reset value of every register and lowers the interrupt.
 #pragma once
 
 #include <array>
@@ -43,25 +42,26 @@ class Engine : public sc_core::sc_module {
 
   ControlRegisters control;
 
-  // --- Sockets, to be bound from outside ---
+  // --- Sockets, bound from outside ---
   tlm_utils::simple_target_socket<RegisterBlock>& registers = control.registers.bus;
-  // nullptr: built without memory, and there is no such socket.
+  // nullptr if the engine was built without a memory port.
   tlm::tlm_initiator_socket<>* memory() const { return port_ ? &port_->memory : nullptr; }
-  // High while a sticky bit of STATUS is set: a frame is done, or something went wrong. Software
-  // lowers it with a write of ones to those bits. It follows in the delta cycle after the edge, or
-  // after the write; sc_in<bool> ports bind to it, or nothing does.
+  // High while a sticky bit of STATUS is set: a frame is done, or an error occurred. Software
+  // lowers it by writing ones to those bits. Changes in the delta cycle after the edge or the
+  // write. Binding (sc_in<bool>) is optional.
   sc_core::sc_export<sc_core::sc_signal_in_if<bool>> interrupt{"interrupt"};
-  // For a target that does not accept every end of a response. Before the first request.
+  // For a target that does not accept every way of ending a response. Call before the first
+  // request.
   void end_responses(ResponseEnd how) {
     if (port_) port_->response_end = how;
   }
 
-  // Nothing is inside and nothing waits in front. Between edges.
+  // True if no work is inside or waiting at an input. Call between edges.
   virtual bool idle() const = 0;
   void clear_counters();
 
-  // For reports: everything below this module, in the order of declaration. Of a unit that is
-  // replaced there are the counters alone that are counted for it.
+  // For reports: all units or counters below this module, in declaration order. Of a replaced unit,
+  // only the counters that its replacement updates.
   std::vector<const Unit*> units() const;
   std::vector<const Counter*> counters() const;
   std::vector<const MemoryBase*> memories() const;
@@ -71,7 +71,7 @@ class Engine : public sc_core::sc_module {
  protected:
   Engine(const sc_core::sc_module_name& name, ClockDomain& clock,
          std::span<const spec::RegisterInfo> table, const ControlLayout& layout);
-  // The one port through which the engine reaches memory.
+  // Names the port that connects the engine to memory.
   void uses(MemoryPort& port) { port_ = &port; }
 
  private:

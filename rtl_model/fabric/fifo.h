@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A FIFO inside a unit: the link's protocol (latency 1, initiation interval 1, one push and one pop
-// a cycle), with its storage counted and its fill level recorded.
+// Function  FIFO inside a unit with the link protocol; counts its storage and records its fill
+//           level.
+// Latency   1.
+// Interval  1: one push and one pop per cycle.
+// Cost      depth x payload bits of memory; with SRAM, two registers of the payload in addition.
 //
-// Built of flip-flops up to kMostFlopWords entries and MemoryBase::kMostFlopBits, since beyond them
-// the choice of the oldest is the longest path. Above, of SRAM 1R1W that is read ahead into two
-// output registers, and that a beat goes past while these have room: so the latency is 1 all the
-// same, and no word is read in the clock that writes it. Cost: depth x payload bits of memory, with
-// SRAM two registers of the payload.
+// Up to kMostFlopWords entries and MemoryBase::kMostFlopBits it is built of flip-flops; beyond, the
+// multiplexer for the oldest entry would be the longest path. Larger FIFOs use 1R1W SRAM with two
+// prefetched output registers. A beat bypasses the SRAM while these have room: so the latency stays
+// 1, and no word is read in the cycle that writes it.
 #pragma once
 
 #include <algorithm>
@@ -36,16 +38,16 @@ class Fifo final : public MemoryBase {
   const T& take(Cycle cycle) { return link_.take(cycle); }
   void push(Cycle cycle, const T& value) {
     link_.push(cycle, value);
-    // A word that is popped in this clock is not free before the next one, whichever came first.
+    // An entry popped in this cycle becomes free in the next one, whichever side is ticked first.
     const std::uint32_t used = link_.occupancy() + (link_.last_pop() == cycle ? 1 : 0);
     high_water_ = std::max<std::uint64_t>(high_water_, used);
   }
 
   std::uint32_t occupancy() const { return link_.occupancy(); }
   bool empty() const { return link_.empty(); }
-  // Most words in use in a clock, what is popped in it included.
+  // Largest number of entries in use in a cycle, including one that is popped in it.
   std::optional<std::uint64_t> high_water() const override { return high_water_; }
-  // For a consumer in another unit: bind its port to this.
+  // For a consumer in another unit, which binds its port to this link.
   Link<T>& link() { return link_; }
   std::vector<const sc_core::sc_object*> port_holders() const override {
     std::vector<const sc_core::sc_object*> holders;

@@ -6,7 +6,7 @@
 namespace deburr::rtl {
 
 bool glob_match(const std::string& pattern, const std::string& text) {
-  // The usual two pointers: on a mismatch, let the last * take one character more.
+  // Two pointers: on a mismatch, the last * takes one more character.
   std::size_t p = 0, t = 0, star = std::string::npos, mark = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {

@@ -5,7 +5,7 @@
 
 namespace deburr::rtl {
 
-// Does `text` match a pattern with * and ?
+// True if `text` matches a pattern with * and ?.
 bool glob_match(const std::string& pattern, const std::string& text);
 
 }  // namespace deburr::rtl

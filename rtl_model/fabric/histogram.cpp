@@ -22,7 +22,7 @@ void Histogram::settle() const {
     if (value >= kept_.direct.size()) kept_.direct.resize(value + 1);
     kept_.direct[value] += repeats_;
   } else {
-    // Latencies in a row are alike: the page is nearly always the one before.
+    // Consecutive latencies are similar: the page is nearly always the previous one.
     if (kept_.page == nullptr || kept_.page_number != value / kPage) {
       kept_.page_number = value / kPage;
       kept_.page = &kept_.pages[kept_.page_number];
@@ -54,7 +54,7 @@ void Histogram::each(Visit visit) const {
 std::uint64_t Histogram::percentile(unsigned percent) const {
   DEBURR_CHECK(percent <= 100, fmt::format("{}: percentile {}", name(), percent));
   if (count() == 0) return 0;
-  // Nearest rank: ceil(count * percent / 100), at least the first; in two parts against overflow.
+  // Nearest rank: ceil(count * percent / 100), at least 1; in two parts to avoid overflow.
   const std::uint64_t rank = std::max<std::uint64_t>(
       1, kept_.count / 100 * percent + (kept_.count % 100 * percent + 99) / 100);
   std::uint64_t below = 0, found = kept_.max;
@@ -74,7 +74,7 @@ std::vector<Histogram::Bin> Histogram::bins(std::size_t at_most) const {
     return true;
   });
   if (at_most == 0 || all.size() <= at_most) return all;
-  // The least power of two of which the whole range needs no more than `at_most` bins.
+  // The smallest power of two for which the range needs at most `at_most` bins.
   int shift = 0;
   while ((kept_.max >> shift) - (kept_.min >> shift) >= at_most) ++shift;
   std::vector<Bin> merged;
@@ -87,7 +87,7 @@ std::vector<Histogram::Bin> Histogram::bins(std::size_t at_most) const {
   return merged;
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 Histogram::~Histogram() = default;
 
 }  // namespace deburr::rtl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Distribution of a number of cycles (latency): exact count, sum, minimum, maximum and percentiles.
-// Every value has a bin of its own, those below kDirect in one table, the others in pages that
-// exist where values are. A measuring instrument: no hardware cost.
+// Every value has its own bin: values below kDirect in one table, larger ones in pages allocated on
+// demand. A measuring instrument without hardware cost.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ class Histogram : public sc_core::sc_object {
   ~Histogram() override;
   const char* kind() const override { return "deburr_histogram"; }
 
-  // Values in a row are mostly alike: they are counted here, and put into their bin by settle().
+  // Consecutive values are mostly equal: repeats are counted here, settle() moves them to their
+  // bin.
   void record(std::uint64_t value) {
     if (value != last_) [[unlikely]] {
       settle();
@@ -39,10 +40,11 @@ class Histogram : public sc_core::sc_object {
   std::uint64_t sum() const { return settled().sum; }
   std::uint64_t min() const { return settled().count ? kept_.min : 0; }
   std::uint64_t max() const { return settled().max; }
-  // The smallest value v such that at least `percent` % of all are <= v (nearest rank); 0 if empty.
+  // The smallest value v such that at least `percent` % of all values are <= v (nearest rank); 0 if
+  // empty.
   std::uint64_t percentile(unsigned percent) const;
-  // The bins that are not empty, ascending; with a limit, neighbours are merged into bins of equal
-  // width (a power of two) until there are at most that many.
+  // The bins that are not empty, in ascending order; with a limit, neighbours are merged into bins
+  // of equal width (a power of two) until at most `at_most` remain.
   std::vector<Bin> bins(std::size_t at_most = 0) const;
 
   const std::string& unit() const { return unit_; }
@@ -55,7 +57,7 @@ class Histogram : public sc_core::sc_object {
   struct Kept {
     std::vector<std::uint64_t> direct;
     std::map<std::uint64_t, Page> pages;  // by value / kPage
-    Page* page = nullptr;                 // of the last large value, and its number
+    Page* page = nullptr;                 // of the last large value, with its number
     std::uint64_t page_number = 0;
     std::uint64_t count = 0, sum = 0, min = ~std::uint64_t{0}, max = 0;
   };
@@ -70,7 +72,7 @@ class Histogram : public sc_core::sc_object {
   void each(Visit visit) const;
 
   std::uint64_t last_ = 0;
-  mutable std::uint64_t repeats_ = 0;  // of last_, not in kept_ yet
+  mutable std::uint64_t repeats_ = 0;  // repeats of last_ that are not in kept_ yet
   mutable Kept kept_;
   std::string unit_, meaning_;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Measures how long each item (a beat, a fragment) is inside an engine that keeps their order, and
-// knows how many are inside. A measuring instrument: no hardware.
+// Measures how long each item (a beat, a fragment) stays inside an engine that preserves order, and
+// counts the items inside. A measuring instrument without hardware.
 //
-// Items come in consecutive cycles most of the time, so it keeps (clock - number of the item) and
-// only notes where that changes.
+// Items mostly come in consecutive cycles, so the probe stores (cycle - item number) and adds a
+// mark only where that changes.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,9 @@ class LatencyProbe {
     }
     ++entered_;
   }
-  // The oldest item inside leaves in this cycle: cycles since it entered.
+  // The oldest item leaves in this cycle. Returns the cycles since it entered.
   Cycle leaves(Cycle cycle) {
-    DEBURR_CHECK(left_ != entered_, "something leaves that never entered");
+    DEBURR_CHECK(left_ != entered_, "an item left that never entered");
     if (left_ == next_) {
       oldest_ = mark(++popped_).offset;
       next_ = popped_ + 1 != pushed_ ? mark(popped_ + 1).first : kNever;
@@ -52,7 +52,7 @@ class LatencyProbe {
  private:
   struct Mark {
     Cycle first;   // number of the first item with
-    Cycle offset;  // this difference of clock and number
+    Cycle offset;  // this difference of cycle and item number
   };
   Mark& mark(std::uint64_t number) { return marks_[number & (marks_.size() - 1)]; }
   void grow() {
@@ -62,7 +62,7 @@ class LatencyProbe {
   }
 
   Cycle entered_ = 0, left_ = 0;
-  // A ring of a power of two, marks of the items inside; the first one may be older.
+  // A ring with a power-of-two size: marks of the items inside; the first mark may be older.
   std::vector<Mark> marks_ = std::vector<Mark>(64);
   std::uint64_t pushed_ = 0, popped_ = 0;
   Cycle newest_ = kNever;  // difference of the last mark

@@ -77,12 +77,12 @@ void PortBase::bind_link(LinkBase& link) {
 
 void PortBase::bind_port(PortBase& outer) {
   DEBURR_CHECK(!base_ && !outer_, fmt::format("{} is bound twice", name()));
-  DEBURR_CHECK(outer.inner_.empty(), fmt::format("{} already hands its link on to {}", outer.name(),
+  DEBURR_CHECK(outer.inner_.empty(), fmt::format("{} already passes its link to {}", outer.name(),
                                                  outer.inner_.front()->name()));
   outer_ = &outer;
   outer.inner_.push_back(this);
   if (outer.base_) {
-    // The outer port may have claimed the link already; the claim moves inwards.
+    // If the outer port has claimed the link already, the claim moves inwards.
     std::string& owner = side_ == Side::kProducer ? outer.base_->producer_ : outer.base_->consumer_;
     owner.clear();
     resolve(*outer.base_);
@@ -103,10 +103,10 @@ void PortBase::resolve(LinkBase& link) {
   owner = name();
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 LinkBase::~LinkBase() = default;
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 PortBase::~PortBase() = default;
 
 }  // namespace deburr::rtl

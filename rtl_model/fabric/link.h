@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// A valid/ready link with registered hand-over between two units, and the ports that it binds.
+// A registered valid/ready link between two units, and the ports that bind to it.
 //
-// Timing: what is pushed in cycle t can be popped from t+1 on; a slot that is freed in t can be
-// refilled from t+1 on; at most one push and one pop a cycle. Depth 2 sustains one transfer a
-// clock, depth 1 every other clock. Latency 1, initiation interval 1. Stalls: `can_push` is "ready"
-// as the producer sees it, `can_pop` is "valid" as the consumer sees it. Cost: depth x payload bits
-// of registers, two pointers, one counter.
+// Latency   1: a beat pushed in cycle t can be popped from t + 1 on; a slot freed in t can be
+//           refilled from t + 1 on.
+// Interval  1 with depth 2 or more, 2 with depth 1. At most one push and one pop per cycle.
+// Stalls    `can_push` is "ready" as seen by the producer, `can_pop` is "valid" as seen by the
+//           consumer.
+// Cost      depth x payload bits of registers, two pointers, one counter.
 //
-// The link keeps no "next state" that somebody would have to clock. Each slot of its ring carries,
-// for each side, the first cycle in which that side may act on it; each action moves these stamps
-// to the next cycle. So a hand-shake is one comparison, and it does not matter which side comes
-// first.
+// The link needs no clocked "next state". Each slot of its ring stores, for each side, the first
+// cycle in which that side may use it; each push and pop updates these stamps for the next cycle.
+// So a handshake is one comparison, and the order in which the two sides are ticked does not
+// matter.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +30,8 @@
 
 namespace deburr::rtl {
 
-// The part of a link that does not depend on its payload. An sc_object: name and place in the
-// hierarchy come from the module that declares it.
+// The part of a link that does not depend on its payload. As an sc_object, it gets its name and
+// position from the module that declares it.
 class LinkBase : public sc_core::sc_object {
  public:
   ~LinkBase() override;
@@ -44,54 +45,54 @@ class LinkBase : public sc_core::sc_object {
   bool empty() const { return pushes_ == pops_; }
   std::uint64_t pushes() const { return pushes_; }  // since reset
   std::uint64_t pops() const { return pops_; }      // since reset
-  Cycle last_push() const { return last_push_; }    // kNever if there was none since reset
-  Cycle last_pop() const { return last_pop_; }      // kNever if there was none since reset
+  Cycle last_push() const { return last_push_; }    // kNever if none since reset
+  Cycle last_pop() const { return last_pop_; }      // kNever if none since reset
   const Payload& payload() const { return payload_; }
   std::uint32_t payload_bits() const { return payload_.bits(); }
   std::size_t payload_bytes() const { return payload_bytes_; }  // of the C++ type
 
   void reset();
 
-  // --- For testbenches: stalls, faults, checkers and traces. They cost nothing when unused. ---
+  // --- For testbenches: stalls, faults, checkers and traces. No cost when unused. ---
 
   // Makes the link not ready (not valid) in this cycle. Call before the units are ticked.
   void hold_push(Cycle cycle) { tail_->push_from = std::max(tail_->push_from, cycle + 1); }
   void hold_pop(Cycle cycle) { head_->pop_from = std::max(head_->pop_from, cycle + 1); }
-  // The bytes of beat number `beat` (counted from reset). They are there from its push until its
-  // slot is refilled, at the earliest one cycle after its pop.
+  // The bytes of beat number `beat` (counted from reset). They are valid from its push until its
+  // slot is refilled, which is at least one cycle after its pop.
   std::byte* beat(std::uint64_t beat) { return payloads_ + beat % depth_ * slot_bytes_; }
   const std::byte* beat(std::uint64_t beat) const {
     return payloads_ + beat % depth_ * slot_bytes_;
   }
-  // The oldest beat inside; needs !empty().
+  // The oldest beat in the link; requires !empty().
   const std::byte* head() const { return beat(pops_); }
-  // Takes back the newest beat, or pushes it a second time, behind the back of both sides; false
-  // if there is none, or no room.
+  // Removes the newest beat, or pushes it a second time, unnoticed by both sides. Returns false if
+  // the link is empty, or full.
   bool drop_newest();
   bool duplicate_newest(Cycle cycle);
 
-  // Who is bound to the two sides, for diagrams and error texts; empty if used without ports.
+  // The units bound to the two sides, for diagrams and error messages; empty if used without ports.
   const std::string& producer() const { return producer_; }
   const std::string& consumer() const { return consumer_; }
 
-  // The memory that the link is a part of (a FIFO): they belong to one clock domain.
+  // The memory that contains the link (a FIFO): both belong to one clock domain.
   void set_memory(const sc_core::sc_object& memory) { memory_ = &memory; }
   const sc_core::sc_object* memory() const { return memory_; }
 
  protected:
-  // The head of a slot; the payload follows it. Beat n is in slot n modulo depth.
+  // Header of a slot, followed by the payload. Beat n is in slot n modulo depth.
   struct Stamps {
-    Cycle push_from = 0;      // kNever while there is a beat in the slot
-    Cycle pop_from = kNever;  // kNever while there is none
+    Cycle push_from = 0;      // kNever while the slot holds a beat
+    Cycle pop_from = kNever;  // kNever while the slot is empty
     Stamps* next = nullptr;
   };
 
   LinkBase(const char* name, std::uint32_t depth, std::size_t payload_bytes, Payload payload);
-  // The ring, once it exists: its first slot and payload, and the distance of slots.
+  // Sets the ring after construction: first slot, its payload, and the slot pitch.
   void adopt(Stamps* first, std::byte* payload, std::size_t slot_bytes);
 
-  // Moves the stamps for a push (pop) in `cycle`; gives the slot. The stamp of the slot that comes
-  // next sees to it that there is one push (pop) a cycle.
+  // Updates the stamps for a push (pop) in `cycle` and returns the slot. The stamp of the next slot
+  // limits pushes (pops) to one per cycle.
   Stamps* advance_push(Cycle cycle) {
     Stamps* const slot = tail_;
     if (cycle < slot->push_from) [[unlikely]]
@@ -118,13 +119,13 @@ class LinkBase : public sc_core::sc_object {
     last_pop_ = cycle;
     return slot;
   }
-  // Throws CheckFailed. Out of line, without a text of its own to build: a check costs its caller
-  // one comparison and no stack frame.
+  // Throws CheckFailed. Out of line and without formatting at the caller, so that a check costs one
+  // comparison and no stack frame.
   [[noreturn, gnu::cold, gnu::noinline]] void fail(const char* what, Cycle cycle) const;
 
-  // All that a hand-shake touches besides the slot, in one cache line.
-  alignas(64) Stamps* tail_ = nullptr;  // where the next beat goes
-  Stamps* head_ = nullptr;              // where the next beat is, or will be
+  // All data that a handshake uses besides the slot, in one cache line.
+  alignas(64) Stamps* tail_ = nullptr;  // slot of the next beat to push
+  Stamps* head_ = nullptr;              // slot of the oldest beat, or of the next one
   std::uint64_t pushes_ = 0, pops_ = 0;
   Cycle last_push_ = kNever, last_pop_ = kNever;
 
@@ -142,8 +143,8 @@ class LinkBase : public sc_core::sc_object {
   std::string producer_, consumer_;
 };
 
-// Payloads are wires: trivially copyable, without pointers to anything that changes. What of them
-// is built (lanes, narrower fields) is said with the link.
+// A payload is a bundle of wires: trivially copyable, without pointers to mutable data. The shape
+// given with the link says which parts are built (lanes, narrower fields).
 template <class T>
 class Link final : public LinkBase {
   static_assert(std::is_trivially_copyable_v<T>, "a payload is a bundle of wires");
@@ -155,19 +156,20 @@ class Link final : public LinkBase {
     adopt(slots_.get(), reinterpret_cast<std::byte*>(&slots_[0].payload), sizeof(Slot));
   }
 
-  // The oldest beat. Needs can_pop(cycle).
+  // The oldest beat. Requires can_pop(cycle).
   const T& front(Cycle cycle) const {
     if (!can_pop(cycle)) [[unlikely]]
       fail("front without can_pop()", cycle);
     return payload(head_);
   }
   void pop(Cycle cycle) { advance_pop(cycle); }
-  // front and pop in one. The beat stays where it is until the next clock.
+  // front and pop in one call. The reference is valid until the next cycle.
   const T& take(Cycle cycle) { return payload(advance_pop(cycle)); }
 
-  // Needs can_push(cycle).
+  // Requires can_push(cycle).
   void push(Cycle cycle, const T& value) { payload(advance_push(cycle)) = value; }
-  // Pushes a beat that the caller fills in place, within the same tick(). It holds old bits.
+  // Pushes a beat that the caller fills in place within the same tick(). It initially holds old
+  // data.
   T& emplace(Cycle cycle) { return payload(advance_push(cycle)); }
 
  private:
@@ -181,15 +183,15 @@ class Link final : public LinkBase {
 // A SystemVerilog package with a packed struct for the payload of every link below `root`.
 std::string link_package(const std::string& name, sc_core::sc_object& root);
 
-// A named end of a link on a unit's border. Bind it to a link, or to the port of the same kind of
-// the unit around it (in any order).
+// A named port at a unit's boundary. Bind it to a link, or to the same kind of port of the
+// enclosing unit (in any order).
 class PortBase : public sc_core::sc_object {
  public:
   ~PortBase() override;
   enum class Side { kConsumer, kProducer };
   Side side() const { return side_; }
   bool bound() const { return base_ != nullptr; }
-  // The link at the end of the chain; nullptr while not bound.
+  // The bound link, also through outer ports; nullptr if unbound.
   LinkBase* link_base() const { return base_; }
 
  protected:

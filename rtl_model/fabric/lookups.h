@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a cache shows of its look-ups, to traces and checks.
-//
-// Where: a base of the unit that looks lines up; for_each<Lookups> finds them all. Costs a
-// comparison a look-up where nobody watches.
+// What a cache shows of its lookups to traces and checks. A base class of the unit that performs
+// the lookups; find all with for_each<Lookups>. Costs one comparison per lookup when not observed.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +10,15 @@
 
 namespace deburr::rtl {
 
-// The line is there, its fill is under way, or its fill is ordered in this clock.
+// The line is present, its fill is pending, or its fill is requested in this cycle.
 enum class LookUp : std::uint8_t { kHit, kMerged, kMiss };
 
 class Lookups {
  public:
   virtual ~Lookups() = default;
-  // Sees the number of every line that is looked up, in order, and what came of it.
+  // Called with the line number and result of every lookup, in order.
   std::function<void(Cycle, std::uint32_t line, LookUp)> observer;
-  // A line's number times this is its address.
+  // The address of a line is its number times this.
   std::uint32_t watched_line_bytes() const { return line_bytes_; }
 
  protected:

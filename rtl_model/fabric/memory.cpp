@@ -48,8 +48,7 @@ MemoryBase::MemoryBase(const char* name, MemoryShape shape)
                fmt::format("{}: {} words in {} banks, span {}, latency {}, content '{}'",
                            this->name(), s.words, s.banks, s.span, s.latency, s.content));
   DEBURR_CHECK(s.latency > 0 || s.read_during_write != ReadDuringWrite::kNewWord,
-               fmt::format("{}: what is written in a clock cannot be read in it without latency",
-                           this->name()));
+               fmt::format("{}: new words (kNewWord) need a latency of at least 1", this->name()));
   DEBURR_CHECK(s.mask_bits == 0 || s.word_bits % s.mask_bits == 0,
                fmt::format("{}: a write mask of {} bits does not divide words of {}", this->name(),
                            s.mask_bits, s.word_bits));
@@ -59,7 +58,7 @@ MemoryBase::MemoryBase(const char* name, MemoryShape shape)
     throw spec::ConfigError(fmt::format("{}: {} bits as {} {}: {}", this->name(), logical_bits(),
                                         name_of(s.kind), ports(), wrong));
   not_implementable_ = s.not_implementable;
-  macro_ = "idealised " + ports();
+  macro_ = "not implementable " + ports();
   copies_ = 1;
 }
 
@@ -70,63 +69,61 @@ std::string MemoryBase::find_build() {
   };
   const std::uint32_t reads = of_bank(s.read_ports), writes = of_bank(s.write_ports),
                       shared = of_bank(s.shared_ports);
-  if (reads + shared == 0) return "nobody reads it: give it a read port";
+  if (reads + shared == 0) return "it has no read port: add one";
   const std::uint32_t most = std::max({s.read_ports, s.write_ports, s.shared_ports});
   if (s.separate_banks && s.banks < most)
     return fmt::format(
-        "{} accesses of a kind cannot lie in {} separate banks in a clock: use {} banks, or fewer "
+        "{} accesses of a kind per cycle cannot lie in {} separate banks: use {} banks, or fewer "
         "ports",
         most, s.banks, most);
-  if (s.loaded && s.kind != MemoryKind::kSram) return "only sram is loaded";
+  if (s.loaded && s.kind != MemoryKind::kSram) return "only sram can be loaded";
   if (s.kind == MemoryKind::kFlops) {
     if (logical_bits() > kMostFlopBits)
       return fmt::format(
-          "flip-flops hold at most {} bits: use sram, whose words come a clock later, or make it "
+          "flip-flops hold at most {} bits: use sram, whose words arrive a cycle later, or make it "
           "smaller",
           kMostFlopBits);
-    if (s.latency > 1)
-      return "flip-flops answer in their clock or with one register: latency 0 or 1";
+    if (s.latency > 1) return "flip-flops have a latency of 0 or 1 (one output register)";
     macro_ = "flip-flops";
     return {};
   }
   if (s.banks > kFewBanks && s.words < std::uint64_t{kLeastBankWords} * s.banks)
     return fmt::format(
-        "{} banks of fewer than {} words are no memory (up to {} banks may be as small): use flops",
+        "{} banks of fewer than {} words are too small (allowed for up to {} banks): use flops",
         s.banks, kLeastBankWords, kFewBanks);
-  if (s.latency == 0)
-    return "its words come a clock after the address at the earliest: latency 1 or more";
+  if (s.latency == 0) return "sram and rom need a latency of at least 1";
   if (s.span > 1 && (s.order != BankOrder::kInterleaved || s.span > s.banks))
     return fmt::format("one access gives {} neighbours only if they lie in {} interleaved banks",
                        s.span, s.span);
   if (s.kind == MemoryKind::kRom) {
-    if (writes + shared != 0) return "a rom is not written: use sram or flops";
+    if (writes + shared != 0) return "a rom cannot have write ports: use sram or flops";
     copies_ = (reads + 1) / 2;
     macro_ = reads == 1 ? "1R" : "2R";
     return {};
   }
   if (s.loaded) {
-    if (writes + shared != 0) return "what is loaded has no port that writes";
+    if (writes + shared != 0) return "loaded sram cannot have write ports";
     copies_ = (reads + 1) / 2;
     macro_ = reads == 1 ? "1RW" : "2RW";
     return {};
   }
-  if (writes + shared == 0) return "nobody writes it: use rom";
+  if (writes + shared == 0) return "it has no write port: use rom";
   if (writes + shared > 2 || writes > 1 || (shared == 2 && reads > 0))
     return fmt::format(
-        "there is sram with 1RW, 1R1W and 2RW, and copies give more reads but no more writes: "
-        "share the writes in time, or put what is written at once into separate banks");
+        "sram has 1RW, 1R1W or 2RW, and copies add read ports but no write ports: "
+        "share the writes in time, or put simultaneous writes into separate banks");
   if (shared == 0) {
     copies_ = reads;
     macro_ = "1R1W";
   } else if (shared == 2) {
     macro_ = "2RW";
-  } else if (writes == 1) {  // one port writes, one does either
+  } else if (writes == 1) {  // one port writes, one reads or writes
     if (reads > 0)
-      return "with a port that writes and one that does either, a 2RW has no port left to read";
+      return "one write port and one shared port use both ports of a 2RW: no read port is left";
     macro_ = "2RW";
   } else if (reads == 0) {
     macro_ = "1RW";
-  } else {  // one port does either; its writes go to every copy
+  } else {  // one port reads or writes; its writes go to every copy
     copies_ = reads;
     macro_ = "2RW";
   }
@@ -156,7 +153,7 @@ std::string MemoryBase::built_as() const {
   std::string text = copies_ == 1 ? macro_ : fmt::format("{} copies of {}", copies_, macro_);
   if (shape_.kind != MemoryKind::kFlops && shape_.banks > 1)
     text += fmt::format(", {} banks", shape_.banks);
-  // Flip-flops give the old word by themselves.
+  // Flip-flops return the old word anyway.
   if (shape_.kind == MemoryKind::kSram && shape_.read_during_write == ReadDuringWrite::kOldWord)
     text += ", old word";
   if (shape_.read_during_write == ReadDuringWrite::kNewWord) text += ", new word";
@@ -196,7 +193,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
              apart = s.span == 1 || (interleaved && s.span <= s.banks);  // words of an access
   for (Port& port : ports_) {
     port.latency = latency_;
-    const bool alone =  // nobody else takes a bank of those that it takes
+    const bool alone =  // no other port uses its banks
         apart && s.shared_ports == 0 &&
         (port.side == Side::kRead ? s.read_ports : s.write_ports) == 1;
     if (port.side != Side::kShared) {
@@ -207,7 +204,7 @@ PortedMemory::PortedMemory(const char* name, MemoryShape shape)
     }
     port.bank_mask = s.banks - 1;
     port.banks = read_banks_.data();
-    // As many reads as can be under way, and the one whose word is on the output register.
+    // All reads that can be pending, and the one whose word is on the output register.
     for (std::uint32_t i = 0; i <= latency_; ++i) {
       port.read[i].next = &port.read[i == latency_ ? 0 : i + 1];
       port.read[i].place = (readers_.size() * (latency_ + 1) + i) * span_;
@@ -225,17 +222,16 @@ void PortedMemory::check_content(std::size_t words) const {
       kind == MemoryKind::kRom || shape().loaded
           ? words == words_
           : words == 0 || (kind == MemoryKind::kFlops && words <= words_),
-      fmt::format(
-          "{}: {} words of content for {} of {}: a rom and what is loaded have all of their words, "
-          "flip-flops may have some when they are switched on, other sram has none",
-          name(), words, words_, name_of(kind)));
+      fmt::format("{}: {} words of content for {} of {}: a rom and loaded sram need all words, "
+                  "flip-flops may have initial values, other sram has none",
+                  name(), words, words_, name_of(kind)));
 }
 
 void PortedMemory::check_content(std::size_t address, std::uint64_t word, bool negative) const {
   const std::uint32_t bits = word_bits();
   const bool fits = bits >= 64 || (negative ? ~word >> (bits - 1) == 0 : word >> bits == 0);
-  DEBURR_CHECK(fits, fmt::format("{}: its content {:#x} at address {} has more than {} bits",
-                                 name(), word, address, bits));
+  DEBURR_CHECK(fits, fmt::format("{}: content {:#x} at address {} has more than {} bits", name(),
+                                 word, address, bits));
 }
 
 PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
@@ -246,7 +242,7 @@ PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
       return port;
     }
   throw spec::CheckFailed(fmt::format(
-      "{}: {} asks for one port more than {}: declare it, or copy the port of another user to "
+      "{}: {} needs one port more than {}: declare it, or copy the port of another user to "
       "share it in time",
       name(), user, ports()));
 }
@@ -254,7 +250,7 @@ PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
 void PortedMemory::check_ports() const {
   for (const Port& port : ports_)
     DEBURR_CHECK(!port.user.empty(),
-                 fmt::format("{}: one of its ports {} is used by nobody", name(), ports()));
+                 fmt::format("{}: one of its ports {} is unused", name(), ports()));
 }
 
 std::vector<const sc_core::sc_object*> PortedMemory::port_holders() const {
@@ -301,7 +297,7 @@ void PortedMemory::use_banks(std::vector<Cycle>& used, const Port& port, Cycle c
     const std::uint64_t bank = s.order == BankOrder::kInterleaved ? a % s.banks : a / block;
     if (used[bank] == cycle) [[unlikely]]
       fail(port, cycle,
-           fmt::format("bank {} (address {}) is used twice in a clock, expected separate banks",
+           fmt::format("bank {} (address {}) is used twice in a cycle, expected separate banks",
                        bank, a));
     used[bank] = cycle;
   }
@@ -316,7 +312,7 @@ void PortedMemory::check_read(const Port& port, Cycle cycle, std::uint64_t addre
     if (writer->written == cycle &&
         overlap(address, count, writer->write_address, writer->write_count))
       fail(port, cycle,
-           fmt::format("read of address {}, which {} writes in this clock: forbidden", address,
+           fmt::format("read of address {}, which {} writes in this cycle: forbidden", address,
                        writer->user));
 }
 
@@ -329,22 +325,22 @@ void PortedMemory::check_write(const Port& port, Cycle cycle, std::uint64_t addr
     if (writer != &port && writer->written == cycle &&
         overlap(address, count, writer->write_address, writer->write_count))
       fail(port, cycle,
-           fmt::format("write of address {}, which {} writes in this clock too", address,
+           fmt::format("write of address {}, which {} also writes in this cycle", address,
                        writer->user));
   if (!guarded_) return;
   for (const Port* reader : readers_) {
     const Read& read = *reader->newest;
     if (read.due == cycle + latency_ && overlap(address, count, read.address, read.count))
       fail(port, cycle,
-           fmt::format("write of address {}, which {} reads in this clock: forbidden", address,
+           fmt::format("write of address {}, which {} reads in this cycle: forbidden", address,
                        reader->user));
   }
 }
 
 void PortedMemory::fail_twice(const Port& port, Cycle cycle, std::uint64_t address) const {
   fail(port, cycle,
-       fmt::format("a second access (address {}) in one clock: one access too many, expected one a "
-                   "clock and port ({})",
+       fmt::format("second access (address {}) in a cycle: expected at most one per "
+                   "cycle and port ({})",
                    address, ports()));
 }
 
@@ -359,20 +355,20 @@ void PortedMemory::fail_early(const Port& port, Cycle cycle) const {
   const Read& newest = *port.newest;
   fail(port, cycle,
        newest.due == kNever
-           ? std::string("a word is used, but none has been asked for")
+           ? std::string("a word is used, but no read was issued")
            : fmt::format("the word of address {} is used, expected from cycle {} on",
                          newest.address, newest.due));
 }
 
 void PortedMemory::fail_stale(const Port& port, Cycle cycle, std::uint64_t wanted,
                               const Read& there) const {
-  std::string when = "has not been asked for lately";
+  std::string when = "was not read recently";
   for (const Read& read : port.read)
     if (read.due != kNever && wanted - read.address < read.count)
-      when = read.due > cycle ? fmt::format("comes in cycle {}", read.due)
-                              : fmt::format("was there from cycle {} on", read.due);
+      when = read.due > cycle ? fmt::format("arrives in cycle {}", read.due)
+                              : fmt::format("was available from cycle {} on", read.due);
   fail(port, cycle,
-       fmt::format("the word of address {} is used, which {}; on the output register is that of "
+       fmt::format("the word of address {} is used, which {}; the output register holds that of "
                    "address {}, from cycle {} on",
                    wanted, when, there.address, there.due));
 }
@@ -380,8 +376,8 @@ void PortedMemory::fail_stale(const Port& port, Cycle cycle, std::uint64_t wante
 void PortedMemory::fail_again(const Port& port, Cycle cycle, Cycle issued,
                               const Read& there) const {
   fail(port, cycle,
-       fmt::format("the word of address {} as it was read in cycle {} is used; on the output "
-                   "register is that of cycle {}",
+       fmt::format("the word of address {} as it was read in cycle {} is used; the output "
+                   "register holds that of cycle {}",
                    there.address, issued, there.due - latency_));
 }
 
@@ -393,7 +389,7 @@ void PortedMemory::fail(const Port& port, Cycle cycle, const std::string& what) 
       fmt::format("{}: cycle {}: {} port {}: {}", name(), cycle, kind, port.user, what));
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 MemoryBase::~MemoryBase() = default;
 PortedMemory::~PortedMemory() = default;
 

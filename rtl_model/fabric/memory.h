@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT
-// The one memory of the house: words, ports and latency as a technology offers them, and what it
-// costs to build.
+// Function  Memory model: words, ports, latency and cost of a technology that can be built.
+// Position  A member of the unit that owns it; every unit that accesses it holds its own port.
+// Latency   SRAM and ROM 1 or more, flip-flops 0 or 1. An access issued in cycle t puts its word on
+//           the port's output register in t + latency; the word stays until the next access of that
+//           port arrives.
+// Interval  1: one access per cycle and port, pipelined.
+// Stalls    None.
+// Cost      physical_bits(). SRAM with 1RW, 1R1W or 2RW; ROM with 1R or 2R (a loadable ROM is SRAM
+//           with the same number of RW ports); flip-flops up to kMostFlopBits with any ports. More
+//           read ports are copies; `banks` divide the words. More than kFewBanks banks need at
+//           least kLeastBankWords each: smaller ones would be registers. Other shapes are rejected,
+//           unless the shape gives a reason in `not_implementable`.
 //
-// Where: a member of the unit that owns it; every unit that accesses it holds a port of its own.
-// Timing: an access is issued in clock t, its word is on the port's output register in t + latency
-// and stays there until the word of that port's next access comes. One access a clock and port,
-// pipelined; never stalls. SRAM and ROM have a latency of at least 1, flip-flops of 0 or 1. A read
-// sees the words as they were before its clock, or (`kNewWord`) with what is written in it;
-// whether the reading or the writing unit is ticked first does not matter. One access too many, an
-// address that is not there, a word that has not come, or a collision that the memory forbids stops
-// the simulation with the name of memory and port, the clock and what was expected.
-// Cost: physical_bits(), from what can be bought: SRAM with 1RW, 1R1W or 2RW, ROM with 1R or 2R (a
-// ROM that can be loaded is SRAM with as many RW), flip-flops up to kMostFlopBits with any ports.
-// More read ports are copies, `banks` divide the words, and more than kFewBanks of them have
-// kLeastBankWords at least: smaller ones are registers under another name. What cannot be had so is
-// rejected, unless the shape says that it is idealised and why.
+// A read returns the words as they were before its cycle, or (`kNewWord`) including writes of that
+// cycle; the order in which units are ticked does not matter. These errors stop the simulation,
+// with memory, port, cycle and the expected access: a second access in a cycle, an invalid address,
+// a word used before it arrives, or a forbidden collision.
 //
 //   Memory<Entry> table_{"table", {.words = 512, .word_bits = 37, .content = "edges of two rows"}};
 //   ReadPort<Entry> lookup_{table_, "lookup"};
 //   WritePort<Entry> update_{table_, "update"};
 //
-//   lookup_.read(cycle, column);                     // in clock t
+//   lookup_.read(cycle, column);                     // in cycle t
 //   const Entry& entry = lookup_.at(cycle, column);  // in t + 1
 //
-// at(cycle, address) tells words apart by their address, so a word that is read again after a write
-// passes for its older self, if it is used a clock early; at(cycle, address, t) tells these apart
-// too.
+// at(cycle, address) identifies a word by its address only: a word that is read again after a write
+// and used a cycle early is mistaken for its old value. at(cycle, address, t) detects this as well.
 //
-// A copy of a port is one more handle of the same port: users that share it in time.
+// A copy of a port is another handle of the same port, for users that share it in time.
 //
-// Words that the model keeps in a faster form: Memory<void>. Kind, ports, latency and checks stay
-// the memory's, the owner keeps the content. Without ports that can be checked (a FIFO, whose link
-// does that): MemoryBase.
+// Memory<void> is for content that the owner keeps in a faster form: kind, ports, latency and
+// checks are the memory's. MemoryBase is for memories without checkable ports (a FIFO, whose link
+// checks them).
 #pragma once
 
 #include <algorithm>
@@ -52,12 +52,12 @@
 namespace deburr::rtl {
 
 enum class MemoryKind : std::uint8_t { kFlops, kSram, kRom };
-// What a read gives of a word that is written in the same clock. SRAM gives anything, so that such
-// a read stops the run, unless the shape says which word it is: the old one (a macro that reads
-// first) or the new one (a bypass). Flip-flops give the old one by themselves.
+// What a read returns when the word is written in the same cycle. SRAM returns an undefined word,
+// so the simulation stops, unless the shape declares the result: the old word (a read-first macro)
+// or the new one (a bypass). Flip-flops always return the old word by default.
 enum class ReadDuringWrite : std::uint8_t { kForbidden, kOldWord, kNewWord };
-// Which bank holds a word: neighbours in different banks, or blocks of words (a row of pixels
-// each).
+// Mapping of words to banks: neighbours in different banks, or blocks of consecutive words (a row
+// of pixels each).
 enum class BankOrder : std::uint8_t { kInterleaved, kBlocks };
 
 const char* name_of(MemoryKind kind);  // "flops", "sram", "rom"
@@ -71,34 +71,34 @@ struct MemoryShape {
   ReadDuringWrite read_during_write = ReadDuringWrite::kForbidden;
   std::uint32_t banks = 1;
   BankOrder order = BankOrder::kInterleaved;
-  // Words from the address on that one access may take: they lie in as many banks.
+  // Consecutive words that one access may take; they lie in different banks.
   std::uint32_t span = 1;
-  // Bits that a bit of the write mask stands for; 0: words are written whole.
+  // Bits per bit of the write mask; 0: only whole words are written.
   std::uint32_t mask_bits = 0;
-  // The accesses of a clock lie in different banks, reads among themselves and writes among
-  // themselves: a bank needs one port of each kind, however many the memory has. Checked.
+  // The reads of a cycle lie in different banks, and so do its writes: a bank needs one port of
+  // each kind, however many the memory has. Checked.
   bool separate_banks = false;
   std::string content = {};  // one line
-  // Columns of a frame that the words are for: bits_at(). 0: they do not go with the frame's width.
+  // Frame columns that the words hold, for bits_at(). 0: independent of the frame's width.
   std::uint64_t columns = 0;
-  // Of sram: written from outside of time only, while nobody reads, so that its writes go through
-  // the ports that read, in every copy. Its words are there from the beginning, as the memories of
-  // an FPGA have theirs; elsewhere they are loaded before the first access.
+  // SRAM only: written outside simulated time while no read is active, so writes use the read
+  // ports, in every copy. Its words are valid from the beginning, like the initialised memories of
+  // an FPGA; otherwise they are loaded before the first access.
   bool loaded = false;
-  // Flip-flops beside the words: of a FIFO its output registers, of a fill store its arrived bits.
+  // Flip-flops besides the words: the output registers of a FIFO, the arrived bits of a fill store.
   std::uint64_t register_bits = 0;
-  // Why the memory may be one that nobody sells; of no account if it can be built.
+  // Reason for a memory that cannot be built; ignored if it can.
   std::string not_implementable = {};
 };
 
-// What reports see. Find them all with for_each<MemoryBase>.
+// The interface for reports. Find all memories with for_each<MemoryBase>.
 class MemoryBase : public sc_core::sc_object {
  public:
   static constexpr std::uint64_t kMostFlopBits = 16'384;
   static constexpr std::uint32_t kMostLatency = 7;
   static constexpr std::uint32_t kFewBanks = 64, kLeastBankWords = 16;
 
-  // ConfigError if the shape cannot be built: with what to do about it.
+  // Throws ConfigError with a remedy if the shape cannot be built.
   MemoryBase(const char* name, MemoryShape shape);
   ~MemoryBase() override;
   const char* kind() const override { return "deburr_memory"; }
@@ -110,55 +110,54 @@ class MemoryBase : public sc_core::sc_object {
   MemoryKind memory_kind() const { return shape_.kind; }
   const std::string& content() const { return shape_.content; }
   std::uint64_t logical_bits() const { return words() * word_bits(); }
-  // With copies, and with the words that fill up the last bank.
+  // Including copies and the words that fill up the last bank.
   std::uint64_t physical_bits() const;
-  // Flip-flops beside the words: those of the shape, and the bypass of SRAM that gives new words.
+  // Flip-flops besides the words: those of the shape, and the bypass of kNewWord SRAM.
   std::uint64_t register_bits() const { return shape_.register_bits + bypass_bits(); }
-  // The words that are written, with their masks, and for each read whether it meets them; all of
-  // it as long as a read takes.
+  // The written words with their masks, and for each read whether it hits them, delayed by the
+  // latency of a read.
   std::uint64_t bypass_bits() const;
   std::uint32_t copies() const { return copies_; }
   std::uint32_t banks() const { return shape_.banks; }
   // "3 copies of 1R1W, 4 banks"
   std::string built_as() const;
-  // Empty if it can be built; if not, why it stands here all the same.
+  // Empty if the memory can be built; otherwise the reason for using it.
   const std::string& not_implementable() const { return not_implementable_; }
   bool follows_width() const { return shape_.columns != 0; }
-  // Logical bits that frames of this width need; all, if the words do not go with the width.
+  // Logical bits that frames of this width need; all bits if the words do not depend on the width.
   std::uint64_t bits_at(std::uint64_t width) const;
 
-  // Bookkeeping of the clock only. Contents stay, as in hardware.
+  // Resets only the bookkeeping of accesses. Contents stay, as in hardware.
   virtual void reset() {}
-  // Most words in use in a clock since reset, with what leaves in it; of a FIFO alone.
+  // FIFOs only: most words in use in a cycle since reset, including one that leaves in it.
   virtual std::optional<std::uint64_t> high_water() const { return std::nullopt; }
-  // Every port that the shape declares is used by somebody; the domain asks at the end of
-  // elaboration, since a port that nobody uses is a cost that nobody pays.
+  // Checks that every declared port is used, since an unused port would still be counted in the
+  // cost. The domain calls it at the end of elaboration.
   virtual void check_ports() const {}
-  // The modules that hold its ports: those that were being constructed when a port was made.
+  // The modules that hold its ports: those under construction when a port was created.
   virtual std::vector<const sc_core::sc_object*> port_holders() const { return {}; }
 
-  // The kind for a small memory that may be either: flip-flops as long as they are allowed.
+  // The kind for a small memory: flip-flops if allowed, otherwise SRAM.
   static MemoryKind kind_for(std::uint64_t bits) {
     return bits <= kMostFlopBits ? MemoryKind::kFlops : MemoryKind::kSram;
   }
 
  protected:
-  // A name for a part: "<own name>_<suffix>", since a memory is no module and has no children.
+  // A name for a part: "<own name>_<suffix>", since a memory is not a module and has no children.
   std::string inner_name(const char* suffix) const;
 
  private:
-  // Finds copies_ and macro_. Empty, or what is wrong and what to do.
+  // Finds copies_ and macro_. Returns an empty string, or the error and its remedy.
   std::string find_build();
 
   MemoryShape shape_;
   std::string ports_;
   std::uint32_t copies_ = 1;
   std::string not_implementable_;
-  std::string macro_;  // what a copy of a bank is: "1R1W"
+  std::string macro_;  // macro of a bank's copy: "1R1W"
 };
 
-// A memory whose ports are checked. What is under way in a port is kept here: a unit's port is only
-// a handle.
+// A memory with checked ports. It keeps the pending accesses; a unit's port is only a handle.
 class PortedMemory : public MemoryBase {
  public:
   PortedMemory(const char* name, MemoryShape shape);
@@ -185,41 +184,41 @@ class PortedMemory : public MemoryBase {
   enum class Side : std::uint8_t { kRead, kWrite, kShared };
 
   struct Read {
-    Cycle due = kNever;  // its word is there from this clock on
+    Cycle due = kNever;  // its word is available from this cycle on
     std::uint64_t address = 0;
     std::uint64_t count = 0;
-    std::size_t place = 0;  // of its words, in what the owner captures
-    Read* next = nullptr;   // the one after it, in a ring
+    std::size_t place = 0;  // index of its words in the captured words of the owner
+    Read* next = nullptr;   // next read in the ring
   };
-  // What an access looks at comes first, copies of the memory's among it.
+  // Members used by every access come first, including copies of the memory's members.
   struct Port {
     Read* newest = nullptr;  // of the last reads
-    // What is to be checked beyond issue(). One of these is the number of words, the others are 0:
-    // `plain`, nothing; `guarded`, that no read meets a write; `one_bank`, the same where it is
-    // forbidden, and that a read of a word has its bank alone, which the low bits of the address
-    // say. Where there is more to it all three are 0.
+    // Fast paths of the checks beyond issue(). At most one is the number of words, the others are
+    // 0. `plain`: nothing to check. `guarded`: a read must not collide with a write. `one_bank`:
+    // the same where forbidden, and a one-word read has its bank, the low bits of the address, for
+    // itself. All three are 0 if more must be checked.
     std::uint64_t plain = 0, guarded = 0, one_bank = 0, bank_mask = 0;
-    Cycle* banks = nullptr;  // by bank, when it was last read
+    Cycle* banks = nullptr;  // cycle of the last read, by bank
     std::uint32_t latency = 0;
     Side side = Side::kRead;
     std::uint64_t reads = 0, writes = 0;  // since reset
-    // The last write, for reads of the same clock.
+    // The last write, for reads of the same cycle.
     Cycle written = kNever;
     std::uint64_t write_address = 0, write_count = 0;
-    std::uint32_t writer = 0;  // its number among those that write
+    std::uint32_t writer = 0;  // index among the writing ports
     std::array<Read, kMostLatency + 1> read;
-    std::string user;                            // of the first handle; empty: nobody yet
-    const sc_core::sc_object* holder = nullptr;  // the module that made it
+    std::string user;                            // of the first handle; empty: unused
+    const sc_core::sc_object* holder = nullptr;  // the module that created it
   };
 
-  // Can it hold so many words from the beginning, and does this one of them fit?
+  // Check initial content: the number of words, and that a word fits.
   void check_content(std::size_t words) const;
   void check_content(std::size_t address, std::uint64_t word, bool negative) const;
-  // The next port of that kind that nobody uses yet.
+  // Returns the next unused port of that kind.
   Port& claim(Side side, const std::string& user);
 
-  // Everything about an access that does not depend on the words: one access a clock, of words that
-  // are there, in banks that nobody else uses.
+  // Checks that do not depend on the content: one access per cycle and port, valid addresses, and
+  // at most `span` words.
   void issue(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count,
              bool again) const {
     if (again) [[unlikely]]
@@ -277,7 +276,7 @@ class PortedMemory : public MemoryBase {
   }
   void check_mask(const Port& port, Cycle cycle) const {
     if (shape().mask_bits == 0) [[unlikely]]
-      fail(port, cycle, "a part of a word is written, but the shape has no mask_bits");
+      fail(port, cycle, "partial write of a word, but the shape has no mask_bits");
   }
   // The read whose word is on the output register in `cycle`.
   const Read& arrived(const Port& port, Cycle cycle) const {
@@ -286,30 +285,30 @@ class PortedMemory : public MemoryBase {
       return newest;
     return arrived_before(port, cycle);
   }
-  // The same, which must have given the word at this address.
+  // The same; fails unless it includes the word at this address.
   const Read& arrived(const Port& port, Cycle cycle, std::uint64_t address) const {
     const Read& read = arrived(port, cycle);
     if (address - read.address >= read.count) [[unlikely]]
       fail_stale(port, cycle, address, read);
     return read;
   }
-  // The same, of the access in clock `issued`.
+  // The same; fails unless the access was issued in cycle `issued`.
   const Read& arrived(const Port& port, Cycle cycle, std::uint64_t address, Cycle issued) const {
     const Read& read = arrived(port, cycle, address);
     if (read.due != issued + port.latency) [[unlikely]]
       fail_again(port, cycle, issued, read);
     return read;
   }
-  // Words that the owner captures: of every read that a port remembers.
+  // Number of words that the owner captures for all remembered reads of all ports.
   std::size_t captured_words() const { return readers_.size() * (latency_ + 1) * span_; }
 
   const std::uint64_t words_;
   const std::uint32_t span_, latency_;
-  const bool guarded_;      // no read may meet a write of its clock
+  const bool guarded_;      // a read must not collide with a write of its cycle
   Cycle written_ = kNever;  // the last write through any port
-  Cycle read_ = kNever;     // the last read, of a port that is not `plain`
+  Cycle read_ = kNever;     // the last read of a port that is not `plain`
   std::vector<Port> ports_;
-  std::vector<Port*> readers_, writers_;  // shared ports are among both
+  std::vector<Port*> readers_, writers_;  // shared ports are in both
 
  private:
   const Read& arrived_before(const Port& port, Cycle cycle) const;
@@ -317,7 +316,7 @@ class PortedMemory : public MemoryBase {
   void check_write(const Port& port, Cycle cycle, std::uint64_t address, std::uint64_t count);
   void use_banks(std::vector<Cycle>& used, const Port& port, Cycle cycle, std::uint64_t address,
                  std::uint64_t count) const;
-  // Out of line: a check costs its caller a comparison.
+  // Out of line: a check costs its caller one comparison.
   [[noreturn, gnu::cold, gnu::noinline]] void fail_twice(const Port& port, Cycle cycle,
                                                          std::uint64_t address) const;
   [[noreturn, gnu::cold, gnu::noinline]] void fail_address(const Port& port, Cycle cycle,
@@ -332,7 +331,7 @@ class PortedMemory : public MemoryBase {
   [[noreturn, gnu::cold, gnu::noinline]] void fail(const Port& port, Cycle cycle,
                                                    const std::string& what) const;
 
-  // By bank, when it was last used. Shared ports use one list for both.
+  // Cycle of the last use, by bank. Shared ports use one list for reads and writes.
   std::vector<Cycle> read_banks_used_, write_banks_used_;
   std::vector<Cycle>&read_banks_, &write_banks_;
 };
@@ -341,18 +340,19 @@ template <class Word>
 class Memory final : public PortedMemory {
  public:
   Memory(const char* name, MemoryShape shape) : Memory(name, std::move(shape), Words{}) {}
-  // With content: a ROM or what is `loaded`, all of it, or what flip-flops hold when they are
-  // switched on.
+  // With initial content: all words of a ROM or `loaded` memory, or the power-up values of
+  // flip-flops.
   Memory(const char* name, MemoryShape shape, std::span<const Word> content)
       : Memory(name, std::move(shape), Words{content}) {}
 
-  // Without a port and without time: for tests, preloads, dumps and what is `loaded` only.
+  // Access without a port and without simulated time: only for tests, preloads, dumps and `loaded`
+  // content.
   Word& backdoor(std::uint64_t address) { return kept_.at(address); }
   const Word& backdoor(std::uint64_t address) const { return kept_.at(address); }
-  // Every word at once, as the reset line of flip-flops does.
+  // Sets every word at once, like the reset of flip-flops.
   void clear(const Word& value = {}) {
     DEBURR_CHECK(memory_kind() == MemoryKind::kFlops,
-                 std::string(name()) + ": only flip-flops are cleared at once");
+                 std::string(name()) + ": only flip-flops can be cleared at once");
     std::fill(kept_.begin(), kept_.end(), value);
   }
 
@@ -388,7 +388,7 @@ class Memory final : public PortedMemory {
     for (std::uint64_t i = 1; i < count; ++i) to[i] = kept_[address + i];
     if (written_ == cycle && !new_word_) give_old_words(to, cycle, address, count);
   }
-  // What has been written in this clock already, as it was before.
+  // Restores the old value of words that were already written in this cycle.
   [[gnu::noinline]] void give_old_words(Word* to, Cycle cycle, std::uint64_t address,
                                         std::uint64_t count) {
     for (const Port* writer : writers_) {
@@ -408,7 +408,7 @@ class Memory final : public PortedMemory {
     }
     if (new_word_) give_new_words(cycle, address, count);
   }
-  // To reads that were issued in this clock already.
+  // Updates reads that were already issued in this cycle.
   [[gnu::noinline]] void give_new_words(Cycle cycle, std::uint64_t address, std::uint64_t count) {
     for (const Port* reader : readers_) {
       const Read& read = *reader->newest;
@@ -420,43 +420,43 @@ class Memory final : public PortedMemory {
 
   const bool new_word_ = shape().read_during_write == ReadDuringWrite::kNewWord;
   std::vector<Word> kept_;
-  std::vector<Word> before_;    // by port and place in the span: words before their last write
-  std::vector<Word> captured_;  // by port, read and place in the span
+  std::vector<Word> before_;    // by port and index in the span: words before their last write
+  std::vector<Word> captured_;  // by port, read and index in the span
 };
 
-// The owner keeps the content: in a read it gives the words as they were before the clock.
+// The owner keeps the content: it must return the words as they were before the cycle of a read.
 template <>
 class Memory<void> final : public PortedMemory {
  public:
   using PortedMemory::PortedMemory;
 };
 
-// What ports that read offer to their unit, and ports that write. Not used by themselves.
+// Interface of reading ports, and of writing ports. Not used by themselves.
 template <class Word>
 class ReadAccess {
  public:
-  // Issues the access of this clock, of `count` words from `address` on.
+  // Issues this cycle's access to `count` words from `address` on.
   void read(Cycle cycle, std::uint64_t address, std::uint64_t count = 1) {
     memory_->read(*port_, cycle, address, count);
   }
-  // Does the word of an access come in this clock?
+  // True if the word of an access arrives in this cycle.
   bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
   // The (first) word on the output register.
   const Word& word(Cycle cycle) const {
     const PortedMemory::Read& read = memory_->arrived(*port_, cycle);
     return memory_->word(read, read.address);
   }
-  // The same, if it is the word of this address: a word that is used a clock early, when an older
-  // one is still there, or too late, when a newer one is, is caught.
+  // The same; fails unless it is the word of this address. Detects a word used a cycle early (an
+  // older one is still there) or too late (a newer one is).
   const Word& at(Cycle cycle, std::uint64_t address) const {
     return memory_->word(memory_->arrived(*port_, cycle, address), address);
   }
-  // The same, if it is the word as the access of clock `issued` read it: of an address that may be
-  // read again, an older word is caught too.
+  // The same; fails unless the access was issued in cycle `issued`. Also detects an older value of
+  // an address that is read again.
   const Word& at(Cycle cycle, std::uint64_t address, Cycle issued) const {
     return memory_->word(memory_->arrived(*port_, cycle, address, issued), address);
   }
-  // Both in one clock: of flip-flops without an output register.
+  // Reads in the same cycle: for flip-flops without an output register.
   const Word& now(Cycle cycle, std::uint64_t address) {
     read(cycle, address);
     return at(cycle, address);
@@ -476,12 +476,12 @@ class WriteAccess {
   void write(Cycle cycle, std::uint64_t address, const Word& word) {
     memory_->write(*port_, cycle, address, 1, [&](std::uint64_t, Word& kept) { kept = word; });
   }
-  // Neighbouring words, at most `span`.
+  // Writes at most `span` consecutive words.
   void write(Cycle cycle, std::uint64_t address, std::span<const Word> words) {
     memory_->write(*port_, cycle, address, words.size(),
                    [&](std::uint64_t i, Word& kept) { kept = words[i]; });
   }
-  // Through the write mask: `change(word)` changes some bits, the others stay.
+  // Writes through the mask: `change(word)` changes some bits, the others stay.
   template <class Change>
   void change(Cycle cycle, std::uint64_t address, Change&& change) {
     memory_->check_mask(*port_, cycle);
@@ -496,7 +496,7 @@ class WriteAccess {
   PortedMemory::Port* port_;
 };
 
-// Of a memory whose owner keeps the content: the checks are left.
+// For a memory whose owner keeps the content: checks only.
 template <>
 class ReadAccess<void> {
  public:
@@ -504,8 +504,8 @@ class ReadAccess<void> {
     memory_->issue_read(*port_, cycle, address, count);
   }
   bool arrives(Cycle cycle) const { return PortedMemory::arrives(*port_, cycle); }
-  // CheckFailed unless a word, or the word of this address, or that of this address and access, is
-  // on the output register.
+  // CheckFailed unless a word, or the word of this address, or the word of this address and access,
+  // is on the output register.
   void check(Cycle cycle) const { memory_->arrived(*port_, cycle); }
   void check(Cycle cycle, std::uint64_t address) const { memory_->arrived(*port_, cycle, address); }
   void check(Cycle cycle, std::uint64_t address, Cycle issued) const {
@@ -535,7 +535,7 @@ class WriteAccess<void> {
   PortedMemory::Port* port_;
 };
 
-// What a unit holds; `user` is the name of the port in error texts.
+// The port that a unit holds; `user` names it in error messages.
 template <class Word>
 class ReadPort : public ReadAccess<Word> {
  public:
@@ -550,7 +550,7 @@ class WritePort : public WriteAccess<Word> {
       : WriteAccess<Word>(memory, memory.claim(PortedMemory::Side::kWrite, user)) {}
 };
 
-// Reads or writes, one access a clock.
+// Reads or writes, one access per cycle.
 template <class Word>
 class SharedPort : public ReadAccess<Word>, public WriteAccess<Word> {
  public:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a memory takes, in cycles of the engine: to answer, and to transfer a line. An engine is
-// told it as it is built, and sizes from it what is ordered as 0: FIFOs and places that cover the
-// latency.
+// Latency and line transfer time of a memory, in cycles of the engine. An engine uses them at
+// construction to size parameters that are set to 0: FIFOs and entries that cover the latency.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ MemoryShape buffer_shape(const MemoryPortParameters& p) {
           .word_bits = bits,
           .kind = MemoryBase::kind_for(words * bits),
           .latency = 1,
-          .content = "lines returned by memory, with status"};
+          .content = "lines received from memory, with their status"};
 }
 
 std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters& p) {
@@ -32,7 +32,7 @@ std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters&
                   .word_bits = bits,
                   .kind = MemoryBase::kind_for(std::uint64_t{p.max_write_lines} * bits),
                   .latency = 1,
-                  .content = "lines of a burst that is to be written"});
+                  .content = "lines of a write burst"});
 }
 
 }  // namespace
@@ -60,15 +60,15 @@ PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t addr
 struct MemoryPort::Transaction final : tlm::tlm_generic_payload {
   explicit Transaction(tlm::tlm_mm_interface* owner) : tlm_generic_payload(owner) {}
   std::vector<std::uint8_t> data, enables;
-  std::uint64_t address = 0;  // as it was sent: an interconnect may change the payload's
+  std::uint64_t address = 0;  // as sent: an interconnect may change that of the payload
   std::uint32_t tag = 0, epoch = 0;
   std::uint16_t lines = 1;
   std::uint16_t next_line = 0;  // write: beats gathered; read: beats responded
   bool write = false, arrived = false, masked = false, taken = false;
-  std::uint64_t bytes = 0;  // that are read, or enabled
+  std::uint64_t bytes = 0;  // read or enabled bytes
   Cycle sent = 0;
-  sc_core::sc_time when;  // arrival of the response
-  // The first edge before which, or at whose very time, it has arrived; the first one that sees it.
+  sc_core::sc_time when;  // arrival time of the response
+  // come: first edge at or after the arrival. visible: first edge that sees the response.
   Cycle come = 0, visible = 0;
   Cycle in_buffer = 0;  // `in_order`: the edge at which its (first) line is taken
 };
@@ -80,22 +80,22 @@ MemoryPort::MemoryPort(const sc_core::sc_module_name& name, ClockDomain& clock,
       gather_buffer(make_gather_buffer(parameters)),
       parameters_(parameters),
       stalled_outstanding_(
-          declare_stall("outstanding", "the limit of transactions in flight is reached")),
+          declare_stall("outstanding", "the limit of outstanding transactions is reached")),
       stalled_channel_(
           declare_stall("request_channel", "the target has not yet accepted the last request")),
-      stalled_memory_(declare_stall("memory", "waits for responses, has nothing else to do")) {
-  DEBURR_CHECK(
-      parameters.outstanding >= 1 && parameters.outstanding <= 1024,
-      fmt::format("{}: {} outstanding, not in 1..1024", this->name(), parameters.outstanding));
+      stalled_memory_(declare_stall("memory", "waits for responses and has no other work")) {
+  DEBURR_CHECK(parameters.outstanding >= 1 && parameters.outstanding <= 1024,
+               fmt::format("{}: {} outstanding transactions, expected 1..1024", this->name(),
+                           parameters.outstanding));
   DEBURR_CHECK(parameters.max_burst_lines >= 1 && parameters.max_burst_lines <= 64,
-               fmt::format("{}: bursts of {} lines, not in 1..64", this->name(),
+               fmt::format("{}: bursts of {} lines, expected 1..64", this->name(),
                            parameters.max_burst_lines));
   DEBURR_CHECK(
       parameters.max_write_lines >= 1 && parameters.max_write_lines <= parameters.max_burst_lines,
-      fmt::format("{}: writes of {} lines, not in 1..{}", this->name(), parameters.max_write_lines,
-                  parameters.max_burst_lines));
+      fmt::format("{}: write bursts of {} lines, expected 1..{}", this->name(),
+                  parameters.max_write_lines, parameters.max_burst_lines));
   DEBURR_CHECK(parameters.line_bytes >= 4 && parameters.line_bytes <= kLineBytes,
-               fmt::format("{}: lines of {} bytes, not in 4..{}", this->name(),
+               fmt::format("{}: lines of {} bytes, expected 4..{}", this->name(),
                            parameters.line_bytes, kLineBytes));
   memory.bind(*this);
   SC_METHOD(send_end_response);
@@ -136,8 +136,8 @@ Activity MemoryPort::work(Cycle cycle) {
         const std::uint32_t most =
             request.write ? parameters_.max_write_lines : parameters_.max_burst_lines;
         DEBURR_CHECK(!request.write || !parameters_.read_only,
-                     fmt::format("{}: cycle {}: a write of {:#x} through a port that only reads",
-                                 name(), cycle, request.address));
+                     fmt::format("{}: cycle {}: write to {:#x} through a read-only port", name(),
+                                 cycle, request.address));
         DEBURR_CHECK(
             request.address % parameters_.line_bytes == 0 && request.lines >= 1 &&
                 request.lines <= most,
@@ -211,8 +211,8 @@ void MemoryPort::send(Transaction& t, Cycle cycle) {
   sc_core::sc_time delay = clock().offset();
   const tlm::tlm_sync_enum status = memory->nb_transport_fw(t, phase, delay);
   if (status == tlm::TLM_ACCEPTED) return;
-  // The target answers at once: it ended the request, or the request and began the response, or
-  // all.
+  // The target answers immediately: it ended the request, also began the response, or completed the
+  // transaction.
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   const sc_core::sc_time when = now + delay;
   if (requesting_ == &t) {
@@ -251,8 +251,8 @@ tlm::tlm_sync_enum MemoryPort::nb_transport_bw(tlm::tlm_generic_payload& payload
   }
   if (!begins) return tlm::TLM_ACCEPTED;
   if (t.arrived)
-    throw spec::SimulationError(fmt::format("{}: the memory answered the {} of {:#x} twice", name(),
-                                            t.write ? "write" : "read", t.address));
+    throw spec::SimulationError(fmt::format("{}: the memory responded twice to the {} of {:#x}",
+                                            name(), t.write ? "write" : "read", t.address));
   if (responding_)
     throw spec::SimulationError(
         fmt::format("{}: the memory began the response for {:#x} before the one for {:#x} was "
@@ -288,7 +288,7 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& now,
                          const sc_core::sc_time& when) {
   t.arrived = true;
   t.when = when;
-  if (t.epoch != epoch_) {  // asked for before a reset
+  if (t.epoch != epoch_) {  // requested before a reset
     t.release();
     return;
   }
@@ -304,7 +304,7 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& now,
   }
 }
 
-// By their arrival; most are the last.
+// Inserts by arrival time; most arrive last.
 void MemoryPort::put_in_order(std::deque<Transaction*>& list, Transaction& t) {
   if (list.empty() || t.when >= list.back()->when) [[likely]]
     list.push_back(&t);
@@ -321,12 +321,12 @@ void MemoryPort::count(Transaction& t) {
   latency.record(t.visible - t.sent);
 }
 
-// What has come now, of what the target had said before.
+// Takes the responses that have arrived by now, of those announced by the target.
 void MemoryPort::take_coming(Cycle cycle) {
   while (!coming_.empty() && coming_.front()->come <= cycle) {
     Transaction& t = *coming_.front();
     coming_.pop_front();
-    if (t.epoch != epoch_) {  // asked for before a reset
+    if (t.epoch != epoch_) {  // requested before a reset
       t.release();
       continue;
     }
@@ -336,7 +336,7 @@ void MemoryPort::take_coming(Cycle cycle) {
   next_comes_ = coming_.empty() ? kNever : coming_.front()->come;
 }
 
-// One line an edge goes into the buffer, in the order of arrival; an answer to a write has none.
+// The buffer takes one line per edge, in the order of arrival; a write response has no line.
 void MemoryPort::take_lines(Cycle cycle) {
   for (Transaction* t : arrived_) {
     if (t->taken || cycle < t->visible) continue;
@@ -346,7 +346,7 @@ void MemoryPort::take_lines(Cycle cycle) {
   }
 }
 
-// Pushes one beat of a response that has arrived before this edge, if there is one.
+// Pushes one beat of a response that arrived before this edge, if there is one.
 bool MemoryPort::respond(Cycle cycle) {
   if (parameters_.in_order) take_lines(cycle);
   if (arrived_.empty() || !responses_out.can_push(cycle)) return false;
@@ -378,7 +378,7 @@ bool MemoryPort::respond(Cycle cycle) {
     response.data.fill(0);
   ++t->next_line;
   if (response.last) {
-    // Nearly always the oldest.
+    // Nearly always the oldest transaction.
     for (std::deque<Transaction*>* list : {&in_flight_, &arrived_})
       if (list->front() == t)
         list->pop_front();
@@ -390,8 +390,8 @@ bool MemoryPort::respond(Cycle cycle) {
 }
 
 void MemoryPort::reset() {
-  // What the target still has comes back to transactions of an old epoch and is dropped then.
-  // The request channel is the target's business and goes on.
+  // Responses that the target still owes belong to an old epoch and are dropped on arrival. The
+  // request channel belongs to the target and is not reset.
   ++epoch_;
   for (Transaction* t : arrived_) t->release();
   arrived_.clear();
@@ -412,7 +412,7 @@ MemoryPort::Transaction& MemoryPort::allocate() {
   return t;
 }
 
-// The last reference is gone; a target may have kept its own for longer than we did.
+// The last reference was released; a target may keep its own longer than this port.
 void MemoryPort::free(tlm::tlm_generic_payload* payload) {
   payload->reset();
   free_.push_back(static_cast<Transaction*>(payload));
@@ -442,17 +442,17 @@ unsigned MemoryPort::debug_write(std::uint64_t address, const void* data, unsign
 
 Datasheet MemoryPort::datasheet() {
   return {.unit = "MemoryPort",
-          .does = "Requests of an engine to a TLM-2.0 target, and its responses back.",
-          .latency = {2, "2, and the latency of memory"},
-          .interval = {1, "one request and one beat of a response a clock"},
+          .does = "Sends an engine's requests to a TLM-2.0 target and returns the responses.",
+          .latency = {2, "2 plus the latency of memory"},
+          .interval = {1, "one request and one response beat per cycle"},
           .stages = {{"1", "a request popped in c leaves in c"},
                      {"2",
                       "a response that arrives before edge d > c is pushed in d, and can be popped "
                       "in d + 1",
                       "choice of 1 in 256 tags, nothing after it"}},
           .cost =
-              "response_buffer, a place for every line that may come back, written as it comes "
-              "and read into the link's slot; with bursts of writes gather_buffer, the lines of "
+              "response_buffer, an entry for every outstanding line, written on arrival "
+              "and read into the link's slot; with write bursts gather_buffer, the lines of "
               "one; a tag table, one multiplexer."};
 }
 

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Where a unit's memory requests leave the clocked world: links on one side, a TLM-2.0 initiator
-// socket on the other, to which any target of the base protocol can be bound (the testbench's
-// memory, a DRAM simulator).
+// Function  Connects a unit's memory requests to a TLM-2.0 initiator socket: links on one side, any
+//           target of the base protocol on the other (the testbench's memory, a DRAM simulator).
+// Interval  One request per cycle while the target ends requests immediately; one response beat per
+//           cycle.
+// Stalls    `outstanding` (limit reached), `request_channel` (the target has not ended the last
+//           request), `downstream` (the responses are not taken).
 //
-// Non-blocking, four phases, several outstanding, matched by transaction. One request a cycle while
-// the target ends requests at once. A target may also skip phases or complete early, or know only
-// b_transport (behind tlm_utils::simple_target_socket). A response is ended when it begins, since
-// there is room for each that is outstanding; ResponseEnd says in which of the protocol's forms.
-// Stalls: `outstanding` (limit reached), `request_channel` (the target has not ended the last
-// request), `downstream` (nobody takes the responses).
-// What the interconnect is, the model leaves open: a burst goes and comes in one transaction. The
-// buffer is 1R1W: of lines that come before the same edge it takes one at each edge, in the order
-// in which they come, and the interconnect holds the others. One beat a clock leaves it, in the
-// same order, so none leaves later for it, but with `in_order`, where an older one may come last.
+// Non-blocking, four phases, several outstanding requests, matched by transaction. A target may
+// skip phases, complete early, or implement only b_transport (tlm_utils::simple_target_socket). The
+// port ends a response when it begins, since it has room for all outstanding ones; ResponseEnd
+// selects the protocol form.
+//
+// The interconnect is not modelled: a burst is one transaction in each direction. The response
+// buffer is 1R1W: of lines that arrive before the same edge it takes one per edge, in the order of
+// arrival, and the interconnect holds the others. One beat per cycle leaves it in the same order,
+// so it adds no delay, except with `in_order`, where an older line may arrive last.
 #pragma once
 
 #include <array>
@@ -33,14 +35,14 @@ namespace deburr::rtl {
 inline constexpr std::uint32_t kLineBytes = 64;
 using Line = std::array<std::uint8_t, kLineBytes>;
 
-// One beat. A burst read is one beat with lines > 1. A burst write is `lines` beats in a row: the
-// first carries address, tag and lines, the others only data.
+// One beat. A burst read is one beat with lines > 1. A burst write is `lines` consecutive beats:
+// the first carries address, tag and lines, the others only data.
 struct MemoryRequest {
   std::uint64_t address = 0;  // bytes; a multiple of the port's line_bytes
-  std::uint32_t tag = 0;      // comes back with the response; the unit's own business
-  std::uint16_t lines = 1;    // of a burst: at most max_burst_lines, of a write max_write_lines
+  std::uint32_t tag = 0;      // returned with the response; chosen by the unit
+  std::uint16_t lines = 1;    // burst length: at most max_burst_lines, of a write max_write_lines
   bool write = false;
-  std::uint64_t byte_mask = 0;  // bit i: byte i is written; counts in a write's first beat only
+  std::uint64_t byte_mask = 0;  // bit i: byte i is written; only used in the first beat of a write
   Line data{};
 
   template <class Self, class Visit>
@@ -49,14 +51,14 @@ struct MemoryRequest {
     visit("tag", self.tag, 32, "U32");
     visit("lines", self.lines, 7, "U7");
     visit("write", self.write);
-    visit("byte_mask", self.byte_mask, kLineBytes, "a bit a byte");
+    visit("byte_mask", self.byte_mask, kLineBytes, "one bit per byte");
     visit("data", self.data, 8, "U8");
   }
 };
 
 enum class MemoryStatus : std::uint8_t { kOk, kAddressError, kError };
 
-// One beat a line for reads, one beat in all for writes.
+// One beat per line for reads, one beat in all for writes.
 struct MemoryResponse {
   std::uint64_t address = 0;  // of this line
   std::uint32_t tag = 0;
@@ -81,14 +83,14 @@ struct MemoryResponse {
 struct MemoryPortParameters {
   std::uint32_t outstanding = 16;         // transactions; 1..1024
   std::uint32_t max_burst_lines = 1;      // lines; 1..64
-  std::uint32_t max_write_lines = 1;      // lines of a burst that writes; 1..max_burst_lines
+  std::uint32_t max_write_lines = 1;      // lines of a write burst; 1..max_burst_lines
   bool in_order = false;                  // responses in the order of requests
-  bool read_only = false;                 // nobody writes through it: its links carry no data there
-  std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: of each beat, the first so many
+  bool read_only = false;                 // no writes: its links carry no write data
+  std::uint32_t line_bytes = kLineBytes;  // 4..kLineBytes: used bytes of each beat
 };
 
-// What of a beat is built for a port with these parameters, addresses and tags of so many bits:
-// with `read_only` a request has no data and no mask, and neither beat says that it writes.
+// The part of a beat that is built for a port with these parameters, address width and tag width.
+// With `read_only` a request has no data, no mask and no write flag, and a response no write flag.
 PayloadShape request_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
                            std::uint32_t tag_bits);
 PayloadShape response_shape(const MemoryPortParameters& port, std::uint32_t address_bits,
@@ -116,19 +118,19 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // Lines that have come and wait for the link, with their status.
+  // Lines that have arrived and wait for the link, with their status.
   const MemoryBase response_buffer;
-  // The burst of writes whose beats are coming in, until it is sent. nullptr: writes are one line.
+  // The write burst being gathered until it is sent. nullptr: writes are one line.
   const std::unique_ptr<const MemoryBase> gather_buffer;
 
   std::uint32_t in_flight() const;
   const MemoryPortParameters& parameters() const { return parameters_; }
-  // May be changed until the first request.
+  // May be changed before the first request.
   ResponseEnd response_end = ResponseEnd::kUpdated;
-  // Sees every transaction as it is sent.
+  // Called with every transaction when it is sent.
   std::function<void(Cycle, const tlm::tlm_generic_payload&)> observer;
-  // Untimed access through transport_dbg, from the end of elaboration on; gives the number of bytes
-  // that the target handled.
+  // Untimed access through transport_dbg, from the end of elaboration on; returns the number of
+  // bytes that the target handled.
   unsigned debug_read(std::uint64_t address, void* data, unsigned bytes);
   unsigned debug_write(std::uint64_t address, const void* data, unsigned bytes);
 
@@ -138,7 +140,7 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Counter bytes_written{"bytes_written", "bytes", "bytes enabled in write transactions"};
   Counter errors{"errors", "transactions", "transactions with an error response"};
   Counter max_outstanding{"max_outstanding", "transactions", "largest number in flight"};
-  Histogram latency{"latency", "clk", "from sending a request to having its response"};
+  Histogram latency{"latency", "clk", "from sending a request to receiving its response"};
 
   static Datasheet datasheet();
 
@@ -169,14 +171,14 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   std::vector<Transaction*> free_;
   std::deque<Transaction*> in_flight_;  // in the order of requests
   std::deque<Transaction*> arrived_;    // in the order of arrival
-  // Whose target has said already when they will arrive, in that order; and the first edge of which
-  // one of them has come.
+  // Responses whose arrival the target has already announced, in order of arrival; and the first
+  // edge at which one has arrived.
   std::deque<Transaction*> coming_;
   Cycle next_comes_ = kNever;
-  Cycle intake_free_ = 0;  // `in_order`: the first edge at which the buffer takes a line
+  Cycle intake_free_ = 0;              // `in_order`: first edge at which the buffer can take a line
   Transaction* requesting_ = nullptr;  // BEGIN_REQ sent, END_REQ not yet seen
   Transaction* responding_ = nullptr;  // BEGIN_RESP seen, END_RESP to be sent by a call
-  Transaction* gathering_ = nullptr;   // burst write whose beats are still coming in
+  Transaction* gathering_ = nullptr;   // burst write whose beats are still being gathered
   sc_core::sc_event end_response_;
   sc_core::sc_time channel_free_;  // end of the last request
   std::uint32_t epoch_ = 0;        // counts resets: late responses of older epochs are dropped

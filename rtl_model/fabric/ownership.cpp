@@ -21,7 +21,7 @@ struct Ends {
   std::vector<const sc_core::sc_object*> held_by;
 };
 
-// Who holds the ports of a link, wire or memory.
+// The units that hold the ports of a link, wire or memory.
 Ends ends_of(const sc_core::sc_object& object) {
   Ends ends;
   const auto add = [&ends](const std::string& port) {
@@ -65,7 +65,7 @@ const ClockDomain* Ownership::around(const sc_core::sc_object* object) const {
   return nullptr;
 }
 
-// Is the innermost that rule 3 finds a unit?
+// True if the innermost object that rule 3 finds is a unit.
 bool Ownership::stands_in_unit(const sc_core::sc_object& object) const {
   for (const sc_core::sc_object* place = &object; place; place = place->get_parent_object()) {
     if (dynamic_cast<const Unit*>(place)) return true;
@@ -108,16 +108,16 @@ const ClockDomain* Ownership::of(const sc_core::sc_object& object) const {
   for (const ClockDomain* domain : domains_)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", domain->name());
   throw spec::CheckFailed(fmt::format(
-      "{}: its clock domain is not known: it stands in no unit or engine, no unit holds a port of "
-      "it, and there are several domains around it ({}). Make it a member of the unit that uses "
-      "it, or name its domain: ClockDomain::adopt()",
+      "{}: its clock domain is unknown: it is outside all units and engines, no unit holds a port "
+      "of it, and several domains surround it ({}). Make it a member of the unit that uses it, or "
+      "name its domain: ClockDomain::adopt()",
       object.name(), names));
 }
 
 void check_owned(const ClockDomain& clock, const sc_core::sc_object& object) {
   const ClockDomain* const owner = Ownership().of(object);
   DEBURR_CHECK(owner == &clock,
-               fmt::format("{} belongs to {}, but is watched in the cycles of {}: watch it by an "
+               fmt::format("{} belongs to {}, but is observed in the cycles of {}: use an "
                            "observer of its own domain",
                            object.name(), owner ? owner->name() : "no domain", clock.name()));
 }

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Which clock domain an object of the fabric belongs to: a link, wire, memory, counter, histogram,
-// port or register block. The first of these rules that gives an answer:
+// port or register block. The first matching rule applies:
 //
-//   1. the domain that it was given to: ClockDomain::adopt();
+//   1. the domain assigned by ClockDomain::adopt();
 //   2. the domain of the units that hold its ports;
-//   3. the domain of the innermost unit or adopted module around it (an Engine is adopted by the
-//      domain that it is constructed with, and a module that is ticked by the one that ticks it);
-//   4. the domain of the innermost module around it with units or clock domains in it, and
-//      outside of all modules the only one with units, or where none has units the only one.
-//      If there are several, that is an error.
+//   3. the domain of the innermost enclosing unit or adopted module. An Engine is adopted by the
+//      domain it is constructed with, a ticked module by the domain that ticks it;
+//   4. the only domain in the innermost enclosing module that contains units or clock domains;
+//      outside all modules, the only domain with units, or if none has units, the only domain.
+//      Several domains are an error.
 //
-// If rule 1, rule 2 and a unit around it give different domains, that is an error. An adopted
-// module may hold parts of other domains.
-// In a simulation of one domain everything belongs to it. Asked for outside of time: at the end of
-// elaboration, and by observers as they are made.
+// It is an error if rule 1, rule 2 and an enclosing unit give different domains. An adopted module
+// may contain parts of other domains. In a simulation with one domain everything belongs to it.
+// Evaluated at the end of elaboration, and by observers at their construction.
 #pragma once
 
 #include <systemc>
@@ -26,12 +25,12 @@ namespace deburr::rtl {
 
 class Ownership {
  public:
-  Ownership();  // with the domains that exist now
-  // nullptr: there is no clock domain. CheckFailed if the rules give two, or none.
+  Ownership();  // with the existing domains
+  // nullptr if no clock domain exists. CheckFailed if the rules give several domains, or none.
   const ClockDomain* of(const sc_core::sc_object& object) const;
-  // The same, but nullptr if the rules give none.
+  // The same, but nullptr if no rule applies.
   const ClockDomain* find(const sc_core::sc_object& object) const;
-  // By rule 1 alone, of this very object.
+  // By rule 1 only, for this object itself.
   const ClockDomain* given(const sc_core::sc_object& object) const;
 
  private:
@@ -50,7 +49,7 @@ void for_each_of(const ClockDomain& clock, F&& visit) {
   });
 }
 
-// For what watches a domain by its clock: CheckFailed if the object belongs to another one.
+// For observers of a domain: CheckFailed if the object belongs to another domain.
 void check_owned(const ClockDomain& clock, const sc_core::sc_object& object);
 
 }  // namespace deburr::rtl

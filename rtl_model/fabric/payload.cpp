@@ -27,7 +27,7 @@ void store_as(std::byte* to, std::uint64_t value) {
   std::memcpy(to, &narrow, sizeof narrow);
 }
 
-// Bits of a format Ua.b or Sa.b; 0: another text.
+// Bits of a format Ua.b or Sa.b; 0 for other texts.
 std::uint32_t format_bits(std::string_view format) {
   if (format.empty() || (format[0] != 'U' && format[0] != 'S')) return 0;
   const char* const end = format.data() + format.size();
@@ -39,7 +39,7 @@ std::uint32_t format_bits(std::string_view format) {
   return whole + fraction + (format[0] == 'S' ? 1 : 0);
 }
 
-// The whole C++ integer, whatever the host's byte order is.
+// Loads the whole C++ integer, independent of the host's byte order.
 std::uint64_t load(const std::byte* from, std::uint32_t bytes) {
   switch (bytes) {
     case 1:
@@ -108,10 +108,11 @@ PayloadNode PayloadBuilder::field(std::string name, std::ptrdiff_t offset, std::
   for (const auto& [what, narrower] : shape_.widths)
     if (full == what || full.starts_with(what + ".")) bits = narrower;
   DEBURR_CHECK(bits <= listed && listed != 0,
-               fmt::format("{}: {} bits, its list allows 0..{}", full, bits, listed));
+               fmt::format("{}: {} bits, expected 0..{} as listed", full, bits, listed));
   const std::uint32_t written = format_bits(format);
-  DEBURR_CHECK(written == 0 || written == listed,
-               fmt::format("{}: {} has {} bits, the list says {}", full, format, written, listed));
+  DEBURR_CHECK(
+      written == 0 || written == listed,
+      fmt::format("{}: format {} has {} bits, but {} are listed", full, format, written, listed));
   PayloadNode node;
   node.name = std::move(name);
   node.field = {full,
@@ -138,7 +139,7 @@ std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
   if (limit == kAll) return listed;
   DEBURR_CHECK(
       limit >= 1 && limit <= listed,
-      fmt::format("{}: {} elements are built, its list allows 1..{}", name, limit, listed));
+      fmt::format("{}: {} elements are built, expected 1..{} as listed", name, limit, listed));
   return limit;
 }
 
@@ -161,23 +162,24 @@ std::string PayloadBuilder::type_name(const std::type_info& type) {
 
 namespace {
 
-// Are all elements of an array as wide?
+// True if all elements of an array have the same widths.
 bool alike(const PayloadNode& a, const PayloadNode& b) {
   return a.field.bits == b.field.bits && std::equal(a.children.begin(), a.children.end(),
                                                     b.children.begin(), b.children.end(), alike);
 }
 
-// The names of the arrays in a payload. Elements that differ have no type.
+// The names of the arrays in a payload. An array whose elements differ has no type.
 void find_arrays(const PayloadNode& node, const std::string& path,
                  std::vector<std::string>& arrays) {
   const std::string name = path.empty() ? node.name : path + "." + node.name;
   if (node.kind == PayloadNode::Kind::kArray) {
     arrays.push_back(name);
     for (const PayloadNode& element : node.children)
-      DEBURR_CHECK(alike(element, node.children.front()),
-                   fmt::format("{}.{} is not built as the other elements of its array are: narrow "
-                               "all of {}",
-                               name, element.name, name));
+      DEBURR_CHECK(
+          alike(element, node.children.front()),
+          fmt::format("{}.{} has another shape than the other elements of its array: narrow "
+                      "all of {}",
+                      name, element.name, name));
   }
   for (const PayloadNode& child : node.children) find_arrays(child, name, arrays);
 }
@@ -204,10 +206,11 @@ void Payload::check_fields() const {
                                           (*std::next(found))->name, what));
   };
   check([](const Field& a, const Field& b) { return a.name < b.name; },
-        [](const Field& a, const Field& b) { return a.name == b.name; }, "one name for two fields");
+        [](const Field& a, const Field& b) { return a.name == b.name; },
+        "two fields with the same name");
   check([](const Field& a, const Field& b) { return a.offset < b.offset; },
         [](const Field& a, const Field& b) { return b.offset < a.offset + a.bytes; },
-        "one place for two fields");
+        "two fields at the same offset");
 }
 
 void Payload::check_shape(const PayloadShape& shape) const {
@@ -217,14 +220,13 @@ void Payload::check_shape(const PayloadShape& shape) const {
     DEBURR_CHECK(std::any_of(fields_.begin(), fields_.end(),
                              [&](const Field& f) { return meant(f.name); }) ||
                      std::any_of(left_out_.begin(), left_out_.end(), meant),
-                 fmt::format("a payload without {} cannot be built with less of it", what));
+                 fmt::format("the payload has no field {} to narrow", what));
   }
   std::vector<std::string> arrays;
   find_arrays(node_, "", arrays);
   for (const auto& [what, elements] : shape.counts)
-    DEBURR_CHECK(
-        std::find(arrays.begin(), arrays.end(), what) != arrays.end(),
-        fmt::format("a payload without an array {} cannot be built with less of it", what));
+    DEBURR_CHECK(std::find(arrays.begin(), arrays.end(), what) != arrays.end(),
+                 fmt::format("the payload has no array {} to shorten", what));
 }
 
 void Payload::collect(PayloadNode& node) {
@@ -256,7 +258,7 @@ Payload::Bit Payload::bit(const std::string& text) const {
   std::uint32_t number = 0;
   if (parse(text, number)) {
     if (number >= bits_)
-      throw spec::ConfigError(fmt::format("no bit {}: there are {}", number, bits_));
+      throw spec::ConfigError(fmt::format("no bit {}: the payload has {} bits", number, bits_));
     const auto above = std::upper_bound(
         fields_.begin(), fields_.end(), number,
         [](std::uint32_t bit, const Field& field) { return bit < field.first_bit; });
@@ -268,7 +270,7 @@ Payload::Bit Payload::bit(const std::string& text) const {
   if (field && parse(std::string_view(text).substr(dot + 1), number)) {
     if (number >= field->bits)
       throw spec::ConfigError(
-          fmt::format("no bit {} of {}: it has {}", number, field->name, field->bits));
+          fmt::format("no bit {} of {}: the field has {} bits", number, field->name, field->bits));
     return {field, number};
   }
   std::string known;
@@ -281,7 +283,7 @@ void Payload::flip(std::byte* payload, Bit bit) const {
 }
 
 void Payload::fill(std::byte* payload, std::uint64_t pattern) const {
-  // splitmix64: neighbouring fields have nothing in common.
+  // splitmix64: neighbouring fields are uncorrelated.
   for (const Field& field : fields_) {
     std::uint64_t noise = (pattern += 0x9E3779B97F4A7C15);
     noise = (noise ^ noise >> 30) * 0xBF58476D1CE4E5B9;

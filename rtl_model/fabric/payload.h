@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The fields of a payload, listed once: name, width, format. From the list come the true width of
-// links and FIFOs, waves by field, faults by field, the text of a mismatch, poison, and the types
-// of a hardware description.
+// The field list of a payload: names, widths, formats. Generates the bit widths of links and FIFOs,
+// traces, faults and mismatch messages per field, poison, and the types of a hardware description.
 //
-// A payload lists its fields in a member template, which needs nothing of this header:
+// A payload lists its fields in a member template, which does not depend on this header:
 //
 //   struct BeatToken {
-//     Slot slot;                              // has a list of its own
+//     Slot slot;                              // has its own field list
 //     std::array<Rgba8, kMaxLanes> pixel;     // Rgba8 is std::array<std::uint8_t, 4>
 //     std::uint8_t edges;                     // bit k: lane k
 //     bool last;
@@ -19,17 +18,19 @@
 //     }
 //   };
 //
-// visit(name, member, bits, format): an integer, an enumeration, or an array (of arrays) of them;
-// one element is pixel.0.r, the letters of its innermost index being the last argument (numbers
-// without). visit(name, member): a bool, or a payload or array of payloads. visit.lanes(...): the
-// first index is the lane, and only the lanes that are built count. visit.lane_bits(name, member,
-// most): a bit for each lane that is built. A width that a parameter narrows (an address into a
-// cache) is given with the link: PayloadShape.
+//   visit(name, member, bits, format)    An integer, an enumeration, or a (nested) array of them.
+//                                        An optional last argument gives letters for the innermost
+//                                        index (pixel.0.r); otherwise elements are numbered.
+//   visit(name, member)                  A bool, a payload, or an array of payloads.
+//   visit.lanes(...)                     The first index is the lane; only built lanes count.
+//   visit.lane_bits(name, member, most)  One bit per built lane.
 //
-// Bit 0 of a payload is bit 0 of its first field. An integer without list has its own width, a bool
-// one bit. An enumeration has no sign. The elements of an array are built alike, the names are
-// unique, a width is its format's (Ua.b, Sa.b), no bit of the C++ type is listed twice: all
-// checked.
+// A PayloadShape, given with the link, narrows widths by parameters (a cache address).
+//
+// Bit 0 of a payload is bit 0 of its first field. An integer without a listed width has the width
+// of its type, a bool one bit. An enumeration is unsigned. Checked: the elements of an array have
+// equal shapes, names are unique, a width matches its format (Ua.b, Sa.b), no bit of the C++ type
+// is listed twice.
 #pragma once
 
 #include <array>
@@ -45,16 +46,16 @@
 
 namespace deburr::rtl {
 
-// What of a payload is built.
+// The part of a payload that is built.
 struct PayloadShape {
-  std::uint32_t lanes = ~std::uint32_t{0};  // fewer than the arrays by lane have
-  // Fields with fewer bits than listed, by the name of a field or of what it is in; 0: without it.
+  std::uint32_t lanes = ~std::uint32_t{0};  // fewer than the per-lane arrays hold
+  // Fields with fewer bits than listed, by the name of a field or of its container; 0: omitted.
   std::vector<std::pair<std::string, std::uint32_t>> widths = {};
   // Arrays of which only the first elements are built, by name.
   std::vector<std::pair<std::string, std::uint32_t>> counts = {};
 };
 
-// The bits of one field, and where the model keeps them.
+// The bits of one field and its location in the C++ type.
 struct Field {
   std::string name;
   std::uint32_t bits = 0;
@@ -66,21 +67,21 @@ struct Field {
   std::uint64_t mask() const {
     return bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
   }
-  // The bits of the field, without those that extend its sign.
+  // The bits of the field, without sign extension.
   std::uint64_t get(const std::byte* payload) const;
   void set(std::byte* payload, std::uint64_t value) const;
-  // Does the C++ value fit the width?
+  // True if the C++ value fits the width.
   bool fits(const std::byte* payload) const;
-  // As a number: with its sign if it has one.
+  // A decimal number, signed if the field is.
   std::string text(const std::byte* payload) const;
 };
 
-// A payload as a hardware description declares it.
+// A payload as a tree of declarations for a hardware description.
 struct PayloadNode {
   enum class Kind { kField, kArray, kStruct };
   Kind kind = Kind::kField;
   std::string name;
-  std::string type;  // kStruct: of its typedef
+  std::string type;  // kStruct: name of its typedef
   Field field;       // kField
   std::vector<PayloadNode> children;
 };
@@ -92,7 +93,7 @@ struct IsArray : std::false_type {};
 template <class T, std::size_t N>
 struct IsArray<std::array<T, N>> : std::true_type {};
 
-// Leaves of an array of arrays.
+// Number of leaf elements of a nested array.
 template <class T>
 constexpr std::uint32_t leaves() {
   if constexpr (IsArray<T>::value)
@@ -122,7 +123,8 @@ namespace detail {
 template <class T>
 constexpr std::uint32_t payload_bits_of();
 
-// Counts members and bits at compile time; a width that its C++ type cannot hold is no constant.
+// Counts members and bits at compile time; a width that exceeds the C++ type is not a constant
+// expression and so does not compile.
 struct Measure {
   std::uint32_t bits = 0, members = 0;
 
@@ -173,7 +175,7 @@ struct Measure {
              field_bits <= sizeof(M) * 8;
   }
   static constexpr void check(bool ok) {
-    if (!ok) throw "a field is wider than its C++ type, or its letters are not as many as it needs";
+    if (!ok) throw "a field is wider than its C++ type, or the number of its letters is wrong";
   }
 };
 
@@ -195,12 +197,12 @@ constexpr std::uint32_t payload_bits_of() {
   else if constexpr (std::is_same_v<T, bool>)
     return 1;
   else {
-    static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload lists its fields");
+    static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload must list its fields");
     return static_cast<std::uint32_t>(sizeof(T) * 8);
   }
 }
 
-// Members of an aggregate: the longest list of initialisers that it takes.
+// Number of members of an aggregate: the longest list of initialisers that it accepts.
 struct AnyValue {
   template <class T>
   constexpr operator T() const;
@@ -213,8 +215,8 @@ constexpr std::uint32_t members() {
     return static_cast<std::uint32_t>(sizeof...(Values));
 }
 
-// Builds the node of a member at run time. Cold: it works once a link, and its text was a
-// third of an engine's while it was unrolled into each constructor.
+// Builds the node of a member at run time. Runs once per link, so it is kept out of line and cold:
+// unrolled into each constructor it took a third of an engine's code.
 class PayloadBuilder {
  public:
   PayloadBuilder(const PayloadShape& shape, const void* payload)
@@ -225,7 +227,7 @@ class PayloadBuilder {
     if constexpr (HasFields<T>) {
       return structure("", payload);
     } else {
-      static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload lists its fields");
+      static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload must list its fields");
       return field("value", payload, payload_bits_of<T>(), {});
     }
   }
@@ -253,7 +255,7 @@ class PayloadBuilder {
   [[gnu::cold]] void lane_bits(std::string_view name, const M& member, std::uint32_t most) {
     add(field(std::string(name), member,
               static_cast<std::uint32_t>(count(path_ + std::string(name), shape_.lanes, most)),
-              "a bit a lane"));
+              "one bit per lane"));
   }
 
  private:
@@ -301,7 +303,7 @@ class PayloadBuilder {
   [[gnu::cold]] PayloadNode structure(const std::string& name, const T& payload) {
     constexpr Measure kListed = measure<T>();
     if constexpr (std::is_aggregate_v<T>)
-      static_assert(members<T>() == kListed.members, "the list leaves out a member");
+      static_assert(members<T>() == kListed.members, "a member is missing in the list");
     PayloadNode node;
     node.kind = PayloadNode::Kind::kStruct;
     node.type = type_name(typeid(T));
@@ -323,23 +325,23 @@ class PayloadBuilder {
   PayloadNode field(std::string name, std::ptrdiff_t offset, std::size_t size, std::uint32_t bits,
                     std::string_view format, bool is_signed) const;
   static PayloadNode array(const std::string& name);
-  // Elements of an array that are built.
+  // Number of array elements that are built.
   std::size_t count(const std::string& name, std::size_t limit, std::size_t listed) const;
   static std::string type_name(const std::type_info& type);
 
   const PayloadShape& shape_;
   const std::byte* payload_;
-  std::string path_;  // of what is being built
+  std::string path_;  // of the element being built
   PayloadNode* into_ = nullptr;
 };
 
 }  // namespace detail
 
-// Bits of a payload with everything in it, as listed.
+// Bits of the complete payload, as listed.
 template <class T>
 inline constexpr std::uint32_t kPayloadBits = detail::payload_bits_of<T>();
 
-// A payload at run time.
+// The description of a payload at run time.
 class Payload {
  public:
   // One bit of a field.
@@ -357,16 +359,16 @@ class Payload {
   std::uint32_t bits() const { return bits_; }
   const std::vector<Field>& fields() const { return fields_; }
   const PayloadNode& node() const { return node_; }
-  const Field* find(std::string_view field) const;  // nullptr: none of that name
-  // "pixel.0.r" (its bit 0), "pixel.0.r.7" or the number of a bit of the payload. ConfigError with
-  // the names that there are.
+  const Field* find(std::string_view field) const;  // nullptr if unknown
+  // Accepts "pixel.0.r" (its bit 0), "pixel.0.r.7" or the number of a bit of the payload.
+  // ConfigError with the available names otherwise.
   Bit bit(const std::string& text) const;
 
   void flip(std::byte* payload, Bit bit) const;
-  // Noise in every field, from the seed `pattern` and the field's number. CheckFailed for a type
-  // without list, whose bytes may be anything.
+  // Fills every field with noise from the seed `pattern` and the field's number. CheckFailed for a
+  // type without a field list, whose bytes may be anything.
   void fill(std::byte* payload, std::uint64_t pattern) const;
-  // The first field whose C++ value has more bits than it is listed with; nullptr: none.
+  // The first field whose C++ value exceeds its listed width; nullptr if all fit.
   const Field* misfit(const std::byte* payload) const;
   // "slot.row=3 last=1"
   std::string text(const std::byte* payload) const;
@@ -385,7 +387,7 @@ class Payload {
   std::uint32_t bits_ = 0;
 };
 
-// The texts for a value that is no beat of a link.
+// The same texts for a value outside a link.
 template <class T>
 std::string payload_text(const T& value) {
   return Payload::of<T>().text(reinterpret_cast<const std::byte*>(&value));
@@ -396,10 +398,9 @@ std::string payload_difference(const T& expected, const T& got) {
                                      reinterpret_cast<const std::byte*>(&got));
 }
 
-// A SystemVerilog package with a packed struct for each payload and for what is in it. Fields stand
-// from the most significant one down, so that bit n of a struct is bit n of the payload. A payload
-// that is an integer is a u16_t or s16_t. Names that the language reserves get a trailing
-// underscore.
+// A SystemVerilog package with a packed struct for each payload and for its members. Fields are
+// declared from the most significant one down, so bit n of a struct is bit n of the payload. A
+// payload that is an integer becomes u16_t or s16_t. Reserved words get a trailing underscore.
 std::string payload_package(const std::string& name, std::span<const Payload* const> payloads);
 
 }  // namespace deburr::rtl

@@ -9,7 +9,7 @@
 namespace deburr::rtl {
 namespace {
 
-// IEEE 1800-2017, annex B.
+// Keywords of IEEE 1800-2017, annex B.
 constexpr std::string_view kReserved =
     " accept_on alias always always_comb always_ff always_latch and assert assign assume automatic "
     "before begin bind bins binsof bit break buf bufif0 bufif1 byte case casex casez cell chandle "
@@ -38,7 +38,7 @@ std::string legal(const std::string& name) {
   return kReserved.find(" " + name + " ") == std::string_view::npos ? name : name + "_";
 }
 
-// Typedefs by name; of two that share a name but not their fields, the later gets a number.
+// Typedefs by name; if two types share a name but not their fields, the later one gets a number.
 class PackageWriter {
  public:
   std::string declare(const PayloadNode& node) {
@@ -81,7 +81,7 @@ class PackageWriter {
   static const Field& first_field(const PayloadNode& node) {
     return node.kind == PayloadNode::Kind::kField ? node.field : first_field(node.children.front());
   }
-  // Without the name of what is declared.
+  // The type without the declared name.
   std::string type_of(const PayloadNode& node) {
     std::string dimensions;
     const PayloadNode* at = &node;

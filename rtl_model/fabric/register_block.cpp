@@ -12,7 +12,7 @@
 namespace deburr::rtl {
 namespace {
 
-// Registers travel little-endian, whatever the host is.
+// Registers are little-endian on the bus, independent of the host.
 void store(std::uint8_t* to, std::uint32_t value) {
   for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
@@ -34,14 +34,16 @@ RegisterBlock::RegisterBlock(const sc_core::sc_module_name& name,
       shown_(table.size()) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::uint32_t offset = table[i].offset;
-    DEBURR_CHECK(offset % 4 == 0, fmt::format("{}.{}: offset {:#x} is no multiple of 4",
+    DEBURR_CHECK(offset % 4 == 0, fmt::format("{}.{}: offset {:#x} is not a multiple of 4",
                                               this->name(), table[i].name, offset));
     if (index_by_word_.size() <= offset / 4) index_by_word_.resize(offset / 4 + 1, -1);
     DEBURR_CHECK(index_by_word_[offset / 4] < 0,
-                 fmt::format("{}.{}: offset {:#x} is taken", this->name(), table[i].name, offset));
-    DEBURR_CHECK(!table[i].fields.empty(),
-                 fmt::format("{}.{}: has no field: one number is spec::kNumber or spec::number()",
-                             this->name(), table[i].name));
+                 fmt::format("{}.{}: offset {:#x} is used by another register", this->name(),
+                             table[i].name, offset));
+    DEBURR_CHECK(
+        !table[i].fields.empty(),
+        fmt::format("{}.{}: has no field: use spec::kNumber or spec::number() for a plain number",
+                    this->name(), table[i].name));
     index_by_word_[offset / 4] = static_cast<int>(i);
     values_.push_back(table[i].reset());
   }
@@ -97,7 +99,7 @@ void RegisterBlock::b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_t
   const bool write = payload.is_write();
   const auto reject = [&](tlm::tlm_response_status status) { payload.set_response_status(status); };
   if (!write && !payload.is_read()) {
-    // TLM_IGNORE_COMMAND: the base protocol allows a target to do nothing and say OK.
+    // TLM_IGNORE_COMMAND: the base protocol allows a target to do nothing and report OK.
     return reject(tlm::TLM_OK_RESPONSE);
   }
   if (found < 0) return reject(tlm::TLM_ADDRESS_ERROR_RESPONSE);

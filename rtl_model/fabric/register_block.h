@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
-// 32-bit registers behind a TLM-2.0 target socket, from one table of descriptions that also gives
-// the tables of the docs and the C header for a user's software.
+// Function  32-bit registers with a TLM-2.0 target socket, built from a table of descriptions that
+//           also generates the tables of the docs and the C header for software.
+// Cost      32 flip-flops per writable register.
 //
-// Access: one aligned 32-bit word a transaction, no byte enables. Errors: unknown or unaligned
-// address: ADDRESS_ERROR; other length or streaming width: BURST_ERROR; byte enables:
-// BYTE_ENABLE_ERROR; write to a register without a field that software may write, or read of one
-// without a field that it may read: COMMAND_ERROR. A write reaches those fields alone, as the
-// access of each says. Commands, and bits that no field has, read as 0. transport_dbg reads and
-// writes any span of whole registers, without side effects but those of on_debug_write(), and stops
-// at the first hole. A write at the time of a clock edge counts for that edge. A thread that is
-// ahead of simulated time (temporal decoupling) waits until that has come: the registers are those
-// of its own time, whatever its quantum is. Who cannot wait is served at once, with its delay
-// unchanged. Cost: 32 flip-flops a writable register.
+// Access: one aligned 32-bit word per transaction, without byte enables. A write changes only the
+// fields that software may write, as the access of each says. Commands and bits without a field
+// read as 0. A write at the time of a clock edge takes effect at that edge.
+//   ADDRESS_ERROR       unknown or unaligned address
+//   BURST_ERROR         another length or streaming width
+//   BYTE_ENABLE_ERROR   byte enables
+//   COMMAND_ERROR       write to a register without a writable field, or read of one without a
+//                       readable field
+// transport_dbg reads and writes any span of whole registers, without side effects except those of
+// on_debug_write(), and stops at the first hole.
+//
+// With temporal decoupling, a thread ahead of simulated time waits until that time: it sees the
+// registers at its own time, whatever its quantum. A process that cannot wait is served at once and
+// its delay is unchanged.
 #pragma once
 
 #include <tlm_utils/simple_target_socket.h>
@@ -37,18 +42,18 @@ class RegisterBlock final : public sc_core::sc_module {
   RegisterBlock(const sc_core::sc_module_name& name, std::span<const spec::RegisterInfo> table);
   const char* kind() const override { return "deburr_registers"; }
 
-  // From the hardware's side, by position in the table (an enum beside it): no bus, no checks of
-  // access.
+  // Access from the hardware side by position in the table (an enum): bypasses the bus and its
+  // access checks.
   std::uint32_t get(std::size_t index) const { return values_[index]; }
   void set(std::size_t index, std::uint32_t value) { values_[index] = value; }
-  // Called after a bus write with the value that was written (a command register, for instance).
+  // Called with the written value after a bus write (for instance of a command register).
   void on_write(std::size_t index, std::function<void(std::uint32_t)> action);
-  // The same after transport_dbg, for a register whose writes do something.
+  // The same after transport_dbg, for a register whose writes have an effect.
   void on_debug_write(std::size_t index, std::function<void(std::uint32_t)> action);
-  // Gives the value that a read sees, instead of the stored one (a status that follows the
-  // hardware).
+  // Sets the function that gives a read's value instead of the stored one (a status that follows
+  // the hardware).
   void on_read(std::size_t index, std::function<std::uint32_t()> value);
-  // A read-only register that shows the low (or, with shift 32, the high) word of a counter.
+  // Makes a read-only register show the low (shift 0) or high (shift 32) word of a counter.
   void show(std::size_t index, const Counter& counter, int shift = 0);
   void reset();
 

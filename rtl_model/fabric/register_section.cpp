@@ -30,7 +30,7 @@ const char* access_name(spec::Access access) {
   return "?";
 }
 
-// Each once, in the order of the fields.
+// Each access name once, in the order of the fields.
 std::string access_names(const spec::RegisterInfo& info) {
   std::vector<std::string_view> names;
   for (const spec::Field& field : info.fields)
@@ -47,7 +47,7 @@ const spec::LoadedRegister* loaded_value(const spec::RegisterInfo& info,
   return found == loaded.end() ? nullptr : &*found;
 }
 
-// The register's word after a reset, and whether a reset leaves all of it as it is.
+// The register's word after a reset, and whether a reset leaves the whole word unchanged.
 std::uint32_t reset_word(const spec::RegisterInfo& info,
                          std::span<const spec::LoadedRegister> loaded) {
   const spec::LoadedRegister* const value = loaded_value(info, loaded);
@@ -76,7 +76,7 @@ std::string bits_of(const spec::Field& field) {
                                  : fmt::format("[{}:{}]", field.high, field.low);
 }
 
-// Registers of the same fields and reset value stand in one row.
+// Registers with equal fields and reset values share a row.
 std::string field_table_markdown(std::span<const spec::RegisterInfo> table,
                                  std::span<const spec::LoadedRegister> loaded) {
   struct Group {
@@ -142,7 +142,7 @@ std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::st
     if (r.is_number()) continue;
     for (const spec::Field& field : r.fields) {
       const std::string full = fmt::format("{}_{}", name, upper(field.name));
-      // Where fields differ in it, each says its access.
+      // If accesses differ within the register, each field states its own.
       std::string remark(field.meaning);
       if (access != access_name(field.access))
         remark =
@@ -164,12 +164,12 @@ std::string lower(std::string text) {
   return text;
 }
 
-// From a register to the same of the next one.
+// Macros for the stride and count of repeated registers.
 std::string repetition_macros(const RegisterSection& section) {
   if (!section.repeated) return {};
   const auto& [name, stride, count] = *section.repeated;
   return fmt::format(
-      "\n/* From a register of {1}0 to the same of the next {2}; there are {0}_COUNT. */\n"
+      "\n/* Byte distance from a register of {1}0 to that of the next {2}, and their number. */\n"
       "#define {0}_STRIDE 0x{3:02X}u\n#define {0}_COUNT {4}u\n",
       section.macros, name, lower(name), stride, count);
 }
@@ -198,7 +198,7 @@ constexpr std::string_view kKeywords[] = {"abstract",    "accesstype", "addressi
                                           "wset",        "wuser",      "wzc",
                                           "wzs",         "wzt"};
 
-// A name of ours as an identifier; a reserved word is one behind a backslash.
+// A name as an identifier; reserved words are escaped with a backslash.
 std::string rdl_name(std::string_view name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -217,8 +217,8 @@ std::string rdl_text(std::string_view text) {
   return quoted + "\"";
 }
 
-// Hardware reads what software may write, and drives what is read only. What both write has a write
-// enable: without one, hardware would write it in every cycle.
+// Hardware reads fields that software may write, and drives read-only fields. A field that both
+// write needs a write enable: without one, hardware would write it in every cycle.
 const char* rdl_access(spec::Access access) {
   switch (access) {
     case spec::Access::kConstant:
@@ -251,7 +251,7 @@ std::string rdl_field(const spec::Field& field, std::uint32_t reset, bool waits_
     text += " };\n";
   }
   text += fmt::format("{}field {{ {}", indent, rdl_access(field.access));
-  if (waits_for_idle) text += " swwe;";  // software may write while hardware lets it
+  if (waits_for_idle) text += " swwe;";  // software may write only while hardware allows it
   if (!field.codes.empty()) text += fmt::format(" encode = {}_codes;", name);
   if (!field.meaning.empty()) text += fmt::format(" desc = {};", rdl_text(field.meaning));
   text += fmt::format(" }} {}[{}:{}]", name, field.high, field.low);
@@ -303,15 +303,15 @@ std::string register_page(const RegisterSection& section) {
   if (!section.repeated) return page;
   const auto& [name, stride, count] = *section.repeated;
   return page + fmt::format(
-                    "\n{}{}s 1..{} follow with the same registers, each 0x{:X} bytes after the one "
-                    "before.\n",
+                    "\n{}{}s 1..{} follow with the same registers, each 0x{:X} bytes after the "
+                    "previous one.\n",
                     name.substr(0, 1), lower(name.substr(1)), count - 1, stride);
 }
 
 std::string register_systemrdl(std::span<const RegisterSection> sections) {
   std::string text =
       "// SPDX-License-Identifier: MIT\n"
-      "// Registers of Deburr's engines as SystemRDL 2.0, an address map each. Bits without a "
+      "// Registers of Deburr's engines as SystemRDL 2.0, one address map each. Bits without a "
       "field, and\n// commands (singlepulse), read as 0. Reset values are those of default "
       "parameters.\n"
       "// Generated by `deburr params --systemrdl`; do not edit.\n";
@@ -325,18 +325,19 @@ std::string register_c_header(std::span<const RegisterSection> sections) {
       "/* Registers of Deburr's engines, for software that programs them: byte offsets, masks and "
       "shifts of\n"
       " * fields, codes of choices. Generated by `deburr params --c-header`; do not edit.\n"
-      " * RO: read only; RW: read and write; RWH: hardware writes it, too; WO: write only; W1C: "
-      "hardware sets it, a one\n"
-      " * written clears it; W1P: a one written is a command, reads as 0.\n"
-      " * Of names of fields, as DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH: */\n"
+      " * RO: read only; RW: read and write; RWH: hardware also writes it; WO: write only; W1C: "
+      "hardware sets it,\n"
+      " * writing a one clears it; W1P: writing a one is a command, reads as 0.\n"
+      " * `name` below is the name of a field, such as DEBURR_TEXTURE_TEXTURE0_SIZE_WIDTH. */\n"
       "#ifndef DEBURR_REGISTERS_H\n#define DEBURR_REGISTERS_H\n"
-      "\n/* a field of a register's word, */\n"
+      "\n/* Extracts a field from a register word. */\n"
       "#define DEBURR_FIELD(name, word) (((word) & name##_MASK) >> name##_SHIFT)\n"
-      "/* a value in its place, cut to its bits, */\n"
+      "/* Shifts a value to the position of a field and cuts it to its width. */\n"
       "#define DEBURR_IN(name, value) (((value) + 0u) << name##_SHIFT & name##_MASK)\n"
-      "/* a choice by its name: DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8), */\n"
+      "/* The same for a named code: DEBURR_CHOICE(DEBURR_TEXTURE_TEXTURE0_MODE_FORMAT, RGBA8). "
+      "*/\n"
       "#define DEBURR_CHOICE(name, code) DEBURR_IN(name, name##_##code)\n"
-      "/* a word with another value in a field. */\n"
+      "/* Replaces a field of a register word. */\n"
       "#define DEBURR_WITH(name, word, value) (((word) & ~name##_MASK) | DEBURR_IN(name, value))\n";
   for (const RegisterSection& section : sections)
     header += register_c_macros(section.rows, section.macros, section.loaded) +

@@ -22,7 +22,7 @@
 namespace deburr::rtl {
 namespace {
 
-// VCD's short names: base 94 of the printable characters.
+// VCD identifiers: numbers in base 94, as printable characters.
 std::string short_name(std::size_t number) {
   std::string text;
   do {
@@ -39,7 +39,7 @@ std::string binary(std::uint64_t value, int bits) {
   return text;
 }
 
-// The path of modules of a hierarchical name, and the name itself.
+// Splits a hierarchical name into the path of modules and the leaf name.
 std::pair<std::vector<std::string>, std::string> split(const std::string& name) {
   std::vector<std::string> path;
   std::size_t begin = 0;
@@ -60,7 +60,7 @@ Trace::Trace(ClockDomain& clock, const TraceOptions& options) : clock_(clock), o
 
 Trace::~Trace() {
   file_.close();
-  std::error_code ignored;  // a device stays
+  std::error_code ignored;  // a device is not removed
   if (!file_ && std::filesystem::is_regular_file(options_.file, ignored))
     std::filesystem::remove(options_.file, ignored);
 }
@@ -68,10 +68,11 @@ Trace::~Trace() {
 void Trace::check_file() const {
   if (file_) return;
   const int reason = errno;
-  throw spec::FileError(fmt::format(
-      "cannot write the waves to '{}': {}; no part of them stays: trace fewer units or cycles, or "
-      "choose another folder",
-      options_.file, std::strerror(reason)));
+  throw spec::FileError(
+      fmt::format("cannot write the waves to '{}': {}; the partial file was removed: trace fewer "
+                  "units or cycles, or "
+                  "choose another folder",
+                  options_.file, std::strerror(reason)));
 }
 
 void Trace::flush() {
@@ -91,7 +92,7 @@ std::vector<std::string> Trace::names(const ClockDomain& clock) {
   for_each_of<WireBase>(clock, add);
   for_each_of<Unit>(clock, add);
   for_each_of<Counter>(clock, add);
-  const Ownership ownership;  // a user's registers may belong to no domain
+  const Ownership ownership;  // a user's registers may not belong to a domain
   for_each<RegisterBlock>([&](const RegisterBlock& block) {
     if (ownership.find(block) != &clock) return;
     for (const spec::RegisterInfo& r : block.table())
@@ -159,7 +160,7 @@ void Trace::collect(Cycle cycle) {
   });
   for_each_of<Unit>(clock_, [&](Unit& unit) {
     if (!wanted(unit.name())) return;
-    // The counter that went up since the last sample is what the unit did.
+    // The counter that increased since the last sample gives the unit's activity.
     const bool early = cycle < options_.from;
     auto before = early ? unit.counts() : initial_[&unit];
     signals_.push_back({std::string(unit.name()) + ".activity",
@@ -190,7 +191,7 @@ void Trace::collect(Cycle cycle) {
 }
 
 void Trace::write_header() {
-  // Neighbours in the hierarchy must be neighbours in the file.
+  // Signals of one scope must be contiguous in the file.
   std::multimap<std::vector<std::string>, Signal> by_path;
   for (Signal& signal : signals_) by_path.emplace(split(signal.name).first, std::move(signal));
   signals_.clear();
@@ -231,7 +232,7 @@ void Trace::write(const std::string& value, int bits, const std::string& id) {
 
 Activity Trace::tick(Cycle cycle) {
   if (!started_) {
-    // One cycle early, so that the units' activities have something to be compared with.
+    // Starts one cycle early, to have a previous sample of the activity counters.
     if (cycle + 1 < options_.from) return kIdle;
     started_ = true;
     collect(cycle);
@@ -252,7 +253,7 @@ Activity Trace::tick(Cycle cycle) {
     write(value, signal.bits, signal.id);
     signal.last = std::move(value);
   }
-  // A period of one unit of time has no half.
+  // A period of one time unit has no half.
   if (const std::uint64_t half = clock_.period().value() / 2; half != 0) {
     file_ << '#' << edge + half << '\n';
     write("0", 1, clock_id_);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// VCD waves of links, wires, units and counters of a clock domain, chosen by scope and cycle
-// window.
+// VCD traces of links, wires, units and counters of a clock domain, selected by scope and cycle
+// range.
 //
-// One scope holds all: the clock, the number of its cycle, and the hierarchy. Of each link, in a
-// scope of its own: occupancy, push, pop, and every field of the beat at its head (pixel.0.r is
-// pixel_0_r; x while the link is empty). Of each wire: what its readers see in that cycle (x: not
-// driven), by field if it has several. Of each unit: its activity (as a string). Of each counter
-// and register: its value. Sampled at the end of every cycle of the clock domain and written with
-// the time of the edge. While a trace is attached, the domain goes cycle by cycle, so
-// that signals that other SystemC code traces by itself are right as well. Off by default; costs
-// nothing when off.
+// One top scope holds the clock, the cycle number and the hierarchy.
+//   link     in its own scope: occupancy, push, pop, and every field of the beat at its head
+//            (pixel.0.r becomes pixel_0_r; x while the link is empty)
+//   wire     the value that its readers see in the cycle (x: not driven), per field if several
+//   unit     its activity, as a string
+//   counter, register   its value
+// Values are sampled at the end of every cycle of the domain and written with the time of the edge.
+// While a trace is attached, the domain runs cycle by cycle, so that signals traced by other
+// SystemC code are correct as well. Off by default, without cost when off.
 #pragma once
 
 #include <array>
@@ -29,27 +30,28 @@ struct TraceOptions {
   std::string file;                      // *.vcd
   std::vector<std::string> scopes{"*"};  // globs (* and ?) on full hierarchical names
   Cycle from = 0, to = kNever;           // cycles [from, to)
-  bool payloads = true;                  // the fields at the head of links, not only the hand-shake
-  std::string top = "deburr";            // the scope around all
+  bool payloads = true;                  // the fields at the head of links, not only the handshake
+  std::string top = "deburr";            // the top scope
 };
 
 class Trace final : public Clocked {
  public:
-  // Attaches to the domain; write nothing before the first cycle in the window.
+  // Attaches to the domain; the file is written from the first sampled cycle on.
   Trace(ClockDomain& clock, const TraceOptions& options);
-  // A file that could not be written whole is removed.
+  // A file that could not be written completely is removed.
   ~Trace() override;
 
-  // Something else, sampled each cycle in the window; name is hierarchical. Before the first cycle.
+  // Adds a value that is sampled in each traced cycle; `name` is hierarchical. Call before the
+  // first cycle.
   void add(const std::string& name, int bits, std::function<std::uint64_t()> sample);
 
-  // FileError with the reason once something could not be written.
+  // Throws FileError with the reason if writing failed.
   Activity tick(Cycle cycle) override;
-  // What was sampled so far is in the file, or this is a FileError.
+  // Writes all samples so far to the file; throws FileError if that fails.
   void flush();
   void reset() override {}
   std::size_t signals() const { return signals_.size(); }
-  // Everything of the domain that a scope can choose.
+  // All names of the domain that a scope can select.
   static std::vector<std::string> names(const ClockDomain& clock);
 
  private:

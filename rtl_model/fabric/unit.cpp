@@ -18,7 +18,7 @@ Unit::Unit(const sc_core::sc_module_name& name, ClockDomain& clock)
 
 Activity Unit::declare_stall(const char* cause, const char* meaning) {
   DEBURR_CHECK(names_.size() < kActivities,
-               fmt::format("{}: more than {} causes of stalls", name(), kActivities - 2));
+               fmt::format("{}: more than {} stall causes", name(), kActivities - 2));
   DEBURR_CHECK(std::find(names_.begin(), names_.end(), cause) == names_.end(),
                fmt::format("{}: stall cause {} is declared twice", name(), cause));
   names_.emplace_back(cause);
@@ -63,7 +63,7 @@ void Unit::check_ports() const {
   }
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 Unit::~Unit() = default;
 
 }  // namespace deburr::rtl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Base of every hardware unit: an sc_module with named link ports, ticked by its clock domain, that
-// accounts for each cycle exactly once.
+// Base class of every hardware unit: an sc_module with named link ports, ticked by its clock
+// domain. Every cycle is accounted for exactly once.
 //
 //   class Halver final : public Unit {
 //    public:
@@ -52,19 +52,19 @@ class Unit : public Clocked, public sc_core::sc_module {
   const std::string& activity_name(Activity activity) const;
   int activities() const { return static_cast<int>(names_.size()); }
 
-  // Something else does its work (ClockDomain::replace): it keeps no account, and of its counters
-  // only those that are counted for it.
+  // Another implementation does its work (ClockDomain::replace): it keeps no cycle account, and
+  // only the counters that the replacement updates are valid.
   bool replaced() const { return replaced_; }
   const std::vector<const Counter*>& counted_for_it() const { return counted_for_it_; }
 
-  // busy + stalled + idle = cycles since reset.
+  // Checks busy + stalled + idle = cycles since reset.
   void check_accounting() const;
-  // Every port is bound; the domain asks at the end of elaboration.
+  // Checks that every port is bound; the domain calls it at the end of elaboration.
   void check_ports() const;
 
  protected:
   Unit(const sc_core::sc_module_name& name, ClockDomain& clock);
-  // A cause that a cycle can be lost to; in the constructor. "downstream" is there already.
+  // Declares a stall cause; call in the constructor. "downstream" is predefined.
   Activity declare_stall(const char* cause, const char* meaning);
 
  private:

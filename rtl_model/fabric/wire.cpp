@@ -13,9 +13,9 @@ void WireBase::fail(const char* what, Cycle cycle) const {
 }
 
 void Pulse::raise(Cycle cycle) {
-  if (raised_ == cycle) fail("raised twice in a clock", cycle);
+  if (raised_ == cycle) fail("raised twice in a cycle", cycle);
   const bool goes_on = cycle != 0 && raised_ == cycle - 1;
-  count(cycle, goes_on ? 0U : 2U, true);  // its fall, too
+  count(cycle, goes_on ? 0U : 2U, true);  // includes the falling edge
   raised_ = cycle;
   for (const std::function<void(Cycle)>* take : takers_) (*take)(cycle);
 }
@@ -62,10 +62,10 @@ void WirePortBase::resolve(WireBase& wire) {
   wire.driver_ = name();
 }
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 WireBase::~WireBase() = default;
 
-// Here, and not in each place that destroys one.
+// Out of line, to keep the code of its users small.
 WirePortBase::~WirePortBase() = default;
 
 }  // namespace deburr::rtl

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-// A level signal between units: one driver, any number of readers, no hand-shake.
+// A level signal between units: one driver, any number of readers, no handshake.
 //
-// A wire is a register or combinational, by its declaration:
+// A wire is registered or combinational, by its declaration:
 //
 //   Wire<Phase> phase_{"phase", Phase::kIdle, {.widths = {{"value", 2}}}};
 //   CombinationalWire<bool> moves_{"moves"};
 //
-//   * A register: what is driven in clock t is read from t + 1 on, whichever unit is ticked first,
-//     and stays until it is driven again. Latency 1. A reset loads the value of the declaration;
-//     without one (`kNoReset`) the wire is undriven until it is driven.
-//   * Combinational: what is driven in clock t is read in t and in no other clock. Latency 0. The
-//     domain ticks the driver before its readers, also when it shuffles.
+//   * Registered: a value driven in cycle t is read from t + 1 on, whichever unit is ticked first,
+//     and stays until the wire is driven again. Latency 1. A reset loads the declared value;
+//     without one (`kNoReset`) the wire is undriven until its first value.
+//   * Combinational: a value driven in cycle t is read in t only. Latency 0. The domain ticks the
+//     driver before its readers, also when it shuffles.
 //
-// A Pulse is a combinational wire of one bit that is low in every clock in which it is not raised:
-// an event that sets a status bit or loads a register. A register that no unit's tick writes takes
-// it through OnPulse.
+// A Pulse is a combinational wire of one bit that is low in every cycle in which it is not raised:
+// an event that sets a status bit or loads a register. A register that is not written by a unit's
+// tick receives it through OnPulse.
 //
-// Never stalls. Reading an undriven wire, driving it twice in a clock, a second driver and an
-// unbound port stop the simulation with the names of wire, driver and readers. Cost: the bits of T,
-// as registers or as gates of the driver. The clock domain of the units that it joins resets it.
+// Stalls    None. Reading an undriven wire, driving it twice in a cycle, a second driver and an
+//           unbound port are errors that name the wire, its driver and its readers.
+// Cost      The bits of T, as registers or as gates of the driver.
+//
+// The clock domain of the connected units resets the wire.
 #pragma once
 
 #include <concepts>
@@ -49,30 +51,30 @@ class WireBase : public sc_core::sc_object {
   bool combinational() const { return kind_ == WireKind::kCombinational; }
   const Payload& payload() const { return payload_; }
   std::uint32_t bits() const { return payload_.bits(); }
-  // What readers see in this clock; nullptr: nothing was driven.
+  // The value that readers see in this cycle; nullptr if none was driven.
   virtual const std::byte* seen(Cycle cycle) const = 0;
   virtual void reset() = 0;
-  // The same at this edge: what is counted is counted from the next clock on.
+  // Resets at this edge; counting restarts in the next cycle.
   void reset_at(Cycle edge) {
     reset();
     since_ = edge + 1;
   }
 
-  // Since reset: how often the driven value changed, and in how many cycles before `now` readers
-  // saw another value than zero.
+  // Since reset: the number of changes of the driven value, and of cycles before `now` in which
+  // readers saw a value other than zero.
   std::uint64_t changes() const { return changes_; }
   std::uint64_t high_cycles(Cycle now) const {
     return high_ + (level_ && now > since_ ? now - since_ : 0);
   }
 
-  // Who is bound to it, for diagrams and error texts; empty if used without ports.
+  // The ports bound to it, for diagrams and error messages; empty if used without ports.
   const std::string& driver() const { return driver_; }
   const std::vector<std::string>& readers() const { return readers_; }
 
  protected:
   WireBase(const char* name, Payload payload, WireKind kind)
       : sc_object(name), payload_(std::move(payload)), kind_(kind) {}
-  // Counts a value that readers see from `from` on.
+  // Counts a value that readers see from cycle `from` on.
   void count(Cycle from, std::uint32_t changes, bool level) {
     changes_ += changes;
     if (combinational()) {
@@ -97,9 +99,9 @@ class WireBase : public sc_core::sc_object {
   Payload payload_;
   WireKind kind_;
   std::uint64_t changes_ = 0, high_ = 0;
-  Cycle since_ = 0;              // when readers first saw a level that is not zero
+  Cycle since_ = 0;              // first cycle in which readers saw a nonzero level
   bool level_ = false;           // of the driven value
-  const void* clock_ = nullptr;  // the domain of all units that are bound to it
+  const void* clock_ = nullptr;  // the domain of all connected units
   std::string driver_;
   std::vector<std::string> readers_;
 };
@@ -130,7 +132,7 @@ class Wire final : public WireBase {
       return before_;
     } else {
       if (cycle != from_) [[unlikely]]
-        fail("read before it was driven in this clock", cycle);
+        fail("read before it was driven in this cycle", cycle);
       return value_;
     }
   }
@@ -138,7 +140,7 @@ class Wire final : public WireBase {
   void drive(Cycle cycle, const T& value) {
     const Cycle from = cycle + kRegister;
     if (from_ == from) [[unlikely]]
-      fail("driven twice in a clock", cycle);
+      fail("driven twice in a cycle", cycle);
     count(from, was_driven_ && !(value == value_), !(value == T{}));
     before_ = value_;
     had_value_ = was_driven_;
@@ -160,10 +162,10 @@ class Wire final : public WireBase {
  private:
   const T reset_value_{};
   const bool has_reset_ = false;
-  // The value is read from this clock on (combinational: in it), and before it what was before.
+  // Readers see value_ from this cycle on (combinational: only in it), before_ until then.
   Cycle from_ = kNever;
   T value_{}, before_{};
-  bool was_driven_ = false, had_value_ = false;  // value_, before_ are values
+  bool was_driven_ = false, had_value_ = false;  // value_, before_ are valid
 };
 template <class T>
 using CombinationalWire = Wire<T, WireKind::kCombinational>;
@@ -173,7 +175,7 @@ class Pulse final : public WireBase {
   explicit Pulse(const char* name)
       : WireBase(name, Payload::of<bool>({}), WireKind::kCombinational) {}
   bool read(Cycle cycle) const { return cycle == raised_; }
-  // Once a clock at most.
+  // At most once per cycle.
   void raise(Cycle cycle);
   const std::byte* seen(Cycle cycle) const override;
   void reset() override {
@@ -187,15 +189,15 @@ class Pulse final : public WireBase {
   std::vector<const std::function<void(Cycle)>*> takers_;
 };
 
-// A named end of a wire on a unit's border. Bind it to a wire, or to the port of the same kind of
-// the unit around it (in any order).
+// A named port at a unit's boundary. Bind it to a wire, or to the same kind of port of the
+// enclosing unit (in any order).
 class WirePortBase : public sc_core::sc_object {
  public:
   ~WirePortBase() override;
   enum class Side { kReader, kDriver };
   Side side() const { return side_; }
   bool bound() const { return base_ != nullptr; }
-  // The wire at the end of the chain; nullptr while not bound.
+  // The bound wire, also through outer ports; nullptr if unbound.
   WireBase* wire_base() const { return base_; }
 
  protected:
@@ -236,7 +238,7 @@ class WireOut final : public WirePortBase {
   void operator()(WireOut<T, kKind>& outer) { bind_port(outer); }
 
   void drive(Cycle cycle, const T& value) { wire_->drive(cycle, value); }
-  // What it drove last, or the value after a reset: readers may see it a clock later.
+  // The value driven last, or the reset value: readers may see it one cycle later.
   const T& driven() const { return wire_->driven(); }
 
  private:
@@ -270,9 +272,9 @@ class PulseOut final : public WirePortBase {
   Pulse* pulse_ = nullptr;
 };
 
-// A register that a pulse sets or loads at the end of its clock. For what is not ticked: registers
-// behind a bus. The action writes registers alone, so it is of no account whether units of that
-// clock have been ticked.
+// A register that a pulse sets or loads at the end of its cycle, for objects that are not ticked
+// (registers on a bus). The action only writes registers, so the order relative to the units of
+// that cycle does not matter.
 class OnPulse final : public WirePortBase {
  public:
   OnPulse(const char* name, std::function<void(Cycle)> action)

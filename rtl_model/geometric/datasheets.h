@@ -9,9 +9,9 @@
 
 namespace deburr::rtl::geometric {
 
-// Of every unit that is built with these parameters, in the order of the pipe.
+// The datasheets of all units built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::geometric::Parameters& parameters);
-// Of every unit in each of its builds.
+// The datasheets of all units in all their builds.
 std::vector<Datasheet> datasheets();
 
 }  // namespace deburr::rtl::geometric

@@ -57,11 +57,11 @@ void FrameSequencer::reset() {
 
 Datasheet FrameSequencer::datasheet() {
   return {.unit = "FrameSequencer",
-          .does = "Takes a frame through its phases: begin, edges, resolve.",
+          .does = "Sequences the phases of a frame: begin, edges, resolve.",
           .latency = {0, "-"},
           .interval = {1, "-"},
           .stages = {{"1",
-                      "checks START in the clock after the write: products of SIZE are shifts and "
+                      "checks START in the cycle after the write: products of SIZE are shifts and "
                       "one 11 x 11 multiply over two cycles (ParameterStore)",
                       "11 x 11 multiply"}},
           .cost = "a state of two bits, a 32-bit counter."};

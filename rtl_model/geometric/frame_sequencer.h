@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Takes a frame through its phases: begin, edges, resolve.
-//
-// Where: above the pipe. In the clock after START is written it has the ParameterStore latch the
-// rules, which tells whether the frame is rejected. A phase begins in the clock after all units are
-// done with the one before: their wires are registers of these units, and so is the phase. Never
-// stalls.
+// Function  Sequences the phases of a frame: begin, edges, resolve. In the cycle after the write of
+//           START it makes the ParameterStore latch the configuration, which also tells whether the
+//           frame is rejected.
+// Position  Controls the pipeline.
+// Latency   A phase begins in the cycle after all units have finished the previous one: their done
+//           wires are registered, and so is the phase.
+// Stalls    None.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,12 @@ namespace deburr::rtl::geometric {
 
 class FrameSequencer final : public Unit {
  public:
-  // START; the registers become the rules; whether they did, in the same clock.
+  // START; latch of the registers into the configuration; rejection, in the same cycle.
   PulseIn start_in{"start_in"};
   PulseOut latch_out{"latch_out"};
   WireIn<spec::geometric::Rejection, WireKind::kCombinational> rejection_in{"rejection_in"};
   WireOut<Phase> phase_out{"phase_out"};
-  // What ends the begin, the edges and the resolve.
+  // These end the begin, edge and resolve phases.
   WireIn<bool> facing_loaded_in{"facing_loaded_in"}, vertices_cleared_in{"vertices_cleared_in"},
       depth_cleared_in{"depth_cleared_in"}, weights_cleared_in{"weights_cleared_in"};
   WireIn<bool> drawn_in{"drawn_in"}, copied_in{"copied_in"};
@@ -36,11 +37,11 @@ class FrameSequencer final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  // Between edges.
+  // Call between edges.
   bool idle() const { return state_ == Phase::kIdle; }
 
   Counter frame_cycles{"frame_cycles", "clk", "cycles of the last frame"};
-  Counter edge_cycles{"edge_cycles", "clk", "of these, cycles until all edges are drawn"};
+  Counter edge_cycles{"edge_cycles", "clk", "of these, cycles until every edge was drawn"};
   Counter resolve_cycles{"resolve_cycles", "clk", "of these, the remaining cycles"};
 
   static Datasheet datasheet();
@@ -49,7 +50,7 @@ class FrameSequencer final : public Unit {
   bool begun(Cycle cycle) const;
   void enter(Cycle cycle, Phase next);
 
-  Phase state_ = Phase::kIdle;   // on phase_out a clock later
+  Phase state_ = Phase::kIdle;   // on phase_out one cycle later
   Cycle begun_ = 0, drawn_ = 0;  // cycles
 };
 

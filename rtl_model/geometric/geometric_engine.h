@@ -7,7 +7,7 @@
 //       |                                                |
 //   ParameterStore                                   MemoryPort
 //       | ^                                              |
-//       v |                                          MemoryArbiter -- all that read or write memory
+//       v |                                          MemoryArbiter -- all units that access memory
 //   FrameSequencer
 //                   FacingStore
 //                       | facing bits
@@ -18,13 +18,13 @@
 //       v
 //   CoverageUnit -> DepthScreen -> DepthTest -> WeightCombiner       FrameCopier (with frame_copy)
 //                                      |
-//       +------------------------------+ when all is drawn
+//       +------------------------------+ when all edges are drawn
 //       v
 //   BlockScanner -> BlockFetch -> block FIFO -> Resolver
 //                       |                          ^
 //                       +- lines -> ColourStore ---+
 //
-//   wires: ParameterStore -- rules, FrameSequencer -- phase --> units of the pipe
+//   wires: ParameterStore -- configuration, FrameSequencer -- phase --> units of the pipe
 //          ParameterStore -- start, rejection --> FrameSequencer
 //          FrameSequencer -- latch, frame_done --> ParameterStore
 //          EdgeClassifier -- invalid_edge, PairFetch -- invalid_pair,
@@ -33,9 +33,9 @@
 //          DepthTest -- depth_cleared, WeightCombiner -- weights_cleared, drawn,
 //          FrameCopier -- copied, Resolver -- resolved --> FrameSequencer
 //
-// PairFetch is there with records = split alone, DepthScreen with coarse_lines.
+// PairFetch exists only with records = split, DepthScreen only with coarse_lines.
 //
-// Everything is in order; only memory answers in any. Source: Persson, GPAA; paper 002.
+// All tokens stay in order; only memory may respond out of order. Source: Persson, GPAA; paper 002.
 #pragma once
 
 #include <functional>
@@ -75,8 +75,8 @@ namespace deburr::rtl::geometric {
 
 class GeometricEngine final : public Engine {
  public:
-  // ConfigError for what cannot be built (spec/geometric/check_build.h). What the memory takes
-  // sizes places that are ordered as 0 (common/sizing.h).
+  // ConfigError for parameters that cannot be built (spec/geometric/check_build.h). `memory` sizes
+  // the entries that are set to 0 (common/sizing.h).
   GeometricEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                   const spec::geometric::Parameters& parameters, const MemoryCycles& memory = {});
   const char* kind() const override { return "deburr_geometric_engine"; }
@@ -88,7 +88,7 @@ class GeometricEngine final : public Engine {
   EdgeLatency latency_;
 
  public:
-  // --- The blocks, in the order of the figure ---
+  // --- Units, in the order of the figure ---
   ParameterStore parameter_store;
   FrameSequencer frame_sequencer;
   MemoryArbiter memory_arbiter;
@@ -110,23 +110,23 @@ class GeometricEngine final : public Engine {
   Resolver resolver;
   MemoryPort memory_port;
 
-  // Of edges that are lines with a pixel that passes.
+  // Of edges that are lines with at least one pixel that passes the depth test.
   const Histogram& edge_latency = weight_combiner.edge_latency;
 
-  // No frame is under way. Between edges.
+  // True if no frame is in progress. Call between edges.
   bool idle() const override { return !parameter_store.starting() && frame_sequencer.idle(); }
-  // Counts since they were cleared.
+  // Counts since the counters were cleared.
   spec::geometric::Work work() const;
 
  private:
-  // From the registers to the units, and what sets their sticky bits.
-  Wire<FrameConfiguration> configuration_{"configuration", FrameConfiguration{},
+  // From the registers to the units, and the pulses that set sticky bits.
+  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
                                           configuration_shape(parameters_)};
   Pulse start_{"start"}, latch_{"latch"};
   CombinationalWire<spec::geometric::Rejection> rejection_{"rejection", rejection_shape()};
   Pulse frame_done_{"frame_done"}, invalid_edge_{"invalid_edge"}, memory_error_{"memory_error"};
   std::unique_ptr<Pulse> invalid_pair_;
-  // From the FrameSequencer to the units, and back to it.
+  // From the FrameSequencer to the units, and their done wires.
   Wire<Phase> phase_{"phase", Phase::kIdle, phase_shape()};
   Wire<bool> facing_loaded_{"facing_loaded", false}, vertices_cleared_{"vertices_cleared", false},
       depth_cleared_{"depth_cleared", false}, weights_cleared_{"weights_cleared", false},

@@ -6,7 +6,7 @@
 
 namespace deburr::rtl::geometric {
 
-// With the reset values of a build.
+// The register description with the reset values of a build.
 RegisterSection register_section(const spec::geometric::Parameters& parameters = {});
 
 }  // namespace deburr::rtl::geometric

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the drivers of all engines have: ID, CONTROL, STATUS, and errors that say what is to be
-// done.
+// Common part of the drivers of all engines: ID, CONTROL, STATUS, and error messages with a remedy.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +13,10 @@
 
 namespace deburr::platform {
 
-// Offsets and bits that every engine has, at places of its own.
+// Offsets and bits of registers that every engine has.
 struct DriverLayout {
-  // As the rows of ID, CONTROL and STATUS have it, and MEMORY_ERRORS where there is one; `engine`:
-  // what errors call it. ConfigError for a table without one of these, or one of their fields.
+  // Taken from the rows of ID, CONTROL, STATUS and, if present, MEMORY_ERRORS; `engine` is the name
+  // in error messages. ConfigError if the table lacks a required register or field.
   DriverLayout(std::string_view engine, std::span<const spec::RegisterInfo> registers);
 
   std::string_view engine;
@@ -32,14 +31,14 @@ class EngineDriver {
   // SimulationError if another engine answers.
   void identify();
   bool idle() { return (status() & layout_.idle) != 0; }
-  // All bits of STATUS; a one in `bits` clears a sticky one.
+  // Returns all bits of STATUS. Ones in `bits` clear sticky bits.
   std::uint32_t status() { return registers_.read(layout_.status); }
   void clear_status(std::uint32_t bits = ~std::uint32_t{0}) {
     registers_.write(layout_.status, bits);
   }
   void clear_counters();
-  // Lines that memory answered with an error since the counters were cleared; 0 of an engine that
-  // has no memory.
+  // Lines that memory answered with an error since the counters were cleared; 0 for an engine
+  // without memory.
   std::uint32_t memory_errors() {
     return layout_.memory_errors ? registers_.read(*layout_.memory_errors) : 0;
   }
@@ -50,11 +49,11 @@ class EngineDriver {
       : registers_(registers), layout_(layout) {}
   ~EngineDriver() = default;
 
-  // SimulationError while the engine is busy, which would ignore what is written.
+  // SimulationError while the engine is busy and would ignore writes.
   void require_idle(std::string_view doing);
-  // ConfigError, with the engine's name in front.
+  // Throws ConfigError, prefixed with the engine's name.
   [[noreturn]] void reject(const std::string& text) const;
-  // Of a number of pixels, texels or records.
+  // Checks a number of pixels, texels or records.
   void require_range(std::string_view what, std::uint64_t value, std::uint64_t least,
                      std::uint64_t most) const;
 

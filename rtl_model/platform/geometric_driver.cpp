@@ -26,7 +26,7 @@ constexpr std::uint64_t rounded_up(std::uint64_t value, std::uint64_t to) {
 
 }  // namespace
 
-// ---- where things lie ---------------------------------------------------------------------------
+// ---- memory layout ------------------------------------------------------------------------------
 
 GeometricRegions::Bytes GeometricRegions::needed(const GeometricSizes& frame,
                                                  const spec::geometric::Parameters& p) {
@@ -67,7 +67,7 @@ GeometricRegions GeometricRegions::allocate(std::span<const GeometricSizes> fram
   }
   if (regions.end_ > kAddresses)
     throw spec::ConfigError(
-        fmt::format("frame and mesh need {} bytes of memory, addresses of 32 bits reach {}: use a "
+        fmt::format("frame and mesh need {} bytes of memory, but 32-bit addresses cover {}: use a "
                     "smaller frame or mesh",
                     regions.end_, kAddresses));
   return regions;
@@ -98,7 +98,7 @@ GeometricDriver::GeometricDriver(RegisterBus& registers, HostMemory& memory,
       configuration_(configuration) {}
 
 void GeometricDriver::set_configuration(const spec::geometric::Parameters& configuration) {
-  require_idle("new rules");
+  require_idle("a new configuration");
   registers_.write(spec::geometric::reg::kConfiguration,
                    spec::geometric::configuration_word(configuration));
   configuration_ = configuration;
@@ -107,8 +107,8 @@ void GeometricDriver::set_configuration(const spec::geometric::Parameters& confi
 void GeometricDriver::require_pixels(std::string_view what, std::size_t count,
                                      const GeometricSizes& frame) const {
   if (count != static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height))
-    reject(
-        fmt::format("{} {} for a frame of {} x {} pixels", count, what, frame.width, frame.height));
+    reject(fmt::format("{} {} for a frame of {} x {} pixels: expected one per pixel", count, what,
+                       frame.width, frame.height));
 }
 
 void GeometricDriver::check(const GeometricFrame& frame) const {
@@ -119,7 +119,7 @@ void GeometricDriver::check(const GeometricFrame& frame) const {
                 spec::geometric::kMaxFrameSize);
   require_range("edges", sizes.edges, 0, spec::geometric::kMaxEdges);
   require_range("vertices", sizes.vertices, 0, spec::geometric::kMaxVertices);
-  // Nobody reads facing bits where edges are not selected by them.
+  // Facing bits are read only if they select edges.
   const bool unread = configuration_.select != spec::geometric::Select::kEdges;
   require_range("faces", sizes.faces, 0,
                 unread ? spec::geometric::kIndexMask + 1 : spec::geometric::kMaxFaces);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine as software sees it: mesh and frame into memory, registers, START, results.
+// Software driver of the geometric engine: loads mesh and frame, programs registers, starts, reads
+// results.
 //
 //   GeometricDriver driver(registers, memory, parameters);      // as the engine was built
 //   driver.identify();
@@ -10,8 +11,8 @@
 //   driver.require_accepted();
 //   picture = driver.picture();
 //
-// A driver takes no simulated time but what its buses take. Regions that overlap, sizes out of
-// range and a start while the engine is busy are errors here; the engine checks none of the
+// A driver advances simulated time only through its buses. Overlapping regions, sizes out of
+// range and a start while the engine is busy are errors here; the engine itself does not check
 // regions.
 #pragma once
 
@@ -31,20 +32,21 @@
 
 namespace deburr::platform {
 
-// Pixels of the frame, records of its mesh; of its edges the boundaries (records = split).
+// Pixels of the frame and records of its mesh; `boundaries`: those among its edges (records =
+// split).
 struct GeometricSizes {
   int width = 0, height = 0;
   std::uint64_t edges = 0, vertices = 0, faces = 0, boundaries = 0;
 };
 
-// What lies in memory for a frame; spans are someone else's. Values of pixels row by row; empty:
-// what is there stays.
+// Memory contents for a frame. The spans are not owned. Pixel values row by row; an empty span
+// leaves the memory unchanged.
 struct GeometricFrame {
   int width = 0, height = 0;
   std::span<const spec::geometric::Edge> edges;
   std::span<const spec::geometric::Vertex> vertices;
   std::uint64_t faces = 0;
-  std::span<const std::uint8_t> facing;  // a bit a face
+  std::span<const std::uint8_t> facing;  // one bit per face
   std::span<const std::uint32_t> depths;
   std::span<const spec::geometric::Rgba8> colours;
   GeometricSizes sizes() const {
@@ -52,33 +54,33 @@ struct GeometricFrame {
   }
 };
 
-// Where the regions begin.
+// Base addresses of the memory regions.
 class GeometricRegions {
  public:
   static constexpr std::size_t kCount = spec::geometric::kRegionNames.size();
-  using Bytes = std::array<std::uint64_t, kCount>;  // by spec::geometric::Region
+  using Bytes = std::array<std::uint64_t, kCount>;  // indexed by spec::geometric::Region
 
-  // Everything at address 0.
+  // All regions at address 0.
   GeometricRegions() = default;
-  // At these addresses.
+  // Regions at given addresses.
   explicit GeometricRegions(const std::array<std::uint32_t, kCount>& bases) : base_(bases) {}
-  // Behind each other in the order of Region, at multiples of 4096 from 0 on, with room for each of
-  // the frames. ConfigError if addresses of 32 bits do not reach.
+  // Consecutive regions in the order of Region, at multiples of 4096 from 0 on, large enough for
+  // each of the frames. ConfigError if they exceed 32-bit addresses.
   static GeometricRegions allocate(std::span<const GeometricSizes> frames,
                                    const spec::geometric::Parameters& parameters);
-  // What a frame needs of each.
+  // Bytes that a frame needs in each region.
   static Bytes needed(const GeometricSizes& frame, const spec::geometric::Parameters& parameters);
 
-  // Where the pairs of edges that are no boundaries begin.
+  // Start of the pairs of edges that are not boundaries.
   std::uint32_t other_pairs(std::uint64_t boundaries) const;
   std::uint32_t base(spec::geometric::Region region) const {
     return base_[static_cast<std::size_t>(region)];
   }
-  // The end of what was allocated.
+  // End of the allocated regions.
   std::uint64_t bytes() const { return end_; }
-  // Of what was allocated, the region with this address; kCount: behind all of them.
+  // The allocated region that contains this address; kCount: after all regions.
   std::size_t region_of(std::uint64_t address) const;
-  // Of what was allocated, where the region with this address ends.
+  // The end of the allocated region that contains this address.
   std::uint64_t end_of(std::uint64_t address) const;
 
  private:
@@ -93,45 +95,45 @@ struct GeometricCycles {
 
 class GeometricDriver final : public EngineDriver {
  public:
-  // Both must outlive the driver. `rules`: those that the engine has from its reset on.
+  // Both must outlive the driver. `configuration`: the reset configuration of the engine.
   GeometricDriver(RegisterBus& registers, HostMemory& memory,
                   const spec::geometric::Parameters& configuration);
 
-  // The rules of the next frame, `layout` and `frame_copy` among them.
+  // Sets the configuration of the next frame, including `layout` and `frame_copy`.
   void set_configuration(const spec::geometric::Parameters& configuration);
   const spec::geometric::Parameters& configuration() const { return configuration_; }
   void place(const GeometricRegions& regions) { regions_ = regions; }
   const GeometricRegions& regions() const { return regions_; }
 
-  // Writes a frame and its mesh to memory. ConfigError for sizes that registers do not hold, spans
-  // of another length, regions that overlap or do not fit into memory.
+  // Writes a frame and its mesh to memory. ConfigError if a size exceeds its register, a span has
+  // the wrong length, or regions overlap or exceed the memory.
   void load(const GeometricFrame& frame);
-  // The buffers of pixels alone, of the frame that was loaded last.
+  // Writes only the pixel buffers of the frame loaded last.
   void load_depths(std::span<const std::uint32_t> depths);
   void load_colours(std::span<const spec::geometric::Rgba8> colours);
   void put(int x, int y, const spec::geometric::Rgba8& colour);
 
-  // Writes sizes and bases of the frame that was loaded last.
+  // Writes the sizes and bases of the frame loaded last.
   void program();
-  // START. SimulationError while a frame is under way.
+  // START. SimulationError while a frame is in progress.
   void start();
-  // Both.
+  // program() and start().
   void draw() {
     program();
     start();
   }
-  // Of the last start, from the clock after it on.
+  // Result of the last start, valid from the next cycle on.
   spec::geometric::Rejection rejection() {
     return static_cast<spec::geometric::Rejection>(
         registers_.read(spec::geometric::reg::kRejection));
   }
-  // SimulationError, with the reason, if it was rejected.
+  // SimulationError with the reason if the start was rejected.
   void require_accepted();
 
-  // Since the counters were cleared.
+  // Counts since the counters were cleared.
   spec::geometric::Work work();
   GeometricCycles cycles();
-  // The frame as it is in memory.
+  // Reads the frame from memory.
   std::vector<spec::geometric::Rgba8> picture() const;
   spec::geometric::Rgba8 pixel(int x, int y) const;
   std::uint32_t colour_address(int x, int y) const;
@@ -147,7 +149,7 @@ class GeometricDriver final : public EngineDriver {
   HostMemory& memory_;
   spec::geometric::Parameters configuration_;
   GeometricRegions regions_;
-  GeometricSizes sizes_;  // of the frame that was loaded last
+  GeometricSizes sizes_;  // of the frame loaded last
 };
 
 }  // namespace deburr::platform

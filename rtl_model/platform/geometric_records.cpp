@@ -12,7 +12,7 @@ void put_words(std::vector<std::uint8_t>& bytes, std::initializer_list<std::uint
     for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
 }
 
-// Record n of an array of six bytes each, ten a line, in its low 48 bits.
+// Stores record n of an array of six-byte records, ten per line, from the low 48 bits of `record`.
 void put_split(std::vector<std::uint8_t>& bytes, std::size_t n, std::uint64_t record) {
   bytes.resize(split_bytes(n + 1));
   const std::size_t first = n / spec::geometric::kSplitInLine * spec::geometric::kLineBytes +
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> face_records(std::span<const spec::geometric::Edge> ed
   std::vector<std::uint8_t> bytes;
   bytes.reserve(split_bytes(edges.size()));
   const auto face = [](std::uint32_t f) {
-    // Out of range as it is.
+    // An index out of range stays out of range.
     return std::uint64_t{std::min(f, spec::geometric::kSplitFaceMask)};
   };
   std::size_t n = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a driver stands on: how software reaches the registers of an engine, and memory.
-// RegisterHost and MemoryHost are both over TLM-2.0 sockets; a platform with a bus of its own gives
-// its own.
+// Interfaces that a driver uses: access to an engine's registers and to memory. RegisterHost and
+// MemoryHost implement them with TLM-2.0 sockets; a platform with another bus provides its own.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +13,12 @@ namespace deburr::platform {
 class RegisterBus {
  public:
   virtual ~RegisterBus() = default;
-  // SimulationError, with the offset and the response, where the access is rejected.
+  // SimulationError with the offset and the response if the access is rejected.
   virtual std::uint32_t read(std::uint32_t offset) = 0;
   virtual void write(std::uint32_t offset, std::uint32_t value) = 0;
 };
 
-// The memory that an engine's socket is bound to, by address, from 0 on.
+// The memory of an engine, by address from 0 on.
 class HostMemory {
  public:
   virtual ~HostMemory() = default;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t kBusLine = 64;
 
-// Calls access(offset, length) for each part of [address, address + bytes) that lies in one line.
+// Calls access(offset, length) for each part of [address, address + bytes) that is within one line.
 template <class Access>
 void by_line(std::uint64_t address, std::uint64_t bytes, Access&& access) {
   for (std::uint64_t done = 0; done < bytes;) {
@@ -42,7 +42,7 @@ void MemoryHost::transport(tlm::tlm_command command, std::uint64_t address, std:
 }
 
 void MemoryHost::write(std::uint64_t address, std::span<const std::uint8_t> data) {
-  std::vector<std::uint8_t> bytes(data.begin(), data.end());  // a payload's data are not const
+  std::vector<std::uint8_t> bytes(data.begin(), data.end());  // the data of a payload are not const
   by_line(address, bytes.size(), [&](std::uint64_t at, std::uint64_t length) {
     transport(tlm::TLM_WRITE_COMMAND, address + at, bytes.data() + at, length);
   });

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLine = 64;
 
-// splitmix64, so that a seed gives the same latencies everywhere: 0..bound-1.
+// splitmix64, so that a seed gives the same latencies on every host: 0..bound-1.
 std::uint32_t next_below(std::uint64_t& state, std::uint32_t bound) {
   std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
@@ -23,7 +23,7 @@ std::uint32_t next_below(std::uint64_t& state, std::uint32_t bound) {
   return static_cast<std::uint32_t>(((z >> 32) * bound) >> 32);
 }
 
-// Calls visit(first, count) for the bytes that each round of the byte enables is for.
+// Calls visit(first, count) for each repetition of the byte enables over the data.
 template <class Visit>
 void for_each_round(const tlm::tlm_generic_payload& payload, Visit&& visit) {
   const std::uint64_t length = payload.get_data_length(), round = payload.get_byte_enable_length();
@@ -55,7 +55,7 @@ MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_
   if (parameters.latency_max < parameters.latency_min || parameters.banks == 0 ||
       parameters.interleave_bytes == 0 || parameters.outstanding == 0)
     throw spec::ConfigError(fmt::format(
-        "{}: latency {}..{}, {} banks of {} bytes, {} outstanding: no memory is like that",
+        "{}: latency {}..{}, {} banks of {} bytes, {} outstanding transactions: not a valid memory",
         this->name(), parameters.latency_min, parameters.latency_max, parameters.banks,
         parameters.interleave_bytes, parameters.outstanding));
   bank_free_.resize(parameters.banks);
@@ -77,8 +77,8 @@ void MemoryModel::preload(std::uint64_t address, std::span<const std::uint8_t> d
 
 std::vector<std::uint8_t> MemoryModel::dump(std::uint64_t address, std::uint64_t bytes) {
   if (address > contents_.size() || bytes > contents_.size() - address)
-    throw spec::ConfigError(fmt::format("{}: no {} bytes at {:#x} in {} bytes", name(), bytes,
-                                        address, contents_.size()));
+    throw spec::ConfigError(fmt::format("{}: {} bytes at {:#x} exceed the memory of {} bytes",
+                                        name(), bytes, address, contents_.size()));
   land_answered();
   const auto begin = contents_.begin() + static_cast<std::ptrdiff_t>(address);
   return {begin, begin + static_cast<std::ptrdiff_t>(bytes)};
@@ -108,7 +108,7 @@ bool MemoryModel::at_rest() const {
 }
 
 void MemoryModel::clear_statistics() {
-  settle(sc_core::sc_time_stamp().value());  // what comes in by it has come in before
+  settle(sc_core::sc_time_stamp().value());  // first applies the writes that arrived by now
   reads_ = writes_ = bytes_read_ = bytes_written_ = errors_ = 0;
   most_outstanding_ = outstanding_;
   uncounted_ = held_.size();
@@ -201,10 +201,10 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
   }
   if (phase != tlm::BEGIN_REQ)
     throw spec::SimulationError(
-        fmt::format("{}: phase {} from an initiator", name(), phase.get_name()));
+        fmt::format("{}: unexpected phase {} from an initiator", name(), phase.get_name()));
   if (here.held)
     throw spec::SimulationError(
-        fmt::format("{}: a request before the last one was ended (address {:#x})", name(),
+        fmt::format("{}: a request began before the previous one was ended (address {:#x})", name(),
                     payload.get_address()));
   payload.acquire();
   settle(time);
@@ -218,7 +218,7 @@ tlm::tlm_sync_enum MemoryModel::nb_transport_fw(int port, tlm::tlm_generic_paylo
   return tlm::TLM_ACCEPTED;
 }
 
-// A request enters at `time`, which is `delay` from now, and is ended.
+// Accepts a request at `time`, which is `delay` from now, and ends it.
 void MemoryModel::begin(int port, tlm::tlm_generic_payload& payload, bool counted,
                         std::uint64_t time, const sc_core::sc_time& delay) {
   const std::optional<std::uint64_t> response =
@@ -273,16 +273,16 @@ void MemoryModel::land(std::uint64_t end) {
   }
 }
 
-// SystemC's time stands still while a clock domain runs on. A write that its initiator holds no
-// more has been answered, whatever the time.
+// SystemC's time does not advance while a clock domain runs on. A write whose payload its initiator
+// has released was answered, whatever the time.
 void MemoryModel::land_answered() {
   while (!landing_.empty() && landing_.front().payload->get_ref_count() == 1)
     land(landing_.front().time + 1);
   land(sc_core::sc_time_stamp().value());
 }
 
-// When the last byte of a transaction is there whose first one may come at `ready`. The bus goes to
-// whoever is ready first.
+// Time of the last byte of a transaction whose first byte may be transferred at `ready`. The first
+// transaction that is ready gets the bus.
 std::uint64_t MemoryModel::take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload) {
   const std::uint64_t cycles = transfer_cycles(payload.get_data_length());
   std::uint64_t start = ready;
@@ -341,7 +341,7 @@ void MemoryModel::send_response(int port, tlm::tlm_generic_payload& payload,
   payload.release();
 }
 
-// Transactions whose response was sent ahead are gone when its time has come.
+// Removes transactions whose early response has reached its time.
 void MemoryModel::settle(std::uint64_t time) {
   land(time + 1);
   while (!ahead_.empty() && ahead_.front() <= time) {
@@ -350,7 +350,7 @@ void MemoryModel::settle(std::uint64_t time) {
   }
 }
 
-// A transaction is gone: one that was withheld may come in.
+// A transaction is finished: admits a waiting request.
 void MemoryModel::finished() {
   --outstanding_;
   if (held_.empty()) return;
@@ -362,7 +362,7 @@ void MemoryModel::finished() {
   begin(port, *payload, counted, sc_core::sc_time_stamp().value(), sc_core::SC_ZERO_TIME);
 }
 
-// No event tells when a response that was sent ahead makes room.
+// No event marks the time at which an early response makes room.
 void MemoryModel::wake_for_held() {
   if (held_.empty() || ahead_.empty()) return;
   wake_.notify(sc_core::sc_time::from_value(ahead_.front()) - sc_core::sc_time_stamp());

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A memory: a TLM-2.0 target (base protocol) with latency, bandwidth, banks and a limit of
-// outstanding transactions, all parameters; any number of initiators. It counts bytes and keeps the
-// order of the lines that were read and written, which is compared with what the golden model
-// predicts.
+// Memory model: a TLM-2.0 target (base protocol) with configurable latency, bandwidth, banks and
+// number of outstanding transactions, for any number of initiators. It counts bytes and records the
+// order of line reads and writes, which is compared with the prediction of the golden model.
 //
-// A transaction that begins at time t and finds its bank free has its last byte at
+// A transaction that begins at time t in a free bank transfers its last byte at
 //   t + latency + (bytes / bytes_per_cycle, rounded up, - 1) cycles,
-// later if its bank or the data bus is busy. With a random latency responses overtake each other.
-// A read takes its data when it begins, a write gives them up when its last byte is there: who
-// reads a line before its write was answered gets the old one. b_transport() does both at once.
+// later if its bank or the data bus is busy. With a random latency, responses can overtake each
+// other. A read samples its data when it begins; a write updates the memory when its last byte
+// arrives, so a read of a line before the response to its write returns the old data. b_transport()
+// does both at once.
 //
-// With a fixed latency transactions keep their order (banks that are busy change it), so the time
-// of a response is known when its request begins. It is then sent at once, with this time as its
-// delay, which spares SystemC an event a line: to an initiator that ended the response before it as
-// it began, and so holds back no other. The data of a write that was answered so come in before the
-// next look at the contents; the payload keeps them until then.
+// With a fixed latency, transactions stay in order (unless banks are busy), so the response time is
+// known when a request begins. The response is then sent immediately with that time as its delay,
+// which saves one SystemC event per line. This requires that the initiator ended its previous
+// response when it began, so it cannot hold back another. The data of such an early-answered write
+// are applied before the next access to the contents; the payload keeps them until then.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
@@ -42,12 +42,12 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_time& clock_period,
               const MemoryModelParameters& parameters = {});
 
-  // --- Contents, as they are at sc_time_stamp(), which stands still while a clock domain runs on:
-  // to be looked at between its runs ---
-  // ConfigError if outside.
+  // --- Contents at sc_time_stamp(), which does not advance while a clock domain runs on: access
+  // them between runs ---
+  // ConfigError if the range is outside the memory.
   void preload(std::uint64_t address, std::span<const std::uint8_t> data);
   std::vector<std::uint8_t> dump(std::uint64_t address, std::uint64_t bytes);
-  using sc_module::dump;  // SystemC's, into a stream
+  using sc_module::dump;  // SystemC's own dump, to a stream
   // The same for a driver.
   void write(std::uint64_t address, std::span<const std::uint8_t> data) override {
     preload(address, data);
@@ -57,29 +57,29 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   }
   std::uint64_t size() const override { return contents_.size(); }
 
-  // --- Errors on purpose; request numbers count from 0 in the order of arrival ---
+  // --- Injected errors; requests are numbered from 0 in the order of arrival ---
   void fail_range(std::uint64_t from, std::uint64_t to,
                   tlm::tlm_response_status status = tlm::TLM_ADDRESS_ERROR_RESPONSE);  // [from, to)
   void fail_request(std::uint64_t number,
                     tlm::tlm_response_status status = tlm::TLM_GENERIC_ERROR_RESPONSE);
   void lose_request(std::uint64_t number);  // never answered
 
-  // --- What went by ---
+  // --- Recorded traffic ---
   std::uint64_t reads() const { return reads_; }
   std::uint64_t writes() const { return writes_; }
   std::uint64_t bytes_read() const { return bytes_read_; }
   std::uint64_t bytes_written() const { return bytes_written_; }
   std::uint64_t errors() const { return errors_; }
   std::uint32_t max_outstanding() const { return most_outstanding_; }
-  // Addresses in the order of requests; of a burst, one for each 64 bytes.
+  // Addresses in the order of requests; one per 64 bytes of a burst.
   const std::vector<std::uint64_t>& lines_read() const { return lines_read_; }
   const std::vector<std::uint64_t>& lines_written() const { return lines_written_; }
-  // Addresses that have been checked.
+  // Discards the recorded addresses after a check.
   void forget_lines();
-  // Nothing that was asked is still to be answered or written; what is lost never is. Between runs,
-  // as the contents.
+  // True if every request was answered and every write applied, except lost requests. Call between
+  // runs, like the contents.
   bool at_rest() const;
-  // Everything from here on; what is still withheld was asked before, and is not counted.
+  // Restarts the statistics; requests that are still withheld count as earlier ones.
   void clear_statistics();
 
  private:
@@ -88,7 +88,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
     int port;
     std::uint64_t number;
     bool lost;
-    bool writes_late;  // the data go to the contents when its last byte is there
+    bool writes_late;  // the data are applied when its last byte arrives
     bool counted;
   };
   enum class Step { kReady, kRespond };
@@ -103,12 +103,12 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   };
   struct Port {
     bool responding = false;                   // BEGIN_RESP sent, END_RESP not yet seen
-    bool ends_at_once = false;                 // its initiator ended the last response at once
-    std::deque<Request> responses;             // whose time has come
+    bool ends_at_once = false;                 // its initiator ended the last response immediately
+    std::deque<Request> responses;             // responses whose time has come
     tlm::tlm_generic_payload* held = nullptr;  // BEGIN_REQ seen, END_REQ withheld
   };
-  // A write that was answered ahead. On the answer's way back an interconnect may have put its own
-  // address into the payload.
+  // A write that was answered early. An interconnect may have changed the payload's address on the
+  // way back.
   struct Landing {
     std::uint64_t time, address;
     tlm::tlm_generic_payload* payload;
@@ -124,11 +124,11 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   void serve();
   void begin(int port, tlm::tlm_generic_payload& payload, bool counted, std::uint64_t time,
              const sc_core::sc_time& delay);
-  // The time of its response, if that may be sent ahead.
+  // Returns the time of the response if it may be sent early.
   std::optional<std::uint64_t> accept(Request request, std::uint64_t time);
-  // Of the writes that were answered ahead, those that come in before `end`.
+  // Applies the early-answered writes that arrive before `end`.
   void land(std::uint64_t end);
-  // For a look without time: those that come in before now, and those whose answer has been taken.
+  // For untimed access: applies writes that arrive before now and those whose response was taken.
   void land_answered();
   std::uint64_t take_bus(std::uint64_t ready, const tlm::tlm_generic_payload& payload);
   void settle(std::uint64_t time);
@@ -138,7 +138,8 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   void send_response(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time delay);
   void finished();
   Port& port_at(int port) { return ports_[static_cast<std::size_t>(port)]; }
-  // Counts it and sets the response status; false if no data may go.
+  // Counts the request and sets the response status; admit() is false if no data may be
+  // transferred.
   void count(const tlm::tlm_generic_payload& payload);
   bool admit(tlm::tlm_generic_payload& payload, std::uint64_t number, bool counted);
   // Reads or writes the contents.
@@ -148,7 +149,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
 
   MemoryModelParameters parameters_;
   std::uint64_t period_;
-  std::uint64_t random_;  // state of the latencies
+  std::uint64_t random_;  // random state of the latencies
   std::vector<std::uint8_t> contents_;
   struct Range {
     std::uint64_t from, to;
@@ -162,12 +163,12 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   std::uint64_t order_ = 0, requests_ = 0;
   std::vector<std::uint64_t> bank_free_;
   std::uint64_t bus_free_ = 0;
-  const bool ordered_;               // transactions keep their order
-  std::deque<std::uint64_t> ahead_;  // times of responses that were sent ahead, while to come
+  const bool ordered_;               // transactions stay in order
+  std::deque<std::uint64_t> ahead_;  // times of pending early responses
   std::deque<Landing> landing_;      // the writes among them
-  std::vector<Port> ports_;          // as many as are bound
-  std::deque<int> held_;             // ports in the order in which their requests are withheld
-  std::size_t uncounted_ = 0;        // of these, the first ones
+  std::vector<Port> ports_;          // one per bound initiator
+  std::deque<int> held_;             // ports with withheld requests, in order of arrival
+  std::size_t uncounted_ = 0;        // number of the first of these that are not counted
   std::uint32_t outstanding_ = 0, most_outstanding_ = 0;
   sc_core::sc_event wake_;
 

@@ -17,7 +17,7 @@ DriverLayout MorphologicalDriver::layout() {
 }
 
 void MorphologicalDriver::set_configuration(const spec::morphological::Parameters& p) {
-  require_idle("new rules");
+  require_idle("a new configuration");
   const std::pair<std::uint32_t, std::int32_t> thresholds[] = {
       {spec::morphological::reg::kThreshold, p.threshold},
       {spec::morphological::reg::kThresholdOn, p.threshold_on_depth_edge},
@@ -34,7 +34,7 @@ void MorphologicalDriver::set_configuration(const spec::morphological::Parameter
 
 void MorphologicalDriver::place(std::uint32_t base) {
   if (base % spec::morphological::kFrameLineBytes != 0)
-    reject(fmt::format("a frame begins at {:#x}, which is no multiple of {}", base,
+    reject(fmt::format("frame base {:#x} is not a multiple of {}", base,
                        spec::morphological::kFrameLineBytes));
   require_idle("PIXEL_BASE");
   registers_.write(spec::morphological::reg::kPixelBase, base);
@@ -64,7 +64,7 @@ void MorphologicalDriver::set_size(int width, int height) {
 
 void MorphologicalDriver::load_weights(std::span<const std::int8_t> entries) {
   if (built_.area != spec::morphological::AreaSource::kLearned)
-    reject("it was built without learned weights: area = learned");
+    reject("it was built without learned weights: use area = learned");
   if (entries.size() != kWeightEntries)
     reject(fmt::format("{} learned weights, expected {}", entries.size(), kWeightEntries));
   require_idle("learned weights");
@@ -74,8 +74,9 @@ void MorphologicalDriver::load_weights(std::span<const std::int8_t> entries) {
   const std::uint32_t sum = registers_.read(spec::morphological::reg::kWeightsSum),
                       expected = weights_sum(entries);
   if (sum != expected)
-    throw spec::SimulationError(fmt::format(
-        "learned weights were loaded, and WEIGHTS_SUM reads {:#x}, expected {:#x}", sum, expected));
+    throw spec::SimulationError(
+        fmt::format("after loading the learned weights WEIGHTS_SUM reads {:#x}, expected {:#x}",
+                    sum, expected));
 }
 
 spec::morphological::Work MorphologicalDriver::work() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine as software sees it: rules, size and place of its frames, the learned
-// weights, counters. Pixels come and go over its links, a beat at a time (pixel_beat()).
+// Software driver of the morphological engine: configuration, frame size and position, learned
+// weights, counters. Pixels are transferred over its links, one beat at a time (pixel_beat()).
 //
 //   MorphologicalDriver driver(registers, parameters, &memory);   // as the engine was built
 //   driver.identify();
@@ -9,8 +9,8 @@
 //   // ... beats in, until driver.idle() and all beats are out
 //   work = driver.work();
 //
-// A driver takes no simulated time but what its bus takes. The engine takes a frame whatever lies
-// in memory, and ignores what is written while a frame is inside: both are errors here.
+// A driver advances simulated time only through its bus. The engine does not check the frame's
+// position in memory and ignores writes while a frame is inside: both are errors here.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,24 @@ namespace deburr::platform {
 
 class MorphologicalDriver final : public EngineDriver {
  public:
-  // Both must outlive the driver. Of `memory`, with storage = memory, the size alone counts: that a
-  // frame fits into it; nullptr: unknown.
+  // Both must outlive the driver. Of `memory` only the size is used (storage = memory), to check
+  // that a frame fits; nullptr: unknown size.
   MorphologicalDriver(RegisterBus& registers, const spec::morphological::Parameters& built,
                       const HostMemory* memory = nullptr)
       : EngineDriver(registers, layout()), built_(built), memory_(memory) {}
 
-  // The rules and thresholds of the frames to come; of blocks that are not built they stay off.
+  // Sets the configuration and thresholds of the next frames; units that are not built stay off.
   void set_configuration(const spec::morphological::Parameters& configuration);
-  // Where frames lie with storage = memory. ConfigError unless it is a multiple of 64.
+  // Sets the frame base for storage = memory. ConfigError unless it is a multiple of 64.
   void place(std::uint32_t base);
   // ConfigError for 0, over 8192, wider than line_pixels, or more than fits into memory from the
   // base on.
   void set_size(int width, int height);
-  // All of the learned weights, as they are from the next frame on; a reset leaves them.
-  // SimulationError if the engine's sum of them is another one.
+  // Loads all learned weights, effective from the next frame on; a reset keeps them.
+  // SimulationError if the engine's checksum differs.
   void load_weights(std::span<const std::int8_t> entries);
 
-  // Since the counters were cleared.
+  // Counts since the counters were cleared.
   spec::morphological::Work work();
   // Cycles of the last frame, from its first input beat to its last output beat.
   std::uint32_t frame_cycles();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What software gives to the morphological engine: beats of pixels, learned weights; and the room
-// that a frame takes in memory.
+// Data that software passes to the morphological engine: pixel beats, learned weights; and the
+// memory size of a frame.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace deburr::platform {
 
-// A frame row by row; the spans are someone else's. No depth: empty.
+// A frame row by row; the spans are not owned. `depth` is empty if there is none.
 struct PixelFrame {
   int width = 0, height = 0;
   std::span<const spec::morphological::Rgba8> pixels;
@@ -23,7 +23,7 @@ struct PixelFrame {
 };
 
 int lanes_of(const spec::morphological::Parameters& parameters);
-// A row begins a new beat.
+// Beats per row: every row begins a new beat.
 inline std::uint64_t beats_a_row(int width, int lanes) {
   return static_cast<std::uint64_t>((width + lanes - 1) / lanes);
 }
@@ -42,17 +42,17 @@ inline spec::morphological::PixelBeat pixel_beat(const PixelFrame& frame, int x,
   return beat;
 }
 
-// All of them, row by row.
+// All beats of a frame, row by row.
 std::vector<spec::morphological::PixelBeat> beats_of(const PixelFrame& frame, int lanes);
 
-// Of a frame with storage = memory: rows begin at multiples of 64 bytes.
+// Bytes of a frame with storage = memory: rows begin at multiples of 64 bytes.
 std::uint64_t frame_bytes(int width, int height);
 
-// All entries, in the order of WEIGHTS_ADDRESS: A, B, C.
+// Number of entries, in the order of WEIGHTS_ADDRESS: A, B, C.
 inline constexpr std::size_t kWeightEntries = spec::morphological::kWeightsOfCodes.size() +
                                               spec::morphological::kWeightsOfNear.size() +
                                               spec::morphological::kWeightsOfFar.size();
-// What WEIGHTS_SUM says of them.
+// The expected value of WEIGHTS_SUM.
 std::uint32_t weights_sum(std::span<const std::int8_t> entries);
 
 }  // namespace deburr::platform

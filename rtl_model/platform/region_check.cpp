@@ -20,7 +20,7 @@ std::string region_complaint(std::span<const NamedRegion> regions, std::uint64_t
   std::vector<NamedRegion> used;
   for (const NamedRegion& region : regions) {
     if (region.base % alignment != 0)
-      return fmt::format("region {} begins at {:#x}, which is no multiple of {}", region.name,
+      return fmt::format("region {} begins at {:#x}, which is not a multiple of {}", region.name,
                          region.base, alignment);
     if (region.bytes == 0) continue;
     if (region.base > memory_bytes || region.bytes > memory_bytes - region.base)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Regions of memory that a driver gives to an engine, which itself checks none of them.
+// Checks the memory regions that a driver gives to an engine, which does not check them itself.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace deburr::platform {
 
-// [base, base + bytes); of no bytes: not used, and nowhere.
+// [base, base + bytes); 0 bytes: unused.
 struct NamedRegion {
   std::string_view name;
   std::uint64_t base = 0, bytes = 0;
 };
 
-// What is wrong with them: one that begins between two multiples of `alignment`, ends behind the
-// memory or overlaps another one. Empty: nothing.
+// Describes the first error: a base that is not a multiple of `alignment`, a region that exceeds
+// the memory or overlaps another. Empty if there is none.
 std::string region_complaint(std::span<const NamedRegion> regions, std::uint64_t alignment,
                              std::uint64_t memory_bytes);
 

@@ -11,7 +11,7 @@
 namespace deburr::platform {
 namespace {
 
-// One access of 32 bits; payloads of TLM point to their data.
+// One 32-bit access; a TLM payload points to its data.
 struct Access {
   Access(tlm::tlm_command command, std::uint32_t offset, std::uint32_t value) {
     for (std::size_t i = 0; i < data.size(); ++i)
@@ -32,7 +32,7 @@ struct Access {
   tlm::tlm_generic_payload payload;
 };
 
-// The response of an access over `bus`.
+// Sends an access over `bus` and returns the response.
 tlm::tlm_response_status send(tlm_utils::simple_initiator_socket<RegisterHost>& bus,
                               Access& access) {
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
@@ -40,7 +40,7 @@ tlm::tlm_response_status send(tlm_utils::simple_initiator_socket<RegisterHost>& 
   return access.payload.get_response_status();
 }
 
-// The same, and SimulationError where it was rejected.
+// The same, with SimulationError if the access is rejected.
 void require(tlm_utils::simple_initiator_socket<RegisterHost>& bus, Access& access,
              const char* host) {
   send(bus, access);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The host of a unit: reads and writes its registers, 32 bits at a time, taking no simulated time.
+// Register access for software: 32 bits at a time, without simulated time.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -19,9 +19,9 @@ class RegisterHost final : public sc_core::sc_module, public RegisterBus {
 
   std::uint32_t read(std::uint32_t offset) override;
   void write(std::uint32_t offset, std::uint32_t value) override;
-  // The response, whatever it is.
+  // Returns the response, also an error.
   tlm::tlm_response_status try_write(std::uint32_t offset, std::uint32_t value);
-  // As a debugger writes: whether it was taken.
+  // Debug write; true if accepted.
   bool debug_write(std::uint32_t offset, std::uint32_t value);
 };
 

@@ -54,7 +54,7 @@ void TextureDriver::set_texture(int handle, const spec::texture::Descriptor& des
 }
 
 void TextureDriver::invalidate() {
-  require_idle("a command to invalidate the cache");
+  require_idle("an invalidate command");
   registers_.write(spec::texture::reg::kControl, registers_.read(spec::texture::reg::kControl) |
                                                      spec::texture::reg::kControlInvalidate);
 }

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The texture unit as software sees it: textures into memory, descriptors, the cache, counters.
-// Quads come and colours go over its links.
+// Software driver of the texture unit: loads textures, writes descriptors, invalidates the cache,
+// reads counters. Quads and colours are transferred over its links.
 //
 //   TextureMemory textures;
 //   const int handle = textures.add(levels, sampler);
 //   TextureDriver driver(registers, memory);
 //   driver.identify();
 //   driver.load(textures.bytes());
-//   driver.set_texture(handle, textures.descriptors()[handle]);      // a reset forgets it
+//   driver.set_texture(handle, textures.descriptors()[handle]);      // a reset clears it
 //   // ... quads in, until driver.idle() and all colours are out
 //
-// A driver takes no simulated time but what its buses take. The unit gives colours of zero for a
-// descriptor that is not valid, and takes one that is written while it is busy: both are errors
-// here.
+// A driver advances simulated time only through its buses. The unit returns zero for an invalid
+// descriptor and accepts one that is written while it is busy: both are errors here.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,7 @@
 
 namespace deburr::platform {
 
-// Since the counters were cleared.
+// Counts since the counters were cleared.
 struct TextureWork {
   std::uint32_t fragments = 0, bilinears = 0, line_fills = 0, clamped = 0, saturated = 0,
                 memory_errors = 0, invalid_fragments = 0;
@@ -37,12 +36,12 @@ class TextureDriver final : public EngineDriver {
   TextureDriver(RegisterBus& registers, HostMemory& memory)
       : EngineDriver(registers, layout()), memory_(memory) {}
 
-  // Bytes from address 0 on. ConfigError if memory is too small.
+  // Writes bytes from address 0 on. ConfigError if the memory is too small.
   void load(std::span<const std::uint8_t> bytes);
-  // ConfigError for a handle, size, number of levels or base out of range, levels that overlap or
-  // lie beyond the memory.
+  // ConfigError if handle, size, number of levels or a base is out of range, or levels overlap or
+  // exceed the memory.
   void set_texture(int handle, const spec::texture::Descriptor& descriptor);
-  // What is in the cache counts no more: after a change of memory.
+  // Invalidates the cache after a change of memory.
   void invalidate();
 
   TextureWork work();

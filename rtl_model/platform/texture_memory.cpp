@@ -12,7 +12,7 @@
 namespace deburr::platform {
 namespace {
 
-// A boundary that every cache line size divides.
+// A multiple of every cache line size.
 constexpr std::size_t kTextureAlignment = 128;
 constexpr std::uint32_t kRowAlignment = 64;  // bytes, of layout linear
 
@@ -41,12 +41,12 @@ void check_chain(std::span<const TextureLevel> levels) {
                       height, levels[k].width, levels[k].height, w, h));
     }
     if (levels[k].texels.size() != static_cast<std::size_t>(w) * static_cast<std::size_t>(h))
-      throw spec::ConfigError(
-          fmt::format("mip level {} of {} x {} texels has {}", k, w, h, levels[k].texels.size()));
+      throw spec::ConfigError(fmt::format("mip level {} of {} x {} texels has {} texels", k, w, h,
+                                          levels[k].texels.size()));
   }
 }
 
-// The low `mixed` bits go to every other place, from place `first` on; the others stand above.
+// Places the low `mixed` bits at every second bit position from `first` on, the others above them.
 std::uint32_t spread(std::uint32_t value, int mixed, int first) {
   std::uint32_t places = value >> mixed << (2 * mixed);
   for (int bit = 0; bit < mixed; ++bit) places |= (value >> bit & 1) << (2 * bit + first);
@@ -69,7 +69,7 @@ inline std::uint32_t code_of(spec::texture::Format format, const Texel& texel) {
   throw spec::ConfigError("unknown texture format");
 }
 
-// A function for each format: all texels of a level have the same one.
+// One function per format: all texels of a level have the same format.
 template <spec::texture::Format kFormat>
 void put_texels(const TextureLevel& level, const TexelLayout& layout, std::uint8_t* memory) {
   constexpr std::size_t kBytes = spec::texture::kFormatBytes[static_cast<std::size_t>(kFormat)];
@@ -103,7 +103,7 @@ TexelLayout::TexelLayout(spec::texture::Layout layout, spec::texture::Format for
   }
   const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
                       tile_height = spec::texture::kTileHeight[bytes];
-  // Tiles each way, rounded up to a power of two.
+  // Tiles per axis, rounded up to a power of two.
   const std::uint32_t columns = std::bit_ceil((across + tile_width - 1) / tile_width),
                       rows = std::bit_ceil((down + tile_height - 1) / tile_height);
   const int mixed = std::bit_width(std::min(columns, rows)) - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What software writes for the texture unit: mip chains in any format and layout, as bytes of
-// memory (docs/reference/texture/formats.md, "Addresses"), and descriptors, as values of registers.
+// Software side of texture storage: mip chains in any format and layout as memory bytes
+// (docs/reference/texture/formats.md, "Addresses"), and descriptors as register values.
 #pragma once
 
 #include <array>
@@ -15,43 +15,42 @@ namespace deburr::platform {
 
 using Texel = std::array<std::uint8_t, 4>;  // R, G, B, A
 
-// A level of a mip chain, row by row; the texels are someone else's.
+// A level of a mip chain, row by row; the texels are not owned.
 struct TextureLevel {
   int width = 0, height = 0;
   std::span<const Texel> texels;
 };
 
-// Where the texels of a level lie from its base on.
+// Texel offsets of a level from its base.
 class TexelLayout {
  public:
   TexelLayout(spec::texture::Layout layout, spec::texture::Format format, int width, int height);
   std::uint32_t offset_of(int x, int y) const {
     return column_[static_cast<std::size_t>(x)] + row_[static_cast<std::size_t>(y)];
   }
-  // To the end of the level, padding of rows and of tiles included.
+  // Size of the level, including padding of rows and tiles.
   std::uint64_t bytes() const { return bytes_; }
 
  private:
-  std::vector<std::uint32_t> column_, row_;  // what either coordinate adds
+  std::vector<std::uint32_t> column_, row_;  // address part of each coordinate
   std::uint64_t bytes_;
 };
-// Of level `level` of a descriptor.
+// The layout of one level of a descriptor.
 TexelLayout texel_layout(const spec::texture::Descriptor& descriptor, int level);
 
-// A growing memory image that starts at address 0, and the descriptors of what was put into it.
+// A growing memory image from address 0 on, and the descriptors of its textures.
 class TextureMemory {
  public:
-  // Adds one texture. `sampler` gives format, layout, wraps, filters and LOD state; width, height,
-  // levels and bases are filled in. `levels` must be a mip chain: each level half as large as the
-  // one before, rounded down, but no side below 1; 1..13 levels (fewer than the size has are
-  // allowed: the chain is then cut short). Returns the descriptor handle. Throws ConfigError for
-  // more than 16 textures, a size over 4096, a chain that does not halve, or levels without all of
-  // their texels.
+  // Adds a texture and returns its handle. `sampler` gives format, layout, wraps, filters and LOD
+  // state; width, height, levels and bases are filled in. `levels` must be a mip chain of 1..13
+  // levels: each level half the size of the previous one, rounded down, at least 1; the chain may
+  // end early. ConfigError for more than 16 textures, a size over 4096, a chain that does not
+  // halve, or levels with missing texels.
   int add(std::span<const TextureLevel> levels, spec::texture::Descriptor sampler);
 
-  // Handle -> descriptor.
+  // Descriptors by handle.
   const std::vector<spec::texture::Descriptor>& descriptors() const { return descriptors_; }
-  // The bytes from address 0, a multiple of 128.
+  // The bytes from address 0 on; their number is a multiple of 128.
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
@@ -61,12 +60,12 @@ class TextureMemory {
   std::vector<spec::texture::Descriptor> descriptors_;
 };
 
-// A texel in a format, little-endian in the low bytes; channels are rounded to nearest. L8 takes
-// the mean of R, G and B weighted 77, 150, 29 of 256.
+// A texel in a format, little-endian in the low bytes; channels are rounded to nearest. L8 is the
+// mean of R, G and B, weighted 77, 150, 29 of 256.
 std::uint32_t encode_texel(spec::texture::Format format, const Texel& texel);
 
-// (register offset, value) pairs that write a descriptor over the register socket, in order of
-// offset. Of any values, valid or not.
+// (register offset, value) pairs that write a descriptor, in order of offset. The descriptor may be
+// invalid.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> descriptor_registers(
     int handle, const spec::texture::Descriptor& descriptor);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pixels of a block by their place in it, 4 y + x, and the pixel across a line: wires and a 2-bit
-// add.
+// Pixel position in a block, 4 y + x, and the neighbour across a line. Cost: wires and a 2-bit
+// adder.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 namespace deburr::rtl::geometric {
 
 struct Across {
-  std::uint8_t place;  // U4, in its block
-  bool beyond;         // which is the next one across the line
+  std::uint8_t place;  // U4, position in its block
+  bool beyond;         // in the next block across the line
 };
 
-// The neighbour of a pixel to the right or left (a vertical line), or down or up.
+// The neighbour to the right or left (vertical line), or below or above (horizontal line).
 constexpr Across across(std::uint8_t place, bool vertical, bool forward) {
   const unsigned along = vertical ? place & 12u : place & 3u,
                  at = vertical ? place & 3u : place >> 2, to = (forward ? at + 1 : at - 1) & 3u;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Measures how long an edge is under way: from its record's leaving the EdgeReader to its last
-// group's being written by the WeightCombiner. Of edges that are lines with a pixel that passes.
+// Measures the latency of an edge, from leaving the EdgeReader to the write of its last group by
+// the WeightCombiner. Only lines with a pixel that passes the depth test are recorded.
 //
-// Each unit says in its turn what became of the oldest token in front of it; everything is in
-// order, so nothing else is needed to know whose it is. A measuring instrument: no hardware. Tokens
-// that were never announced (injected faults) end it until the next frame.
+// A measuring instrument without hardware. Each unit reports in order what happened to its oldest
+// input token, so no identification is needed. Tokens that were never announced (injected faults)
+// stop the measurement until the next frame.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@ namespace deburr::rtl::geometric {
 class EdgeLatency {
  public:
   void leave(Cycle cycle, std::uint32_t edges) { edges_.insert(edges_.end(), edges, cycle); }
-  // Of an edge: whether it is kept, or is to be once its vertices are known.
+  // An edge is kept (or dropped), or will be kept if its vertices turn out valid (paired_later).
   void decided(bool kept, bool paired_later = false) {
     const auto edge = take(edges_);
     if (edge && kept) (paired_later ? chosen_ : kept_).push_back(*edge);
   }
-  // Of an edge that was to be: whether it is kept.
+  // An edge that waited for its vertices is kept or dropped.
   void paired(bool kept) {
     const auto edge = take(chosen_);
     if (edge && kept) kept_.push_back(*edge);
   }
-  // Of a kept edge: whether it is a line.
+  // A kept edge becomes a line or is dropped.
   void set_up(bool is_line) {
     const auto edge = take(kept_);
     if (edge && is_line) lines_.push_back(*edge);
@@ -41,10 +41,10 @@ class EdgeLatency {
     lines_.pop_front();
     ++number_;
   }
-  // Of a group: whether a candidate is in it, and whether one of them passed.
+  // A group has a candidate (cover), or a candidate that passed (test).
   void cover(bool any) { hand_on(walked_, covered_, any); }
   void test(bool any) { hand_on(covered_, passed_, any); }
-  // The latency of the edge before, if this group is the first one of another.
+  // Returns the latency of the previous edge if this group is the first one of another edge.
   std::optional<Cycle> write(Cycle cycle) {
     const auto group = take(passed_);
     if (!group) return std::nullopt;
@@ -54,7 +54,7 @@ class EdgeLatency {
     written_ = cycle;
     return latency;
   }
-  // The frame's end: the latency of its last edge.
+  // End of frame: returns the latency of the last edge.
   std::optional<Cycle> end() {
     std::optional<Cycle> latency;
     if (newest_) latency = written_ - newest_->left;
@@ -89,8 +89,8 @@ class EdgeLatency {
 
   std::deque<Cycle> edges_, chosen_, kept_, lines_;
   std::deque<Group> walked_, covered_, passed_;
-  std::uint64_t number_ = 0;     // of the line that is walked
-  std::optional<Group> newest_;  // the last one that was written
+  std::uint64_t number_ = 0;     // of the line being walked
+  std::optional<Group> newest_;  // the last written group
   Cycle written_ = 0;
 };
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Lines on their way from memory: places are reserved and released in one order, and filled in any.
+// Function  Buffer for lines in flight from memory: entries are reserved and released in order and
+//           filled in any order.
+// Position  In each unit that reads memory. If the ends are in different units, each holds its
+//           side: a Filler or a Reader.
+// Latency   A line filled in cycle t is on the output register from t + 2 on. An entry released in
+//           t can be reserved from t + 1 on.
+// Interval  1: one reservation, one line in and one line out per cycle.
+// Cost      Entries x word bits as 1R1W memory, and an arrived bit per entry. Longest path:
+//           selection of one of 256 arrived bits, then the read enable.
 //
-// Where: in each unit that reads memory. 1R1W, read a clock before the word is there; the oldest
-// line is read ahead as soon as it has come, so that it waits on the output register: what is
-// filled in clock t is there from t + 2 on, then a line a clock. A place that is released in t can
-// be reserved from t + 1 on. One reservation, one line in and one out a clock. Where the ends are
-// different units each holds its side: a Filler, a Reader. Made for 250 MHz; longest path: a choice
-// of 1 in 256 arrived bits, then the read enable. Cost: places x word bits, an arrived bit each.
+// The oldest line is prefetched into the output register as soon as it has arrived.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +25,7 @@ namespace deburr::rtl::geometric {
 template <class Word>
 class FillStore {
  public:
-  // Handles of a side, as of a memory's port. A copy is one more handle of the same side.
+  // Handles of a side, like a memory's port. A copy is another handle of the same side.
   class Filler {
    public:
     bool can_reserve(Cycle cycle) const { return lines_->can_reserve(cycle); }
@@ -63,7 +66,7 @@ class FillStore {
   Filler filler() { return Filler(*this); }
   Reader reader() { return Reader(*this); }
 
-  // --- Who asks ---
+  // --- Requesting side ---
   bool can_reserve(Cycle cycle) const {
     return reserved_ - (released_ - (released_at_ == cycle)) < places_;
   }
@@ -74,12 +77,12 @@ class FillStore {
   void fill(Cycle cycle, std::uint32_t place, const Word& word) {
     DEBURR_CHECK(
         place < places_ && arrived_[place] == kNever,
-        std::string(memory_.name()) + ": place " + std::to_string(place) + " is filled twice");
+        std::string(memory_.name()) + ": entry " + std::to_string(place) + " is filled twice");
     write_.write(cycle, place, word);
     arrived_[place] = cycle;
   }
 
-  // --- Who uses them: the oldest only ---
+  // --- Consuming side: the oldest line only ---
   bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
   const Word& line(Cycle cycle) const { return read_port_.at(cycle, oldest_, read_at_); }
   void release(Cycle cycle) {
@@ -88,7 +91,7 @@ class FillStore {
     ++released_;
     released_at_ = cycle;
   }
-  // In every clock, after anything else.
+  // Call in every cycle, after all other functions.
   void read_ahead(Cycle cycle) {
     if (read_ != released_ || arrived_[oldest_] >= cycle) return;
     read_port_.read(cycle, oldest_);
@@ -111,8 +114,8 @@ class FillStore {
   Memory<Word> memory_;
   ReadPort<Word> read_port_{memory_, "oldest"};
   WritePort<Word> write_{memory_, "responses"};
-  std::vector<Cycle> arrived_;           // since when the bit is set; kNever: it is not
-  std::uint32_t next_ = 0, oldest_ = 0;  // places: of the next reservation, of the oldest line
+  std::vector<Cycle> arrived_;           // cycle in which the bit was set; kNever: clear
+  std::uint32_t next_ = 0, oldest_ = 0;  // entries of the next reservation and of the oldest line
   std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
   Cycle released_at_ = kNever, read_at_ = kNever;
 };

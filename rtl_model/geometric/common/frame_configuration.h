@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rules of the frame under way, decoded from the registers, and where its pixels lie: the wire
-// that every unit reads. It is loaded as a frame begins and stands still until the next one.
+// The configuration of the current frame, decoded from the registers: a wire that every unit reads.
+// It is loaded when a frame begins and constant until the next one.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ struct FrameConfiguration {
   std::uint32_t edge_base = 0, vertex_base = 0, face_base = 0, depth_base = 0, colour_base = 0,
                 weight_base = 0, copy_base = 0, pair_base = 0, other_pair_base = 0, coarse_base = 0;
   std::uint32_t blocks_across = 0, blocks_down = 0;
-  std::uint32_t words_across = 0;  // words of the TouchedMap in a row
+  std::uint32_t words_across = 0;  // words of the TouchedMap per row
   std::uint32_t touched_words = 0;
-  std::uint32_t lines_across = 0;  // raster: lines of memory a row; tiled: tiles across
+  std::uint32_t lines_across = 0;  // raster: memory lines per row; tiled: tiles per row
 
   friend bool operator==(const FrameConfiguration&, const FrameConfiguration&) = default;
   template <class Self, class Visit>
@@ -48,7 +48,7 @@ struct FrameConfiguration {
     visit("frame_copy", self.frame_copy);
     visit("edge_count", self.edge_count, 25, "U25");
     visit("vertex_count", self.vertex_count, 25, "U25");
-    visit("face_count", self.face_count, 32, "U32");  // any where select reads none
+    visit("face_count", self.face_count, 32, "U32");  // any value if select needs no faces
     visit("boundary_count", self.boundary_count, 25, "U25");
     visit("edge_base", self.edge_base, 32, "U32");
     visit("vertex_base", self.vertex_base, 32, "U32");
@@ -67,18 +67,18 @@ struct FrameConfiguration {
     visit("lines_across", self.lines_across, 11, "U11");
   }
 
-  // Lines of memory of the colours.
+  // Memory lines of the colour frame.
   std::uint32_t frame_lines() const {
     return tiled ? 4 * lines_across * ((height + 7) / 8) : lines_across * height;
   }
-  // Byte offset of the line of memory (u, v): a multiply 13 x 10.
+  // Byte offset of memory line (u, v): a 13 x 10 multiply.
   std::uint32_t line_offset(std::uint32_t u, std::uint32_t v) const {
     if (!tiled) return (v * lines_across + u) << 6;
     return ((v >> 1) * lines_across + (u >> 1)) << 8 | (v & 1) << 7 | (u & 1) << 6;
   }
 };
 
-// What of them is built.
+// The part of the configuration that is built.
 inline PayloadShape configuration_shape(const spec::geometric::Parameters& p) {
   PayloadShape shape;
   if (p.records != spec::geometric::RecordsLayout::kSplit)

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A direct-mapped cache of lines of memory that looks ahead.
+// A direct-mapped lookahead cache of memory lines.
 //
-// Function  The unit looks the lines of a token up, keeps the token in a FIFO, and uses the lines
-//           when the token leaves it. Tags change when a line is requested, data when it is used.
+// Function  The tag half looks up the lines of a token in advance and puts the token into a FIFO;
+//           the data half provides the lines when the token leaves the FIFO. Tags change when a
+//           line is requested, data when it is used.
 // Position  Inside VertexFetch, PairFetch, DepthTest, DepthScreen and WeightCombiner.
-// Latency   A tag or a word: 1 in SRAM, 0 in flip-flops. A line: that of memory and FillStore.
+// Latency   A tag or a word: 1 in SRAM, 0 in flip-flops. A missed line: memory plus FillStore.
 // Interval  1 for a token with one lookup per port; 2 if both miss: one line is requested, one
 //           arrives and one is used per cycle.
-// Stalls    `no_line` (the line has not come), `no_fill` (no entry for a line is free), downstream.
-// Cost      Tags, data, the FillStore; per port a tag of the token and its compare.
+// Stalls    `no_line` (the line has not arrived), `no_fill` (no fill entry is free), downstream.
+// Cost      Tags, data, the FillStore; per port a register and a comparator for the tag.
 // Source    docs/reference/geometric/hardware.md, "Caches with lookahead".
 #pragma once
 
@@ -44,7 +45,7 @@ class LineCache {
  public:
   explicit LineCache(const LineCacheShape& s)
       : shape_(s),
-        // A lookup sees the line that the one before it has requested.
+        // A lookup sees the line requested by the previous one.
         tags_(s.tags.name, shape_of(s.tags, ReadDuringWrite::kNewWord)),
         data_(s.data.name, shape_of(s.data, s.data.read_during_write)),
         fills_(s.fills.name, s.fills.entries, s.data.bits, s.fills.content) {}
@@ -54,7 +55,7 @@ class LineCache {
   const ReadPort<std::uint32_t>& tag_port() const { return tag_ports_[0]; }
   const ReadPort<Word>& data_port() const { return data_ports_[0]; }
 
-  // --- Begin of a frame: empties the tags, flip-flops at once, SRAM one per cycle ---
+  // --- Start of a frame: clears the tags, flip-flops at once, SRAM one per cycle ---
   Activity clear(Cycle cycle) {
     if (cleared_ == lines()) return kIdle;
     if (in_flops()) {
@@ -65,7 +66,7 @@ class LineCache {
     }
     return kBusy;
   }
-  // The same; says when they are empty.
+  // The same, and reports when they are empty.
   Activity clear(Cycle cycle, WireOut<bool>& cleared) {
     const Activity done = clear(cycle);
     if (done == kBusy && cleared_ == lines()) cleared.drive(cycle, true);
@@ -73,7 +74,7 @@ class LineCache {
   }
 
   // --- Tags ---
-  // Addresses the tag of a lookup; the one of port 0 begins a token.
+  // Reads the tag of a lookup; the lookup of port 0 begins a token.
   void find(Cycle cycle, std::size_t port, std::uint32_t index, std::uint32_t tag) {
     wanted_[port] = {index, tag};
     if (!in_flops()) tag_ports_[port].read(cycle, index);
@@ -82,7 +83,7 @@ class LineCache {
     found_ = cycle;
     decided_ = kNever;
   }
-  // The tag that is there; 0: no line.
+  // The stored tag; 0 if there is no line.
   std::uint32_t tag(Cycle cycle, std::size_t port) {
     const std::uint32_t index = wanted_[port].index;
     return in_flops() ? tag_ports_[port].now(cycle, index)
@@ -91,7 +92,7 @@ class LineCache {
   void set_tag(Cycle cycle, std::size_t port) {
     tag_write_.write(cycle, wanted_[port].index, wanted_[port].tag);
   }
-  // kIdle, or why not.
+  // Returns kIdle, or the stall cause.
   Activity can_request(Cycle cycle, const MemoryClient& memory) const {
     if (!fills_.can_reserve(cycle)) return shape_.no_fill;
     return memory.requests_out.can_push(cycle) ? kIdle : kStalledDownstream;
@@ -99,8 +100,8 @@ class LineCache {
   void request(Cycle cycle, MemoryClient& memory, std::uint32_t address) {
     memory.read(cycle, address, fills_.reserve());
   }
-  // Compares the lookups and requests the lines that miss, each of `address(port)`. kIdle: done;
-  // kBusy: one more is requested in the next cycle.
+  // Compares the tags and requests the missed lines, each from `address(port)`. kIdle: done; kBusy:
+  // another request follows in the next cycle.
   template <class Address>
   Activity look_up(Cycle cycle, MemoryClient& memory, const Address& address) {
     const auto fetch = [&](std::size_t port) {
@@ -113,7 +114,7 @@ class LineCache {
     };
     if (decided_ != kNever) return fetch(1);
     const bool first = misses(cycle, 0);
-    // The line of the first lookup may replace that of the second.
+    // The first lookup's line may replace that of the second.
     const bool second =
         two_ && (misses(cycle, 1) || (first && wanted_[0].index == wanted_[1].index));
     if (first)
@@ -121,21 +122,21 @@ class LineCache {
     decided_ = cycle;
     return !second ? kIdle : first ? kBusy : fetch(1);
   }
-  // Lookups that were decided in this cycle: for counters.
+  // Number of lookups decided in this cycle, for counters.
   std::uint32_t decided(Cycle cycle) const { return decided_ == cycle ? 1 + two_ : 0; }
-  // Bit k: the token's lookup of port k has missed.
+  // Bit k: the token's lookup through port k missed.
   std::uint8_t missed() const { return missed_; }
 
   // --- Data, in the order of requests ---
-  // kIdle, or why not.
+  // Returns kIdle, or the stall cause.
   Activity can_take(Cycle cycle) const { return fills_.ready(cycle) ? kIdle : shape_.no_line; }
   const Word& take(Cycle cycle) {
     const Word& line = fills_.line(cycle);
     fills_.release(cycle);
     return line;
   }
-  // Installs the lines that a token has missed, one per cycle, each of which `take_line(port,
-  // line)` uses; then addresses its other words. Both are bits by port. kIdle: done.
+  // Installs the lines that a token missed, one per cycle, each used by `take_line(port, line)`;
+  // then reads its other words. `missed` and `others` hold one bit per port. kIdle: done.
   template <class Index, class Take>
   Activity collect(Cycle cycle, const Index* index, std::uint32_t missed, std::uint32_t others,
                    const Take& take_line) {
@@ -163,8 +164,9 @@ class LineCache {
     return data_ports_[port].at(cycle, index);
   }
 
-  // --- Last in each cycle ---
-  // Takes what memory gives, by `decode(word, line)`; what the unit did, by its data and its tags.
+  // --- Call last in each cycle ---
+  // Stores the arriving lines, decoded by `decode(word, line)`, and returns the unit's activity
+  // from that of its data and tag halves.
   template <class Decode>
   Activity finish(Cycle cycle, MemoryClient& memory, Activity data, Activity tags,
                   const Decode& decode) {
@@ -218,14 +220,14 @@ class LineCache {
   ReadPorts<Word> data_ports_ = ports_of(data_);
   WritePort<Word> data_write_{data_, "install"};
   FillStore<Word> fills_;
-  std::uint32_t cleared_ = 0;  // U11, tags that are empty
+  std::uint32_t cleared_ = 0;  // U11, number of cleared tags
 
-  // Of the token that is looked up.
+  // Of the token being looked up.
   std::array<Wanted, 2> wanted_{};
   bool two_ = false;
   std::uint8_t missed_ = 0;
-  Cycle found_ = 0, decided_ = kNever;  // tags addressed, first lookup decided
-  // Of the token whose lines are collected, bit k: that of port k.
+  Cycle found_ = 0, decided_ = kNever;  // cycles: tags addressed, first lookup decided
+  // Of the token being collected, bit k: port k is installed.
   std::uint32_t installed_ = 0;
 };
 

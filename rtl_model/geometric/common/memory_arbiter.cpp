@@ -11,7 +11,7 @@ std::string named(Client which, const char* what) {
   return std::string(kClientNames[static_cast<std::size_t>(which)]) + "_" + what;
 }
 
-// What this client's links carry.
+// The port parameters as seen by this client's links.
 MemoryPortParameters of(Client which, MemoryPortParameters port) {
   port.read_only = which != Client::kWeights && which != Client::kResolve && which != Client::kCopy;
   return port;
@@ -38,7 +38,7 @@ MemoryArbiter::Side::Side(Client which, const MemoryPortParameters& port)
       requests_in(named(which, "requests_in").c_str()),
       responses_out(named(which, "responses_out").c_str()),
       read_latency(named(which, "read_latency").c_str(), "clk",
-                   "from the arbiter's taking a read to its answer's leaving it"),
+                   "from accepting a read request to returning its response"),
       granted(std::size_t{1} << kPlaceBits) {
   requests_in(requests);
   responses_out(responses);
@@ -55,7 +55,8 @@ MemoryArbiter::MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& c
 
 MemoryArbiter::Side& MemoryArbiter::side_of(Client which) const {
   const auto place = std::find(clients_.begin(), clients_.end(), which);
-  DEBURR_CHECK(place != clients_.end(), named(which, "requests") + " are not built");
+  DEBURR_CHECK(place != clients_.end(),
+               named(which, "requests") + " are not built with these parameters");
   return *sides_[static_cast<std::size_t>(place - clients_.begin())];
 }
 
@@ -102,15 +103,17 @@ Activity MemoryArbiter::tick(Cycle cycle) {
 }
 
 Datasheet MemoryArbiter::datasheet() {
-  return {.unit = "MemoryArbiter",
-          .does = "Brings the requests of all units to the memory port, and the answers back.",
-          .latency = {1, "1 each way"},
-          .interval = {1, "one request and one answer a clock"},
-          .stages = {{"1", "choice of eight to ten, round robin",
-                      "10 : 1 priority chain, 10 : 1 choice"}},
-          .cost =
-              "two registers of a beat a client, a choice of eight clients; one more each with "
-              "`records = split` and with `coarse_lines`."};
+  return {
+      .unit = "MemoryArbiter",
+      .does =
+          "Forwards the memory requests of all units to the memory port and returns the responses.",
+      .latency = {1, "1 each way"},
+      .interval = {1, "one request and one response per cycle"},
+      .stages = {{"1", "round-robin choice of 8 to 10 clients",
+                  "10 : 1 priority chain, 10 : 1 choice"}},
+      .cost =
+          "two beat registers per client, a choice of eight clients; one more client each with "
+          "`records = split` and with `coarse_lines`."};
 }
 
 }  // namespace deburr::rtl::geometric

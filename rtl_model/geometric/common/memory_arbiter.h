@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Brings the requests of all units to the one memory port, and each answer back to who asked.
+// Function  Forwards the memory requests of all units to the single memory port, round robin, and
+//           returns each response to its client.
+// Position  Between the units and the MemoryPort.
+// Stalls    `downstream` (the port does not accept the request). Responses never wait: units take
+//           them in the cycle of arrival.
 //
-// Where: between the units and the MemoryPort. Round robin. The tag is the client and the client's
-// own number. An answer with an error is counted, raises `memory_error` and reads as zeros. Stalls:
-// `downstream` (the port takes nothing). Units take answers in the clock in which they come, so
-// answers never wait.
+// The tag is the client index and the client's own number. A response with an error is counted,
+// raises `memory_error` and reads as zeros.
 #pragma once
 
 #include <array>
@@ -44,12 +46,12 @@ inline constexpr std::uint32_t kPlaceBits = 12;  // of a client's own number
 
 // In the order of Client.
 std::vector<Client> clients_of(const spec::geometric::Parameters& parameters);
-// In front of the port: a client's own number and the client's.
+// Tag bits towards the port: client index and the client's own number.
 inline std::uint32_t request_tag_bits(const spec::geometric::Parameters& parameters) {
   return kPlaceBits + static_cast<std::uint32_t>(std::bit_width(clients_of(parameters).size() - 1));
 }
 
-// A client's requests and answers.
+// Request and response ports of a client.
 struct MemoryClient {
   Out<MemoryRequest> requests_out{"requests_out"};
   In<MemoryResponse> responses_in{"responses_in"};
@@ -62,7 +64,7 @@ struct MemoryClient {
     request.write = false;
     request.byte_mask = 0;
   }
-  // The data are the caller's to fill in.
+  // Returns the data, which the caller fills in.
   Line& write(Cycle cycle, std::uint32_t address, std::uint32_t place, std::uint64_t mask) {
     MemoryRequest& request = requests_out.emplace(cycle);
     request.address = address;
@@ -78,12 +80,12 @@ class MemoryArbiter final : public Unit {
  public:
   Out<MemoryRequest> requests_out{"requests_out"};
   In<MemoryResponse> responses_in{"responses_in"};
-  // An answer has an error.
+  // Raised when a response has an error.
   PulseOut memory_error_out{"memory_error_out"};
 
   MemoryArbiter(const sc_core::sc_module_name& name, ClockDomain& clock,
                 const MemoryPortParameters& port, const spec::geometric::Parameters& parameters);
-  // Binds a unit to its place.
+  // Binds a unit to its client index.
   void connect(Client which, MemoryClient& client);
   Activity tick(Cycle cycle) override;
   void reset() override { round_robin_.reset(); }
@@ -100,12 +102,12 @@ class MemoryArbiter final : public Unit {
     Link<MemoryResponse> responses;
     In<MemoryRequest> requests_in;
     Out<MemoryResponse> responses_out;
-    Histogram read_latency;      // of its reads
-    std::vector<Cycle> granted;  // by its own number, which one read has at a time
+    Histogram read_latency;      // of the client's reads
+    std::vector<Cycle> granted;  // by the client's own number, used by one read at a time
   };
   Side& side_of(Client which) const;
 
-  std::vector<Client> clients_;  // that are built
+  std::vector<Client> clients_;  // clients of this build
   std::vector<std::unique_ptr<Side>> sides_;
   RoundRobin round_robin_;
 };

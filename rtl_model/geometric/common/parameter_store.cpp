@@ -105,7 +105,7 @@ ParameterStore::ParameterStore(const sc_core::sc_module_name& name, ClockDomain&
   });
 }
 
-// A bus write, between edges. Enable has its new value by now.
+// Called by a bus write, between edges. `enable` already has its new value.
 void ParameterStore::start() {
   starting_ = true;
   start_enabled_ = registers_.enabled();

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The registers' side of the engine: START, what stands against a frame, its rules, and the sticky
-// bits of STATUS.
+// Function  Register side of the engine: START, the check of a frame, its configuration, and the
+//           sticky bits of STATUS.
+// Position  Between the registers and the pipeline.
+// Latency   A write takes effect at the next clock edge: `start` is high in the cycle after the
+//           write of START. In that cycle the FrameSequencer drives `latch` and reads `rejection`.
+//           The current register values become the configuration, which units read from the next
+//           cycle on; or the frame is rejected, which only changes REJECTION and STATUS. A pulse of
+//           a sticky bit sets it in its cycle.
+// Cost      The registers, and 60 bits of sizes. Longest path: 11 x 11 multiply (words of the
+//           TouchedMap).
 //
-// Where: beside the pipe, in front of the registers. A write counts from the next clock edge on:
-// START is on `start` in the clock after its write. In that clock the FrameSequencer answers with
-// `latch`, and gets `rejection`: the registers as they are then become the rules, which units read
-// from the next clock on, or the frame is rejected, which has an effect on REJECTION and STATUS
-// alone. A write while a frame is under way is ignored (CONTROL and STATUS excepted) and sets a
-// sticky bit. Codes of CONFIG that no choice has count as code 0. A pulse of a sticky bit sets it
-// in its clock. Nothing in here is ticked. Cost: the registers, and 60 bits of sizes. Made for 250
-// MHz; longest path: 11 x 11 multiply (words of the TouchedMap).
+// A write during a frame is ignored (except to CONTROL and STATUS) and sets a sticky bit. Unknown
+// codes of CONFIG count as code 0. This module is not ticked.
 #pragma once
 
 #include <cstdint>
@@ -25,12 +27,12 @@
 
 namespace deburr::rtl::geometric {
 
-// CONTROL and STATUS, for the engine's ControlRegisters.
+// Layout of CONTROL and STATUS for the engine's ControlRegisters.
 ControlLayout control_layout();
 
-// What the registers say of a frame.
+// Decodes the frame configuration from the registers.
 FrameConfiguration decode(const ControlRegisters& registers);
-// Why it is not drawn.
+// The reason for rejecting the frame, if any.
 spec::geometric::Rejection rejection(const FrameConfiguration& configuration, bool enabled,
                                      const spec::geometric::Parameters& parameters);
 inline PayloadShape rejection_shape() { return {.widths = {{"value", 4}}}; }
@@ -45,11 +47,11 @@ class ParameterStore final : public sc_core::sc_module {
   OnPulse frame_done_in, invalid_edge_in, memory_error_in;
   std::optional<OnPulse> invalid_pair_in;  // with records = split
 
-  // Gives the registers the reset values that parameters set.
+  // Sets the reset values that parameters define.
   ParameterStore(const sc_core::sc_module_name& name, ClockDomain& clock,
                  ControlRegisters& registers, const spec::geometric::Parameters& parameters);
 
-  // START is written and not yet checked. Between edges.
+  // True if START was written and is not yet checked. Call between edges.
   bool starting() const { return starting_; }
 
  private:
@@ -59,7 +61,8 @@ class ParameterStore final : public sc_core::sc_module {
   ClockDomain& clock_;
   ControlRegisters& registers_;
   const spec::geometric::Parameters parameters_;
-  bool starting_ = false, start_enabled_ = false;  // the latter as START was written
+  bool starting_ = false,
+       start_enabled_ = false;  // start_enabled_: value of enable when START was written
   spec::geometric::Rejection rejection_{};
 };
 

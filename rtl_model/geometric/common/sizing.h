@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Places for lines on their way into the caches, to the resolve and through the copy, where they
-// are ordered as 0: as many as cover the latency of memory, so that lines come as fast as the port
-// asks for them.
+// Sizes of the fill stores of the caches, the resolve and the copy, where they are set to 0: enough
+// entries to cover the memory latency, so that lines arrive at the rate of the port.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +11,23 @@
 
 namespace deburr::rtl::geometric {
 
-// From the clock in which a line is asked for to that in which its place can be used again, without
-// the memory: arbiter, port, the memory's own clock, port, arbiter, place, register, release.
+// Cycles from a request to the reuse of its entry, without the latency of memory: arbiter, port,
+// the memory's own cycle, port, arbiter, fill entry, output register, release.
 inline constexpr std::int32_t kAroundMemory = 8;
 
-// The parameters with these sizes, as ordered or as this memory asks for.
+// Replaces sizes of 0 by those that this memory needs.
 constexpr spec::geometric::Parameters sized(spec::geometric::Parameters p,
                                             const MemoryCycles& memory) {
   const std::int32_t round_trip = memory.latency + memory.transfer - 1 + kAroundMemory;
-  // A line a clock, if the port has so many transactions.
+  // One line per cycle, if the port has enough outstanding transactions.
   if (p.fills == 0)
     p.fills = std::clamp(round_trip, std::int32_t{spec::geometric::kMinFills},
                          std::min(std::int32_t{spec::geometric::kMaxFills}, p.memory_outstanding));
-  // The same, in the half of the places that is for colours.
+  // The same, for the half of the entries that holds colours.
   if (p.resolve_lines == 0)
     p.resolve_lines = std::clamp(2 * round_trip, spec::geometric::kMinResolveLines,
                                  spec::geometric::kMaxResolveLines);
-  // A line in two cycles, since each is written, too.
+  // One line in two cycles, since each line is also written.
   if (p.copy_lines == 0)
     p.copy_lines = std::clamp((round_trip + 1) / 2, spec::geometric::kMinCopyLines,
                               spec::geometric::kMaxCopyLines);

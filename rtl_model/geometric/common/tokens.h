@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What goes between the blocks of the geometric engine: one struct a link, with its fields and
-// their widths, and the type of the wire that all of them read. Lanes that a token does not use
-// hold old bits. After the last token of a frame comes one with `end` and nothing else.
+// Tokens between the units of the geometric engine: one struct per link, with field widths, and the
+// type of the phase wire. Unused lanes of a token hold old data. The last token of a frame is
+// followed by one with only `end` set.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr std::size_t kLanes = spec::geometric::kMaxLanes;
 using Lanes8 = std::array<std::uint8_t, kLanes>;
 using Lanes32 = std::array<std::uint32_t, kLanes>;
 
-// FrameSequencer -> units: what the frame under way is doing.
+// FrameSequencer -> units: the phase of the current frame.
 enum class Phase : std::uint8_t { kIdle, kBegin, kEdges, kResolve };
 inline PayloadShape phase_shape() { return {.widths = {{"value", 2}}}; }
 
@@ -37,7 +37,7 @@ struct EdgeFields {
   }
 };
 
-// EdgeReader -> EdgeClassifier. Without vertices where these lie in an array of their own.
+// EdgeReader -> EdgeClassifier. Without vertices if these are in separate arrays.
 struct EdgeBeat {
   std::array<EdgeFields, kLanes> edge;
   std::uint8_t count;  // U3, 1..lanes
@@ -50,7 +50,7 @@ struct EdgeBeat {
   }
 };
 
-// What of a beat of edges is built.
+// The part of an edge beat that is built.
 inline PayloadShape edge_beat_shape(const spec::geometric::Parameters& p) {
   PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]};
   if (p.records != spec::geometric::RecordsLayout::kSplit) return shape;
@@ -63,13 +63,13 @@ inline PayloadShape edge_beat_shape(const spec::geometric::Parameters& p) {
   return shape;
 }
 
-// EdgeClassifier -> PairFetch, with records = split: where the vertices of an edge are.
+// EdgeClassifier -> PairFetch, with records = split: position of an edge's vertices.
 struct PairNumber {
-  std::uint32_t line;  // U21, of its array
-  std::uint8_t place;  // U4, 0..9
-  bool other;          // the array of edges that are no boundaries
-  bool crease;         // its class
-  bool invalid;        // it has no pair, and ends in the PairFetch
+  std::uint32_t line;  // U21, memory line in its array
+  std::uint8_t place;  // U4, 0..9, position in the line
+  bool other;          // array of edges that are not boundaries
+  bool crease;         // class of the edge
+  bool invalid;        // has no vertex pair; PairFetch drops it
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -82,10 +82,10 @@ struct PairNumber {
   }
 };
 
-// EdgeClassifier, or PairFetch -> VertexFetch.
+// EdgeClassifier or PairFetch -> VertexFetch.
 struct KeptEdge {
   std::uint32_t v0, v1;  // U24
-  bool crease;           // its class
+  bool crease;           // class of the edge
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -96,7 +96,7 @@ struct KeptEdge {
   }
 };
 
-// A vertex on the chip: out of the guard band is not usable.
+// A vertex in the engine. Unusable if outside the guard band.
 struct VertexFields {
   std::int32_t x = 0, y = 0;  // S14.8
   std::uint32_t depth = 0;    // U24
@@ -113,7 +113,7 @@ struct VertexFields {
 // VertexFetch -> LineSetup.
 struct EdgeEnds {
   std::array<VertexFields, 2> vertex;
-  bool crease;  // the class of its edge
+  bool crease;  // class of the edge
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -138,13 +138,13 @@ struct LineToken {
 struct GroupToken {
   bool vertical;
   bool tie_forward;
-  bool crease;                                // the class of its edge
+  bool crease;                                // class of the edge
   std::uint16_t column;                       // U13, of lane 0
   std::uint8_t count;                         // U3, 1..lanes
-  std::array<std::int32_t, kLanes> position;  // S15.16: row, and where in it
+  std::array<std::int32_t, kLanes> position;  // S15.16: row and fraction
   std::int32_t slope;                         // S1.24
   std::int64_t depth;                         // S25.12, of lane 0
-  std::int64_t step;                          // S25.12 a lane
+  std::int64_t step;                          // S25.12 per lane
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -161,20 +161,20 @@ struct GroupToken {
   }
 };
 
-// CoverageUnit -> DepthScreen, if it is built -> DepthTest: candidates in one block of 4 x 4
-// pixels, a column a lane. A column's second candidate is the neighbour of its first, which takes
-// from that; it may lie in the next block across the line.
+// CoverageUnit -> DepthScreen (if built) -> DepthTest: candidates in one block of 4 x 4 pixels, one
+// column per lane. The second candidate of a column is the neighbour of the first and blends from
+// it; it may be in the next block across the line.
 struct CandidateToken {
   std::uint16_t block_x, block_y;  // U11
-  bool vertical;                   // neighbours left or right, else up or down
-  bool crease;                     // the class of the line's edge
-  std::uint8_t candidates;         // bit k: lane k is one
-  std::uint8_t forward;            // bit k: its neighbour is down or right
-  std::uint8_t seconds;            // bit k: lane k has a second one
-  std::uint8_t dropped;            // bit k: the DepthScreen found lane k hidden
+  bool vertical;                   // neighbours are left or right, else above or below
+  bool crease;                     // class of the line's edge
+  std::uint8_t candidates;         // bit k: lane k has a candidate
+  std::uint8_t forward;            // bit k: its neighbour is below or right
+  std::uint8_t seconds;            // bit k: lane k has a second candidate
+  std::uint8_t dropped;            // bit k: DepthScreen found lane k hidden
   Lanes8 place;                    // U4, 4 y + x in the block
   Lanes8 coverage;                 // U0.8, 1..128
-  Lanes8 second;                   // U0.8, 1..128, coverage of the second one
+  Lanes8 second;                   // U0.8, 1..128, coverage of the second candidate
   Lanes32 depth;                   // U24, of the line
   bool end;
   template <class Self, class Visit>
@@ -195,8 +195,8 @@ struct CandidateToken {
   }
 };
 
-// What of candidates is built, also of a token that has them under this name: `dropped` after a
-// DepthScreen alone.
+// The part of a candidate token that is built, also for a token that contains candidates under the
+// name `within`: `dropped` exists only after a DepthScreen.
 inline PayloadShape candidates_shape(const spec::geometric::Parameters& p, bool screened,
                                      const std::string& within = "") {
   PayloadShape shape{.lanes = spec::geometric::kLaneCount[static_cast<std::size_t>(p.walkers)]};
@@ -204,7 +204,7 @@ inline PayloadShape candidates_shape(const spec::geometric::Parameters& p, bool 
   return shape;
 }
 
-// Those of a group, second ones too.
+// Number of candidates of a group, including second ones.
 inline std::uint64_t count_of(std::uint8_t candidates, std::uint8_t seconds) {
   return static_cast<std::uint64_t>(std::popcount(std::uint32_t{seconds} << 8 | candidates));
 }
@@ -216,7 +216,7 @@ struct WeightToken {
   std::uint8_t forward;
   std::uint8_t seconds;  // of these
   std::uint8_t nearer;   // bit k: the pixel is nearer than its neighbour
-  std::uint8_t farther;  // bit k: it is farther, so the pixel of the second one is nearer
+  std::uint8_t farther;  // bit k: it is farther, so the second candidate is nearer
   Lanes8 place;          // U4
   Lanes8 coverage;       // U0.8
   Lanes8 second;         // U0.8
@@ -241,7 +241,7 @@ struct WeightToken {
 // BlockScanner -> BlockFetch.
 struct TouchedBlock {
   std::uint16_t x, y;  // U11
-  bool above;          // the block above is touched, too
+  bool above;          // the block above is touched as well
   bool end;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -254,14 +254,14 @@ struct TouchedBlock {
 
 using BlockWeights = std::array<spec::geometric::Weights, spec::geometric::kBlockPixels>;
 
-// BlockFetch -> Resolver. `lines`: those of memory that are read for the block, bit 3 i + j. Tiled:
-// block (x - 1 + j, y - 1 + i); raster: row 4 y - 1 + i, sixteen pixels at x / 4 - 1 + j.
+// BlockFetch -> Resolver. `lines`: memory lines read for the block, bit 3 i + j. Tiled: block (x -
+// 1 + j, y - 1 + i); raster: row 4 y - 1 + i, sixteen pixels at x / 4 - 1 + j.
 struct BlockToken {
   std::uint16_t x, y;  // U11
   bool above;
   BlockWeights weights;
   std::uint16_t blended;     // bit i: pixel i
-  std::uint16_t horizontal;  // bit i: it takes from left and right
+  std::uint16_t horizontal;  // bit i: pixel i blends from left and right
   std::uint32_t lines;       // U18
   bool end;
   template <class Self, class Visit>
@@ -277,7 +277,7 @@ struct BlockToken {
   }
 };
 
-// A record of six bytes of a line with ten of them.
+// A six-byte record from a line that holds ten.
 template <class Line>
 std::uint64_t split_record_of(const Line& line, std::size_t place) {
   const std::size_t first = place * spec::geometric::kSplitBytes;
@@ -287,7 +287,7 @@ std::uint64_t split_record_of(const Line& line, std::size_t place) {
   return record;
 }
 
-// Little-endian words of a line of memory.
+// Little-endian word of a memory line.
 template <class Line>
 std::uint32_t word_of(const Line& line, std::size_t word) {
   return static_cast<std::uint32_t>(line[4 * word]) |

@@ -29,7 +29,7 @@ EdgeClassifier::EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain&
       ports_.emplace_back(facing, "lane " + std::to_string(lane) + face);
 }
 
-// The number of an edge in the array of its pair, of every edge that is read.
+// Numbers every edge that is read within the array that holds its vertex pair.
 void EdgeClassifier::give_number(const FrameConfiguration& configuration, Beat& beat,
                                  std::size_t lane) {
   const bool other = !(beat.edges.edge[lane].flags & flag::kBoundary);
@@ -99,7 +99,7 @@ EdgeClass EdgeClassifier::class_of(const FrameConfiguration& configuration, cons
   return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 
-// nullptr: it is counted among all edges alone.
+// nullptr: counted only in the total.
 Counter* EdgeClassifier::counter_of(EdgeClass c) {
   switch (c) {
     case EdgeClass::kInvalid:
@@ -201,17 +201,17 @@ void EdgeClassifier::reset() {
 Datasheet EdgeClassifier::datasheet() {
   return {
       .unit = "EdgeClassifier",
-      .does = "Decides of each edge whether it can be seen as one.",
-      .latency = {3, "3, and 1 for each kept edge that waits for another of its beat"},
-      .interval = {1, "the kept edges of a beat of edge_lanes edges, at least 1"},
-      .stages = {{"1", "ranges, addresses of the facing bits; `records = split`: numbers of pairs",
+      .does = "Decides for each edge whether it can be visible as an edge.",
+      .latency = {3, "3, plus 1 for each kept edge of the same beat that leaves first"},
+      .interval = {1, "kept edges of a beat of edge_lanes edges, at least 1"},
+      .stages = {{"1", "ranges, addresses of the facing bits; `records = split`: pair numbers",
                   "24-bit compare, `records = split` 24-bit add and compare"},
-                 {"2", "their words, bit of 32", "SRAM read, 32 : 1 choice"},
-                 {"3", "class, counts; kept edges leave one a clock"}},
+                 {"2", "words of facing bits, selection of one of 32", "SRAM read, 32 : 1 choice"},
+                 {"3", "class, counters; one kept edge leaves per cycle"}},
       .cost =
-          "a lane four 24-bit compares and two reads of FacingStore; registers of two beats. "
-          "`records = split`: a lane two 24-bit and one 25-bit compare; two numbers of 24 bits, "
-          "each also as line and place, and their adders."};
+          "per lane four 24-bit comparators and two reads of FacingStore; registers of two beats. "
+          "`records = split`: per lane two 24-bit and one 25-bit comparator; two 24-bit numbers, "
+          "each also as line and position, and their adders."};
 }
 
 }  // namespace deburr::rtl::geometric

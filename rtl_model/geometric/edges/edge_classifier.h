@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Decides of each edge whether it can be seen as one, and lets those through.
-//
-// Where: after the EdgeReader. With records = split it counts where the vertices of each edge are,
-// and the PairFetch looks at them; else it does so itself. Stalls: `downstream`. Source: paper 002,
-// eqs (1) to (4), as docs/reference/geometric/algorithm.md has them.
+// Function  Decides for each edge whether it can be visible as an edge, and forwards those edges.
+// Position  After the EdgeReader. With records = split it numbers the vertex pairs for the
+//           PairFetch; otherwise it checks the vertex indices itself.
+// Stalls    `downstream`.
+// Source    Paper 002, eqs (1) to (4); docs/reference/geometric/algorithm.md.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ class EdgeClassifier final : public Unit {
   In<EdgeBeat> edges_in{"edges_in"};
   std::optional<Out<KeptEdge>> edges_out;      // with records = joined
   std::optional<Out<PairNumber>> numbers_out;  // with records = split
-  // An index is out of range.
+  // Raised when an index is out of range.
   PulseOut invalid_edge_out{"invalid_edge_out"};
 
   EdgeClassifier(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -42,19 +42,17 @@ class EdgeClassifier final : public Unit {
   Counter edges{"edges", "edges", "edges read"};
   Counter boundary_edges{"boundary_edges", "edges", "boundary edges: edges of a single face"};
   Counter silhouette_edges{"silhouette_edges", "edges",
-                           "silhouette edges: between a front face and a back face"};
-  Counter back_edges{"back_edges", "edges", "edges of two back faces, dropped by cull"};
-  Counter crease_edges{"crease_edges", "edges",
-                       "creases between two front faces, or back faces that are not culled"};
-  Counter flat_edges{
-      "flat_edges", "edges",
-      "flat edges between two front faces, or back faces that are not culled: not creases"};
+                           "edges between a front face and a back face"};
+  Counter back_edges{"back_edges", "edges", "edges between two back faces, dropped by cull"};
+  Counter crease_edges{"crease_edges", "edges", "creases between two front faces, or not culled"};
+  Counter flat_edges{"flat_edges", "edges",
+                     "edges between two front faces, or not culled, that are not creases"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with an index out of range"};
   Counter kept_edges{
       "kept_edges", "edges",
-      "edges whose vertices are fetched; with records = split, edges selected for it"};
+      "edges whose vertices are fetched; with records = split, those passed to PairFetch"};
   Counter unpaired_edges{"unpaired_edges", "edges",
-                         "records = split: selected edges without an entry in their vertex array"};
+                         "records = split: edges to be kept without a vertex pair in the array"};
 
   static Datasheet datasheet();
 
@@ -62,13 +60,13 @@ class EdgeClassifier final : public Unit {
   struct Beat {
     EdgeBeat edges;
     std::uint8_t valid;   // bit k: the indices of lane k are in range
-    std::uint8_t looked;  // bit k: its facing bits are asked for
+    std::uint8_t looked;  // bit k: its facing bits are being read
     std::uint8_t facing0, facing1;
-    // With records = split.
+    // Only with records = split.
     std::array<PairNumber, kLanes> number;
     std::uint8_t unpaired;  // bit k: number k is beyond its array
   };
-  // Where the next edge of an array has its pair.
+  // Position of the next edge's vertex pair in an array.
   struct NextPair {
     std::uint32_t line = 0;   // U21
     std::uint8_t place = 0;   // U4, 0..9
@@ -87,14 +85,14 @@ class EdgeClassifier final : public Unit {
   Counter* counter_of(spec::geometric::EdgeClass c);
   void leave(Cycle cycle);
 
-  static constexpr std::uint8_t kEnd = 1u << kLanes;  // of pending_
-  EdgeLatency& latency_;                              // an instrument
+  static constexpr std::uint8_t kEnd = 1u << kLanes;  // bit of pending_
+  EdgeLatency& latency_;                              // measuring instrument
   const bool split_;
   std::vector<ReadPort<std::uint32_t>> ports_;  // lane, face
   Pipe<Beat, 3> pipe_;
-  std::uint8_t pending_ = 0;      // lanes of the beat in stage 3 that have not left
-  std::uint8_t creases_ = 0;      // of its lanes
-  std::array<NextPair, 2> next_;  // boundaries, other edges; of the beat after that in stage 1
+  std::uint8_t pending_ = 0;      // lanes of the beat in stage 3 that have not left yet
+  std::uint8_t creases_ = 0;      // lanes that are creases
+  std::array<NextPair, 2> next_;  // boundaries, other edges; of the beat that follows stage 1
 };
 
 }  // namespace deburr::rtl::geometric

@@ -18,7 +18,7 @@ EdgeReader::EdgeReader(const sc_core::sc_module_name& name, ClockDomain& clock,
       in_line_(split_ ? spec::geometric::kSplitInLine : spec::geometric::kEdgesInLine),
       lanes_(spec::geometric::kLaneCount[static_cast<std::size_t>(p.edge_lanes)]),
       buffer_("edge_buffer", p.edge_lines, kLineBytes * 8, "prefetched edges"),
-      stalled_facing_(declare_stall("facing", "the initial phase of the frame is not finished")),
+      stalled_facing_(declare_stall("facing", "the begin phase of the frame is not finished")),
       stalled_edges_(declare_stall("edges", "the next line of edges has not arrived")) {}
 
 bool EdgeReader::ask(Cycle cycle) {
@@ -105,11 +105,11 @@ void EdgeReader::reset() {
 
 Datasheet EdgeReader::datasheet() {
   return {.unit = "EdgeReader",
-          .does = "Reads the edge table ahead and hands its records on.",
-          .latency = {2, "2 from a line's answer"},
-          .interval = {1, "1, for edge_lanes edges of a line"},
+          .does = "Prefetches the edge table and forwards its records.",
+          .latency = {2, "2 from the response with a line"},
+          .interval = {1, "1 for edge_lanes edges of a line"},
           .stages = {{"1", "line", "SRAM read"},
-                     {"2", "choice of edges", "4 : 1 choice, `records = split` 10 : 1"}},
+                     {"2", "selection of edges", "4 : 1 choice, `records = split` 10 : 1"}},
           .cost = "edge_buffer, counters of 25 bits."};
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Reads the edge table ahead and hands its records on, edge_lanes a clock. With records = split
-// these are faces and flags, ten a line, and no beat goes beyond a line's end.
-//
-// Where: head of the pipe. Lines are asked for as soon as a frame begins, and each has its place in
-// edge_buffer before; edges go out once the begin is over. Stalls: `facing` (the begin is not
-// over), `edges` (the next line has not come), `downstream`. After the last record comes the
-// frame's end.
+// Function  Prefetches the edge table and forwards its records, edge_lanes per cycle. With records
+//           = split the records hold faces and flags, ten per line, and a beat does not cross the
+//           end of a line. The last record is followed by the end token.
+// Position  Start of the pipeline. Requests begin with the frame, each with a reserved entry of
+//           edge_buffer; edges leave after the begin phase.
+// Stalls    `facing` (begin phase not finished), `edges` (the next line has not arrived),
+//           `downstream`.
 #pragma once
 
 #include <cstdint>
@@ -43,15 +43,15 @@ class EdgeReader final : public Unit {
   void decode(const Line& line, std::size_t place, EdgeFields& edge) const;
   void begin();
 
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   const bool split_;
-  const std::uint32_t in_line_, lanes_;  // edges of a line and of a beat, at most
+  const std::uint32_t in_line_, lanes_;  // most edges per line and per beat
   FillStore<Line> buffer_;
   Activity stalled_facing_, stalled_edges_;
-  std::uint32_t asked_ = 0;        // U23, lines
-  std::uint32_t asked_edges_ = 0;  // U25, of these
-  std::uint32_t handed_ = 0;       // U25, edges
-  std::uint32_t place_ = 0;        // U4, of the next one in its line
+  std::uint32_t asked_ = 0;        // U23, requested lines
+  std::uint32_t asked_edges_ = 0;  // U25, edges in them
+  std::uint32_t handed_ = 0;       // U25, forwarded edges
+  std::uint32_t place_ = 0;        // U4, position of the next edge in its line
   bool ended_ = false;
 };
 

@@ -68,13 +68,13 @@ Activity FacingStore::work(Cycle cycle) {
 void FacingStore::reset() { asked_ = answered_ = 0; }
 
 Datasheet FacingStore::datasheet() {
-  return {
-      .unit = "FacingStore",
-      .does = "Holds the facing bits of a frame's faces.",
-      .latency = {2, "2 for a reader"},
-      .interval = {1, "a line of 512 bits a clock in, 2 x edge_lanes bits a clock out"},
-      .stages = {{"1", "word", "SRAM read"}, {"2", "bit of 32, in the reader", "32 : 1 choice"}},
-      .cost = "face_limit bits, a copy for each read."};
+  return {.unit = "FacingStore",
+          .does = "Stores the facing bits of a frame's faces.",
+          .latency = {2, "2 for a reader"},
+          .interval = {1, "one line of 512 bits in and 2 x edge_lanes bits out per cycle"},
+          .stages = {{"1", "word", "SRAM read"},
+                     {"2", "selection of one of 32 bits, in the reader", "32 : 1 choice"}},
+          .cost = "face_limit bits, one copy per read."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Holds the facing bits of a frame's faces, loaded while the frame begins.
-//
-// Where: beside the EdgeClassifier, which reads it. An answer is written at once, into 16 banks, so
-// nothing stalls the memory. With select = all nothing is loaded. Stalls: `downstream` (requests),
-// `memory` (answers are missing).
+// Function  Stores the facing bits of a frame's faces, loaded in the begin phase. With select = all
+//           nothing is loaded.
+// Position  Next to the EdgeClassifier, which reads it.
+// Stalls    `downstream` (requests), `memory` (responses are pending). A response is written in one
+//           cycle, into 16 banks, so it never stalls the memory.
 #pragma once
 
 #include <cstdint>
@@ -40,12 +40,12 @@ class FacingStore final : public Unit {
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;
 
-  // A clock in which there is something to do.
+  // A cycle with work to do.
   [[gnu::noinline]] Activity work(Cycle cycle);
 
   WritePort<std::uint32_t> write_{words, "responses"};
   Activity stalled_memory_;
-  std::uint32_t asked_ = 0, answered_ = 0;  // U12, lines
+  std::uint32_t asked_ = 0, answered_ = 0;  // U12, requested and received lines
 };
 
 }  // namespace deburr::rtl::geometric

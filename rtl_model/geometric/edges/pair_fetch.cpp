@@ -19,10 +19,11 @@ PairFetch::PairFetch(const sc_core::sc_module_name& name, ClockDomain& clock,
       cache_({.lines = 2,
               .ports = 1,
               .tags = {"pair_tags", "line, valid", kPairTagBits, MemoryKind::kFlops},
-              .data = {"pair_lines", "ten pairs of each array", kPairLineBits, MemoryKind::kFlops},
-              .fills = {"pair_fills", "pairs on their way", p.fills},
-              .no_line = declare_stall("pairs", "a line of pairs has not come"),
-              .no_fill = declare_stall("fills", "no place for a line of pairs is free")}),
+              .data = {"pair_lines", "one line of ten pairs per array", kPairLineBits,
+                       MemoryKind::kFlops},
+              .fills = {"pair_fills", "pairs in flight", p.fills},
+              .no_line = declare_stall("pairs", "a line of pairs has not arrived"),
+              .no_fill = declare_stall("fills", "no fill entry for a line of pairs is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
 
 // Stage 1.
@@ -110,18 +111,17 @@ void PairFetch::reset() {
 }
 
 Datasheet PairFetch::datasheet() {
-  return {
-      .unit = "PairFetch",
-      .does = "Fetches the vertices of each edge that is to be kept from their own arrays.",
-      .latency = {3, "3, and the wait for a line"},
-      .interval = {1},
-      .stages = {{"1", "line against the tag of its array, a read ordered; FIFO", "22-bit compare"},
-                 {"2", "a line that came into the register of its array; choice of a pair",
-                  "10 : 1 choice of 48 bits"},
-                 {"3", "vertices in range; leave", "25-bit compare"}},
-      .cost =
-          "two tags and two lines in registers, the lines on their way, the FIFO; a 22-bit and "
-          "two 25-bit compares, a 10 : 1 choice of 48 bits."};
+  return {.unit = "PairFetch",
+          .does = "Fetches the vertices of each edge to be kept from separate arrays.",
+          .latency = {3, "3, plus the wait for a line"},
+          .interval = {1},
+          .stages = {{"1", "tag compare per array, read request; FIFO", "22-bit compare"},
+                     {"2", "arrived line into the register of its array; selection of a pair",
+                      "10 : 1 choice of 48 bits"},
+                     {"3", "range check of the vertices; output", "25-bit compare"}},
+          .cost =
+              "two tags and two lines in registers, the lines in flight, the FIFO; a 22-bit and "
+              "two 25-bit comparators, a 10 : 1 choice of 48 bits."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Fetches the vertices of each edge that is to be kept, where the edge table has them in arrays of
-// their own (records = split), and drops an edge whose vertices are out of range.
+// Function  Fetches the vertex indices of each edge to be kept where they are in separate arrays
+//           (records = split), and drops edges whose vertices are out of range.
+// Position  Between EdgeClassifier and VertexFetch.
+// Stalls    `pairs` (the line has not arrived), `fills` (no fill entry is free), `downstream`. A
+//           dropped edge produces no output.
+// Source    docs/reference/geometric/memory.md.
 //
-// Where: between EdgeClassifier and VertexFetch. It looks ahead as a cache does, with a place for a
-// line of each array: boundaries, and other edges. Numbers of either only grow, so a line is read
-// once. Stalls: `pairs` (the line has not come), `fills` (no place for one), `downstream`. A
-// dropped edge leaves nothing. Source: docs/reference/geometric/memory.md.
+// A lookahead cache with one line per array: boundaries, and other edges. The numbers in each array
+// only increase, so a line is read once.
 #pragma once
 
 #include <array>
@@ -30,7 +32,7 @@ class PairFetch final : public Unit {
   WireIn<Phase> phase_in{"phase_in"};
   In<PairNumber> numbers_in{"numbers_in"};
   Out<KeptEdge> edges_out{"edges_out"};
-  // A vertex is out of range.
+  // Raised when a vertex is out of range.
   PulseOut invalid_pair_out{"invalid_pair_out"};
   MemoryClient memory;
 
@@ -40,9 +42,9 @@ class PairFetch final : public Unit {
   void reset() override;
 
   Counter lookups{"lookups", "edges", "edges whose pair was looked up"};
-  Counter boundary_lookups{"boundary_lookups", "edges", "of these boundaries"};
+  Counter boundary_lookups{"boundary_lookups", "edges", "of these, boundaries"};
   Counter lines_read{"lines_read", "lines", "lines of pairs read"};
-  Counter boundary_lines{"boundary_lines", "lines", "of these of boundaries"};
+  Counter boundary_lines{"boundary_lines", "lines", "of these, lines of boundaries"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with a vertex out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
 
@@ -71,14 +73,14 @@ class PairFetch final : public Unit {
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
 
-  EdgeLatency& latency_;       // an instrument
-  LineCache<PairLine> cache_;  // a line of each array, boundaries first
+  EdgeLatency& latency_;       // measuring instrument
+  LineCache<PairLine> cache_;  // one line per array, boundaries first
   Fifo<Lookup> fifo_;
 
   // Stages 2 and 3.
   struct Work {
     KeptEdge edge;
-    bool invalid;  // it has no pair
+    bool invalid;  // without a vertex pair
   };
   Pipe<Work, 2> pipe_;
 };

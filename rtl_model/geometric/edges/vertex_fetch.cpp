@@ -32,11 +32,11 @@ VertexFetch::VertexFetch(const sc_core::sc_module_name& name, ClockDomain& clock
               .tags = {"vertex_tags", "address of a vertex line, valid", kVertexTagBits},
               .data = {"vertex_data", "four vertices: x, y, depth, usable",
                        kVertexBits * kVerticesInLine, MemoryKind::kSram,
-                       // v1's line replaces the one of v0 in the clock that reads v0.
+                       // The line of v1 may replace that of v0 in the cycle that reads v0.
                        ReadDuringWrite::kOldWord},
               .fills = {"vertex_fills", "vertices in flight", p.fills},
               .no_line = declare_stall("vertices", "a line of vertices has not arrived"),
-              .no_fill = declare_stall("fills", "no entry for a line of vertices is free")}),
+              .no_fill = declare_stall("fills", "no fill entry for a line of vertices is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo)) {}
 
 // Stages 2 and 1.
@@ -75,7 +75,7 @@ Activity VertexFetch::look_up(Cycle cycle) {
   return kBusy;
 }
 
-// What look-up `which` wants of a line; of the same line both.
+// Takes the vertex of lookup `which` from a line; both vertices if they share the line.
 void VertexFetch::take(Work& work, std::size_t which, const VertexLine& line) {
   const Lookup& l = work.lookup;
   work.ends.vertex[which] = line[l.place[which]];
@@ -129,16 +129,17 @@ void VertexFetch::reset() {
 }
 
 Datasheet VertexFetch::datasheet() {
-  return {.unit = "VertexFetch",
-          .does = "Fetches both vertices of each kept edge through a cache that looks ahead.",
-          .latency = {5, "5, and the wait for a line"},
-          .interval = {1, "1; 2 if both look-ups miss"},
-          .stages = {{"1", "address of the tags"},
-                     {"2", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
-                     {"3", "a line installed, address of the words"},
-                     {"4", "words of the cache, choice of a vertex", "SRAM read, 4 : 1 choice"},
-                     {"5", "leave (usable is decided as a line comes)"}},
-          .cost = "tags and data 2R1W, the lines on their way, the FIFO; two 22-bit compares."};
+  return {
+      .unit = "VertexFetch",
+      .does = "Fetches both vertices of each kept edge through a lookahead cache.",
+      .latency = {5, "5, plus the wait for a line"},
+      .interval = {1, "1; 2 if both lookups miss"},
+      .stages = {{"1", "tag addresses"},
+                 {"2", "two tags, one fill request per cycle; FIFO", "SRAM read + 23-bit compare"},
+                 {"3", "line install, word addresses"},
+                 {"4", "cache words, selection of a vertex", "SRAM read, 4 : 1 choice"},
+                 {"5", "output (usable is computed when a line arrives)"}},
+      .cost = "tags and data 2R1W, the lines in flight, the FIFO; two 22-bit comparators."};
 }
 
 }  // namespace deburr::rtl::geometric

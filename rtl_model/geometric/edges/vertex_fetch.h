@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Fetches both vertices of each kept edge through a small cache that looks ahead.
-//
-// Where: after the EdgeClassifier. What a miss wants is taken from the line that came. Stalls:
-// `vertices` (the line has not come), `fills` (no place for one), `downstream`.
+// Function  Fetches both vertices of each kept edge through a small lookahead cache. A missed
+//           vertex is taken from the arriving line.
+// Position  After the EdgeClassifier.
+// Stalls    `vertices` (the line has not arrived), `fills` (no fill entry is free), `downstream`.
 #pragma once
 
 #include <array>
@@ -44,15 +44,15 @@ class VertexFetch final : public Unit {
   struct Lookup {
     std::array<std::uint16_t, 2> index;  // U10
     std::array<std::uint8_t, 2> place;   // U2, of the vertex in its line
-    std::uint8_t missed;                 // bit k: look-up k
-    bool one_line;                       // look-up 1 is look-up 0
-    bool crease;                         // the class of the edge
+    std::uint8_t missed;                 // bit k: lookup k
+    bool one_line;                       // both lookups use the same line
+    bool crease;                         // class of the edge
     bool end;
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
       visit("index", self.index, 10, "U10");
       visit("place", self.place, 2, "U2");
-      visit("missed", self.missed, 2, "bit k: look-up k");
+      visit("missed", self.missed, 2, "bit k: lookup k");
       visit("one_line", self.one_line);
       visit("crease", self.crease);
       visit("end", self.end);
@@ -61,14 +61,14 @@ class VertexFetch final : public Unit {
   struct Work {
     Lookup lookup;
     EdgeEnds ends;
-    std::uint8_t from_cache;  // bit k: the word of look-up k comes from the data
+    std::uint8_t from_cache;  // bit k: the word of lookup k comes from the cache data
   };
 
   Activity look_up(Cycle cycle);
   Activity deliver(Cycle cycle);
   static void take(Work& work, std::size_t which, const VertexLine& line);
 
-  LineCache<VertexLine> cache_;  // of v0, of v1
+  LineCache<VertexLine> cache_;  // lookups of v0 and of v1
   Fifo<Lookup> fifo_;
 
   // Stage 2.

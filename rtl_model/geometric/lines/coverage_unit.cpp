@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t kHalf = 1 << (spec::geometric::kDistanceBits - 1);
 constexpr std::int32_t kFractionMask = 2 * kHalf - 1;
-// Distances of a half of the table.
+// Distances in one half of the table.
 constexpr std::size_t kInHalf = spec::geometric::kAreaDistances / 2;
 constexpr int kAreaShift = spec::geometric::kDistanceBits - 6;
 
@@ -68,14 +68,14 @@ void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const 
   out.vertical = group.vertical;
   out.crease = group.crease;
   const auto major = static_cast<std::uint16_t>(group.column >> 2);
-  // A group with a candidate has its rows in the frame.
+  // The rows of a group with a candidate are inside the frame.
   const auto minor =
       static_cast<std::uint16_t>(group.position[0] >> (spec::geometric::kDistanceBits + 2) & 0x7FF);
   out.block_x = group.vertical ? minor : major;
   out.block_y = group.vertical ? major : minor;
   const auto slope = static_cast<std::uint32_t>(std::abs(group.slope)) >>
                      (spec::geometric::kSlopeBits - spec::geometric::kDistanceBits);  // U1.16
-  // In 1/32, halves up; one less, as the table begins with the first.
+  // In 1/32, ties up; minus one, since the table begins with the first.
   const std::uint32_t thirty_seconds = ((slope >> 10) + 1) >> 1,
                       row_of_table = thirty_seconds == 0 ? 0 : thirty_seconds - 1;
   std::int64_t depth = group.depth;
@@ -111,7 +111,7 @@ void CoverageUnit::find(Cycle cycle, const GroupToken& group, Beat& beat) const 
   }
 }
 
-// Stage 2, its end.
+// End of stage 2.
 void CoverageUnit::look_up(Cycle cycle, const Beat& beat) {
   for (std::uint32_t left = beat.leaves; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -120,7 +120,7 @@ void CoverageUnit::look_up(Cycle cycle, const Beat& beat) {
   }
 }
 
-// Stage 3; the same as often as it is asked.
+// Stage 3; idempotent.
 void CoverageUnit::finish(Cycle cycle, Beat& beat) const {
   CandidateToken& out = beat.out;
   for (std::uint32_t left = beat.leaves; left != 0; left &= left - 1) {
@@ -160,21 +160,24 @@ Activity CoverageUnit::tick(Cycle cycle) {
 }
 
 Datasheet CoverageUnit::datasheet() {
-  return {.unit = "CoverageUnit",
-          .does = "What a line cuts off each pixel of a group, and across which side.",
-          .latency = {3},
-          .interval = {1, "a group a clock; one without a candidate leaves nothing"},
-          .stages = {{"1", "distance, direction, depth, magnitude of the slope", "38-bit add"},
-                     {"2",
-                      "coverage by distance, borders; does the line leave the pixel, addresses of "
-                      "the areas",
-                      "17-bit add and compare"},
-                     {"3", "areas, candidates and second candidates", "ROM read + 2 : 1 choice"}},
-          .formats = "distance S0.16, slope U1.16 and in 1/32, coverage U0.8.",
-          .cost =
-              "26-bit magnitude, 6-bit add; a lane: 17-bit add, 17-bit magnitude, two 14-bit "
-              "compares, 17-bit add and compare, 17-bit subtract, a read of near_area_rom and one "
-              "of far_area_rom; 4 adds of 38 bits."};
+  return {
+      .unit = "CoverageUnit",
+      .does =
+          "Computes the area that a line cuts off each pixel of a group, and the side of the "
+          "neighbour.",
+      .latency = {3},
+      .interval = {1, "one group per cycle; a group without candidates produces no output"},
+      .stages = {{"1", "distance, direction, depth, magnitude of the slope", "38-bit add"},
+                 {"2",
+                  "coverage by distance, frame borders; check whether the line leaves the pixel, "
+                  "addresses of the areas",
+                  "17-bit add and compare"},
+                 {"3", "areas, candidates and second candidates", "ROM read + 2 : 1 choice"}},
+      .formats = "distance S0.16, slope U1.16 and in 1/32, coverage U0.8.",
+      .cost =
+          "26-bit magnitude, 6-bit add; per lane 17-bit add, 17-bit magnitude, two 14-bit "
+          "comparators, 17-bit add and compare, 17-bit subtract, one read of near_area_rom and one "
+          "of far_area_rom; 4 adds of 38 bits."};
 }
 
 }  // namespace deburr::rtl::geometric

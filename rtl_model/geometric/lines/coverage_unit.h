@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What a line cuts off the pixels of a group, and across which side: of each column the pixel in
-// which it lies, and with coverage = area the neighbour that it cuts, too.
+// Function  Computes the area that a line cuts off each pixel of a group, rounded, and the side of
+//           the neighbour. Each column yields the pixel that contains the line, and with coverage =
+//           area also the neighbour that it cuts.
+// Position  After the LineWalker.
+// Stalls    `downstream`.
+// Source    Paper 002, eq (7); areas: docs/reference/geometric/algorithm.md.
 //
-// Where: after the LineWalker. Stalls: `downstream`. Coverage is rounded. Source: paper 002, eq
-// (7); areas: docs/reference/geometric/algorithm.md. A column looks two areas up: the pixel's in
-// the near half of the table, up to half a pixel from the centre, the neighbour's in the far one.
-// Just half a pixel away both are the same, which is in the far half.
+// A column looks up two areas: that of the pixel in the near half of the table (less than half a
+// pixel from the centre), that of the neighbour in the far half. At exactly half a pixel both are
+// equal and stored in the far half.
 #pragma once
 
 #include <array>
@@ -42,17 +45,17 @@ class CoverageUnit final : public Unit {
  private:
   struct Beat {
     CandidateToken out;
-    std::uint8_t leaves;  // bit k: the line leaves the pixel of lane k, so that areas are read
-    std::uint8_t half;    // bit k: half a pixel from its centre
-    std::array<std::uint16_t, kLanes> near, far;  // U10, where in the tables
+    std::uint8_t leaves;  // bit k: the line leaves the pixel of lane k, so areas are read
+    std::uint8_t half;    // bit k: exactly half a pixel from its centre
+    std::array<std::uint16_t, kLanes> near, far;  // U10, table addresses
   };
   void find(Cycle cycle, const GroupToken& group, Beat& beat) const;
   void look_up(Cycle cycle, const Beat& beat);
   void finish(Cycle cycle, Beat& beat) const;
 
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   Memory<std::uint8_t> near_rom_, far_rom_;
-  std::vector<ReadPort<std::uint8_t>> near_, far_;  // lane
+  std::vector<ReadPort<std::uint8_t>> near_, far_;  // by lane
   Pipe<Beat, 3> pipe_;
 };
 

@@ -20,13 +20,14 @@ std::uint32_t coarse_tag_of(std::uint32_t u, std::uint32_t v) {
 DepthScreen::DepthScreen(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::geometric::Parameters& p)
     : Unit(name, clock),
-      cache_({.lines = spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)],
-              .ports = 2,
-              .tags = {"coarse_tags", "v, u, valid", kCoarseTagBits, MemoryKind::kFlops},
-              .data = {"coarse_lines", "32 bounds of depth", kCoarseEntryBits * kInLine},
-              .fills = {"coarse_fills", "bounds on their way", p.fills},
-              .no_line = declare_stall("coarse", "a line of coarse depth has not come"),
-              .no_fill = declare_stall("fills", "no place for a line of coarse depth is free")}),
+      cache_(
+          {.lines = spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)],
+           .ports = 2,
+           .tags = {"coarse_tags", "v, u, valid", kCoarseTagBits, MemoryKind::kFlops},
+           .data = {"coarse_lines", "32 depth bounds", kCoarseEntryBits * kInLine},
+           .fills = {"coarse_fills", "bounds in flight", p.fills},
+           .no_line = declare_stall("coarse", "a line of coarse depth has not arrived"),
+           .no_fill = declare_stall("fills", "no fill entry for a line of coarse depth is free")}),
       index_bits_(static_cast<std::uint32_t>(std::countr_zero(cache_.lines()))),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
             candidates_shape(p, false, "group.")) {}
@@ -57,7 +58,8 @@ void DepthScreen::find_tiles(Cycle cycle, const CandidateToken& group) {
   const std::uint32_t tx = group.block_x >> 1, ty = group.block_y >> 1;
   find(0, tx, ty);
   if (configuration.depth_test != spec::geometric::DepthTest::kFarther) return;
-  // A block touches one border of its tile each way, so all neighbours beyond it are in one tile.
+  // A block touches one border of its tile in each direction, so all neighbours beyond it are in
+  // the same tile.
   const std::uint32_t block = group.vertical ? group.block_x : group.block_y;
   const bool forward = block & 1;
   for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
@@ -80,7 +82,7 @@ Activity DepthScreen::look_up(Cycle cycle) {
         const FrameConfiguration& configuration = configuration_in.read(cycle);
         const Place line = line_[which];
         ++misses;
-        // A multiply 8 x 8.
+        // An 8 x 8 multiply.
         const std::uint32_t across = (configuration.width + 63) >> 6;
         return configuration.coarse_base + ((line.v * across + line.u) << 6);
       });
@@ -100,7 +102,7 @@ Activity DepthScreen::look_up(Cycle cycle) {
   return kBusy;
 }
 
-// What look-up `which` wants of a line; of the same line both.
+// Takes the bound of lookup `which` from a line; both bounds if they share the line.
 void DepthScreen::take(Work& work, std::size_t which, const CoarseLine& line) const {
   const Lookup& l = work.lookup;
   work.bound[which] = line[l.tile[which]];
@@ -183,21 +185,21 @@ void DepthScreen::reset() {
 Datasheet DepthScreen::datasheet() {
   return {
       .unit = "DepthScreen",
-      .does = "Drops candidates that a lower bound of their tile's depths hides.",
-      .latency = {5, "5, and the wait for a line"},
-      .interval = {1, "1; 2 if both look-ups miss"},
-      .stages = {{"1", "lines and tiles of the group, first uses"},
-                 {"2", "two tags, a fill ordered a clock; FIFO",
+      .does = "Drops candidates that a lower bound of their tile's depth proves hidden.",
+      .latency = {5, "5, plus the wait for a line"},
+      .interval = {1, "1; 2 if both lookups miss"},
+      .stages = {{"1", "lines and tiles of the group, first use of each"},
+                 {"2", "two tags, one fill request per cycle; FIFO",
                   "64 : 1 choice + 16-bit compare; 8 x 8 multiply"},
-                 {"3", "a line installed, address of the words"},
-                 {"4", "two lines, choice of a tile, the lesser bound",
+                 {"3", "line install, word addresses"},
+                 {"4", "two lines, selection of a tile, smaller bound",
                   "SRAM read, 32 : 1 choice + 16-bit compare"},
                  {"5", "test against the bound", "24-bit shift, subtract and compare"}},
       .cost =
-          "tags in registers, data 2R1W, the lines on their way, the FIFO; two 16-bit compares, "
+          "tags in registers, data 2R1W, the lines in flight, the FIFO; two 16-bit comparators, "
           "an 8 x 8 multiply, two 32 : 1 choices of 16 bits and their minimum, its shift and "
-          "subtract and that of the group's own tile; a lane a 2 : 1 choice and a 24-bit "
-          "compare."};
+          "subtract and that of the group's own tile; per lane a 2 : 1 choice and a 24-bit "
+          "comparator."};
 }
 
 }  // namespace deburr::rtl::geometric

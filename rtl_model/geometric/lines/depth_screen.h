@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Drops candidates that lie behind a lower bound of the depths of their tile of 8 x 8 pixels,
-// before they look depth up (coarse_lines).
+// Function  Drops candidates behind a lower bound of the depths of their tile of 8 x 8 pixels,
+//           before they look up the depth (coarse_lines). Every group is forwarded with a bit for
+//           each dropped candidate, so the order is kept for DepthTest.
+// Position  Between CoverageUnit and DepthTest, with a small lookahead cache of coarse lines.
+// Stalls    `coarse` (the line has not arrived), `fills` (no fill entry is free), `downstream`.
+// Source    docs/reference/geometric/memory.md.
 //
-// Where: between CoverageUnit and DepthTest, with a small cache of coarse lines that looks ahead.
-// Every group goes on, with a bit for each candidate that is dropped, so that DepthTest keeps their
-// order. A group lies in one tile, and so do its neighbours. Stalls: `coarse` (the line has not
-// come), `fills` (no place for one), `downstream`. Source: docs/reference/geometric/memory.md.
+// A group lies in one tile, and so do its neighbours.
 #pragma once
 
 #include <array>
@@ -40,16 +41,16 @@ class DepthScreen final : public Unit {
   Counter groups{"groups", "groups", "groups whose tiles were looked up"};
   Counter lookups{"lookups", "lines", "lines of coarse depth looked up"};
   Counter misses{"misses", "lines", "lookups that requested a line"};
-  Counter both_missed{"both_missed", "groups", "groups of which two look-ups ordered a line"};
+  Counter both_missed{"both_missed", "groups", "groups with two lookups that requested a line"};
   Counter dropped{"dropped", "pixels", "candidates that were dropped"};
   Counter kept_at_bound{"kept_at_bound", "pixels",
-                        "candidates of a column just at the bound, which were kept"};
+                        "first candidates exactly at the bound, which are kept"};
   Histogram dropped_sides{"dropped_sides", "side",
-                          "first candidates that were dropped by the side of their neighbour: up, "
+                          "dropped first candidates by the side of their neighbour: up, "
                           "down, left, right"};
   Histogram lesser_tiles{"lesser_tiles", "tile",
-                         "first candidates with a neighbour in another tile by the lesser bound: "
-                         "their own, the other, equal"};
+                         "first candidates with a neighbour in another tile, by the smaller bound: "
+                         "own tile, other tile, equal"};
 
   static Datasheet datasheet();
 
@@ -59,24 +60,24 @@ class DepthScreen final : public Unit {
   using CoarseLine = std::array<std::uint16_t, kInLine>;
   struct Lookup {
     CandidateToken group;
-    std::array<std::uint8_t, 2> index;  // U6: of its own line, of that of its neighbours
+    std::array<std::uint8_t, 2> index;  // U6: of the own line, of the neighbours' line
     std::array<std::uint8_t, 2> tile;   // U5, in the line
-    std::uint8_t missed;                // bit k: look-up k
-    bool looks;                         // its tile is looked up at all
-    bool two_lines;                     // look-up 1 is another line than look-up 0
+    std::uint8_t missed;                // bit k: lookup k
+    bool looks;                         // false: no lookup
+    bool two_lines;                     // the two lookups use different lines
     std::uint8_t crossing;              // bit k: the neighbour of lane k is in the other tile
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
       visit("group", self.group);
       visit("index", self.index, 6, "U6");
       visit("tile", self.tile, 5, "U5");
-      visit("missed", self.missed, 2, "bit k: look-up k");
+      visit("missed", self.missed, 2, "bit k: lookup k");
       visit("looks", self.looks);
       visit("two_lines", self.two_lines);
       visit.lane_bits("crossing", self.crossing, kLanes);
     }
   };
-  // A line of memory.
+  // Coordinates of a memory line.
   struct Place {
     std::uint16_t u = 0, v = 0;  // U7, U8
     friend bool operator==(const Place&, const Place&) = default;
@@ -84,8 +85,8 @@ class DepthScreen final : public Unit {
   struct Work {
     Lookup lookup;
     std::array<std::uint16_t, 2> bound;  // entries of both tiles
-    std::uint16_t lesser;                // of them
-    std::uint8_t from_cache;             // bit k: the word of look-up k comes from the data
+    std::uint16_t lesser;                // the smaller bound
+    std::uint8_t from_cache;             // bit k: the word of lookup k comes from the cache data
   };
 
   void find_tiles(Cycle cycle, const CandidateToken& group);
@@ -94,7 +95,7 @@ class DepthScreen final : public Unit {
   void take(Work& work, std::size_t which, const CoarseLine& line) const;
   void screen(Cycle cycle, Work& work);
 
-  LineCache<CoarseLine> cache_;  // of its own line, of that of its neighbours
+  LineCache<CoarseLine> cache_;  // lookups of the own line and of the neighbours' line
   const std::uint32_t index_bits_;
   Fifo<Lookup> fifo_;
 

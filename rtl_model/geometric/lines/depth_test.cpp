@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kDepthTagBits = 23;
 
 std::uint32_t depth_tag_of(std::uint32_t u, std::uint32_t v, bool tiled) {
-  // The wider of both takes what the other leaves: 9 + 13 bits, or 11 + 11.
+  // Either layout fits in 22 bits: 9 + 13 (raster) or 11 + 11 (tiled).
   return 1u << (kDepthTagBits - 1) | (tiled ? v << 11 | u : v << 9 | u);
 }
 
@@ -38,11 +38,11 @@ DepthTest::DepthTest(const sc_core::sc_module_name& name, ClockDomain& clock,
               .data = {"depth_data", "sixteen depths", 24 * spec::geometric::kPixelsInLine},
               .fills = {"depth_fills", "depths in flight", p.fills},
               .no_line = declare_stall("depth", "a line of depths has not arrived"),
-              .no_fill = declare_stall("fills", "no entry for a line of depths is free")}),
+              .no_fill = declare_stall("fills", "no fill entry for a line of depths is free")}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo),
             candidates_shape(p, p.coarse_lines != spec::geometric::CoarseLines::kNone, "group.")) {}
 
-// Its number among the group's lines.
+// Returns the line's index among the lines of the group.
 std::uint8_t DepthTest::add_line(Wanted& wanted, Place line, bool tiled) const {
   Lookup& l = wanted.lookup;
   for (std::uint8_t i = 0; i < l.count; ++i)
@@ -84,7 +84,7 @@ void DepthTest::find_lines(Cycle cycle, const CandidateToken& group, Wanted& out
   });
 }
 
-// Stage 2, of the pair that is looked up next.
+// Stage 2, for the next pair to look up.
 void DepthTest::read_tags(Cycle cycle) {
   for (std::size_t port = 0; port < 2 && pair_ + port < looking_.lookup.count; ++port) {
     const Place line = looking_.line[pair_ + port];
@@ -276,24 +276,25 @@ void DepthTest::reset() {
 Datasheet DepthTest::datasheet() {
   return {
       .unit = "DepthTest",
-      .does = "Drops the candidates that lie behind what the frame shows.",
-      .latency = {7, "7, and the wait for a line"},
-      .interval = {1,
-                   "the look-ups of a group go in pairs; a pair takes a clock, two if both miss; "
-                   "at least 1"},
-      .stages = {{"1", "lines, first uses"},
-                 {"2", "address of the tags, products of the line addresses", "13 x 10 multiply"},
-                 {"3", "two tags, a fill ordered a clock; FIFO", "SRAM read + 23-bit compare"},
-                 {"4", "a line installed, address of the words"},
-                 {"5", "two lines a clock, choice of 16 twice a lane", "SRAM read, 16 : 1 choice"},
-                 {"6", "nearer, the farther one", "24-bit compare + 2 : 1 choice"},
-                 {"7", "test of the line, and of what lies behind a crease",
+      .does = "Drops the candidates that are hidden in the frame.",
+      .latency = {7, "7, plus the wait for a line"},
+      .interval =
+          {1,
+           "the lookups of a group are made in pairs; a pair takes one cycle, two if both miss; "
+           "at least 1"},
+      .stages = {{"1", "lines, first use of each"},
+                 {"2", "tag addresses, products of the line addresses", "13 x 10 multiply"},
+                 {"3", "two tags, one fill request per cycle; FIFO", "SRAM read + 23-bit compare"},
+                 {"4", "line install, word addresses"},
+                 {"5", "two lines per cycle, two 16 : 1 choices per lane",
+                  "SRAM read, 16 : 1 choice"},
+                 {"6", "nearer pixel, farther depth", "24-bit compare + 2 : 1 choice"},
+                 {"7", "depth test of the line, and crease test",
                   "24-bit shift, subtract and compare"}},
       .cost =
-          "tags and data 2R1W, the lines on their way, the FIFO; 28 compares of lines, two "
-          "13 x 10 multiplies; a lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two 24-bit "
-          "shifts, "
-          "subtracts and compares."};
+          "tags and data 2R1W, the lines in flight, the FIFO; 28 line comparators, two "
+          "13 x 10 multiplies; per lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two "
+          "24-bit shifts, subtracts and compares."};
 }
 
 }  // namespace deburr::rtl::geometric

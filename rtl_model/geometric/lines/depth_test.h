@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Drops the candidates that lie behind what the frame shows: behind the farther of their own pixel
-// and the neighbour that they would take from; and those of a crease with that far behind it.
+// Function  Drops candidates that are hidden: behind the farther depth of their own pixel and of
+//           the neighbour from which they would blend. Drops candidates of a crease if that farther
+//           depth is far behind it. A group without passing candidates produces no output.
+// Position  After the CoverageUnit or DepthScreen, with a small lookahead cache of depth lines.
+// Stalls    `depth` (the line has not arrived), `fills` (no fill entry is free), `downstream`.
 //
-// Where: after the CoverageUnit, with a small cache of depth lines that looks ahead. A group of
-// which no candidate passes leaves nothing. What the DepthScreen has dropped looks nothing up and
-// does not pass. A second candidate passes with the first of its column,
-// whose depths it shares. Lines of a group have different indices, so none replaces another.
-// Stalls: `depth` (the line has not come), `fills` (no place for one), `downstream`.
+// Candidates dropped by the DepthScreen make no lookup and do not pass. A second candidate passes
+// with the first of its column, since it uses the same depths. The lines of a group have different
+// indices, so none replaces another.
 #pragma once
 
 #include <array>
@@ -46,12 +47,12 @@ class DepthTest final : public Unit {
   Counter passed{"passed", "pixels", "candidates that passed the depth test"};
   Counter lookups{"lookups", "lines", "lines of depth looked up"};
   Counter misses{"misses", "lines", "lookups that requested a line"};
-  Histogram group_lines{"group_lines", "lines", "lines of depth of a group"};
+  Histogram group_lines{"group_lines", "lines", "lines of depth per group"};
 
   static Datasheet datasheet();
 
  private:
-  // Of a group: raster, vertical, four own lines and four neighbours beyond a multiple of 16.
+  // Per group: raster, vertical, four own lines and four of neighbours beyond a multiple of 16.
   static constexpr std::size_t kMostLines = 8;
   using DepthLine = std::array<std::uint32_t, spec::geometric::kPixelsInLine>;
   struct Lookup {
@@ -59,7 +60,7 @@ class DepthTest final : public Unit {
     std::uint8_t count;                           // U4, lines
     std::uint8_t missed;                          // bit i: line i
     std::array<std::uint16_t, kMostLines> index;  // U10
-    Lanes8 own_line, own_word;                    // U3, U4: where a lane's depths are
+    Lanes8 own_line, own_word;                    // U3, U4: position of a lane's depths
     Lanes8 other_line, other_word;
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
@@ -73,7 +74,7 @@ class DepthTest final : public Unit {
       visit.lanes("other_word", self.other_word, 4, "U4");
     }
   };
-  // A line of memory.
+  // Coordinates of a memory line.
   struct Place {
     std::uint16_t u, v;  // U11, U13
     friend bool operator==(const Place&, const Place&) = default;
@@ -85,8 +86,8 @@ class DepthTest final : public Unit {
   struct Work {
     Lookup lookup;
     Lanes32 own, other;            // U24
-    Lanes32 far;                   // U24, what the line must not lie behind
-    std::uint8_t nearer, farther;  // bit k: the pixel than its neighbour
+    Lanes32 far;                   // U24, farther depth; the line must not be behind it
+    std::uint8_t nearer, farther;  // bit k: the pixel compared with its neighbour
   };
 
   void find_lines(Cycle cycle, const CandidateToken& group, Wanted& out) const;
@@ -101,22 +102,22 @@ class DepthTest final : public Unit {
   void test(Cycle cycle, const Work& work);
   void show(const CandidateToken& group, std::size_t lane, bool passes) const;
 
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   const std::uint32_t index_bits_;
-  LineCache<DepthLine> cache_;  // of even lines of a group, of odd ones
+  LineCache<DepthLine> cache_;  // lookups of even and of odd lines of a group
   Fifo<Lookup> fifo_;
 
   // Stages 2 and 3.
   Wanted addressed_{}, looking_{};
   bool has_addressed_ = false, is_looking_ = false;
-  std::size_t pair_ = 0;  // U3, first line of the pair that is looked up
+  std::size_t pair_ = 0;  // U3, first line of the pair being looked up
   // Stages 4 to 7.
   Work work_{};
   bool working_ = false;
-  std::size_t step_ = 0;          // U4, first line of the pair that is installed and read
-  std::uint8_t reading_ = 0;      // bit k: a word is on port k
-  std::size_t reading_step_ = 0;  // its pair
-  bool reading_last_ = false;     // of the group in stage 5, else of that in stage 4
+  std::size_t step_ = 0;          // U4, first line of the pair being installed and read
+  std::uint8_t reading_ = 0;      // bit k: port k has a word
+  std::size_t reading_step_ = 0;  // the pair of these words
+  bool reading_last_ = false;     // of the group in stage 5, otherwise in stage 4
   Pipe<Work, 4> pipe_;
 };
 

@@ -28,11 +28,12 @@ std::unique_ptr<Memory<std::uint32_t>> make_table(std::uint32_t bits) {
                   .word_bits = 25,
                   .kind = MemoryKind::kRom,
                   .write_ports = 0,
-                  .content = "what reciprocals of short lines lack of 2^26"},
+                  .content = "difference between 2^26 and the reciprocals of short lines"},
       std::span<const std::uint32_t>(deficits));
 }
 
-// Radix 4: in each clock the largest of 0..3 times l that the remainder holds.
+// Radix 4: each cycle subtracts the largest multiple 0..3 of the divisor that fits into the
+// remainder.
 std::uint32_t quotient(std::uint32_t divisor) {
   std::uint32_t remainder = 1u << kNormalBits, digits = 0;
   if (remainder >= divisor) {
@@ -115,7 +116,7 @@ void LineSetup::normalise(Cycle cycle, Beat& beat) {
         cycle, (beat.normalised >> (kNormalBits + 1 - table_bits_)) - (1u << (table_bits_ - 1)));
 }
 
-// Stages 5 to 17; of the table, its word comes in the first.
+// Stages 5 to 17; the table's word arrives in stage 5.
 void LineSetup::divide(Cycle cycle, Beat& beat) const {
   beat.reciprocal = beat.in_table
                         ? (1u << spec::geometric::kReciprocalBits) - table_port_->word(cycle)
@@ -221,24 +222,23 @@ Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
   return {
       .unit = "LineSetup",
       .variant = p.pipelined ? "`pipelined`" : "not pipelined",
-      .does = "Turns a kept edge into a line: axis, columns, slope, position and depth.",
+      .does = "Computes a line from a kept edge: axis, columns, slope, position and depth.",
       .latency = {22},
-      .interval = p.pipelined
-                      ? Cycles{1}
-                      : Cycles{(kDivision + dividers - 1) / dividers,
-                               "13 / dividers; lines of the table and edges that are dropped 1"},
+      .interval = p.pipelined ? Cycles{1}
+                              : Cycles{(kDivision + dividers - 1) / dividers,
+                                       "13 / dividers; 1 for table lines and dropped edges"},
       .stages = {{"1", "differences"},
-                 {"2", "axis, ends, first and last column, drops",
+                 {"2", "axis, ends, first and last column, dropped edges",
                   "five carry chains, compares of 15 bits and adds of 22: 1.20 of the multiply"},
                  {"3", "leading one (e)"},
-                 {"4", "shift, address of the table"},
-                 {"5-17", "quotient, two bits a clock, a 27th where L is a power of two",
+                 {"4", "shift, table address"},
+                 {"5-17", "quotient, two bits per cycle, a 27th if L is a power of two",
                   "choice of 4 multiples + 26-bit add"},
                  {"18, 19", "slope, t, depth step", "23 x 27 multiply over two cycles"},
                  {"20, 21", "start: slope x offset, D x t", "24 x 24 multiply"},
                  {"22", "sums"}},
       .cost =
-          "13 stages of radix 4 (choice of 0..3 l, 26-bit add), or `dividers` of one, shared in "
+          "13 radix-4 stages (choice of 0..3 l, 26-bit add), or `dividers` single stages shared in "
           "time; multiplies 23 x 27, 23 x 24, 24 x 25, 25 x 23, 24 x 24; registers of 22 lines; "
           "reciprocal_rom."};
 }

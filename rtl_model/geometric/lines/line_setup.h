@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Turns a kept edge into a line: axis, columns, slope, position and depth at the first column.
+// Function  Computes a line from a kept edge: axis, columns, slope, and position and depth at the
+//           first column. Error bounds: docs/reference/geometric/algorithm.md.
+// Position  After VertexFetch.
+// Stalls    `divider` (no divider is free), `downstream`. All stages advance together; a line waits
+//           for a divider before the quotient.
+// Source    Paper 002, eqs (5), (6).
 //
-// Where: after VertexFetch. All stages move together; before the quotient a line waits for a
-// divider. Lines leave in order, since every line takes as long from the divider on, one of the
-// table too. Stalls: `divider` (none is free), `downstream`. Error bounds:
-// docs/reference/geometric/algorithm.md. Source: paper 002, eqs (5), (6).
+// Lines leave in order, since every line takes the same time from the divider on, including those
+// that use the table.
 #pragma once
 
 #include <array>
@@ -38,16 +41,17 @@ class LineSetup final : public Unit {
   std::function<void(const spec::geometric::LineRecord&)> observer;
 
   Counter outside_edges{"outside_edges", "edges", "kept edges with a vertex that is not usable"};
-  Counter degenerate_edges{"degenerate_edges", "edges", "kept edges whose two ends coincide"};
+  Counter degenerate_edges{"degenerate_edges", "edges",
+                           "kept edges with both ends at the same position"};
   Counter empty_edges{"empty_edges", "edges", "kept edges that cover no column of the frame"};
   Counter lines{"lines", "lines", "lines set up"};
   Counter table_lines{"table_lines", "lines", "lines whose reciprocal came from the table"};
-  Counter divider_cycles{"divider_cycles", "clk", "occupied cycles, summed over dividers"};
+  Counter divider_cycles{"divider_cycles", "clk", "busy cycles of all dividers"};
 
   static Datasheet datasheet(const spec::geometric::Parameters& parameters);
 
  private:
-  static constexpr std::size_t kFront = 4, kBack = 18;  // stages before and from the quotient on
+  static constexpr std::size_t kFront = 4, kBack = 18;  // stages before the quotient and from it on
   static constexpr std::uint64_t kDivideCycles = 13;
 
   struct Beat {
@@ -78,10 +82,10 @@ class LineSetup final : public Unit {
   void deliver(Cycle cycle, const Beat& beat);
   bool advance_front(Cycle cycle);
 
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   const bool pipelined_;
   const std::uint32_t table_bits_;
-  std::unique_ptr<Memory<std::uint32_t>> table_;  // nullptr: none
+  std::unique_ptr<Memory<std::uint32_t>> table_;  // nullptr: not built
   std::unique_ptr<ReadPort<std::uint32_t>> table_port_;
   Activity stalled_divider_;
   Pipe<Beat, kFront + 1> front_;  // its last stage is the first one of the quotient

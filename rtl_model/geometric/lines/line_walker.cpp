@@ -26,7 +26,7 @@ Activity LineWalker::tick(Cycle cycle) {
     line_ = token.line;
     line_columns.record(line_.count);
   }
-  // Only columns of one block of the major axis are looked at.
+  // Considers only columns of one block of the major axis.
   const std::uint32_t most =
       std::min({walkers_, std::uint32_t{line_.count},
                 spec::geometric::kBlockSize - (line_.first & (spec::geometric::kBlockSize - 1u))});
@@ -59,16 +59,16 @@ Activity LineWalker::tick(Cycle cycle) {
 Datasheet LineWalker::datasheet() {
   return {
       .unit = "LineWalker",
-      .does = "Steps along a line, a group of columns a clock.",
+      .does = "Steps along a line, one group of columns per cycle.",
       .latency = {1},
-      .interval = {1, "a group a clock, over the ends of lines too"},
+      .interval = {1, "one group per cycle, also across the ends of lines"},
       .stages =
-          {{"1", "position + k slope for k = 0..N, blocks compared, choice of the next position",
+          {{"1", "position + k slope for k = 0..N, block compares, selection of the next position",
             "2 : 1 choice, with four walkers 3 x slope (an add), 40-bit add + 13-bit compare + "
             "5 : 1 choice: 1.22 of the multiply with four walkers"}},
       .cost =
           "9 adds of 40 bits (position + k slope, the next position), 5 of 38 (the next "
-          "depth), 3 compares of 14 bits, a 5 : 1 choice."};
+          "depth), 3 comparators of 14 bits, a 5 : 1 choice."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Steps along a line, a group of columns a clock: as many of the next ones, `walkers` at most, as
-// have their pixels in one block of 4 x 4.
-//
-// Where: after the line FIFO. Stalls: `downstream`.
+// Function  Steps along a line, one group of columns per cycle: the next columns, at most
+//           `walkers`, whose pixels are in the same block of 4 x 4.
+// Position  After the line FIFO.
+// Stalls    `downstream`.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ class LineWalker final : public Unit {
   void reset() override { line_.count = 0; }
 
   Counter columns{"columns", "columns", "columns walked"};
-  Counter groups{"groups", "groups", "cycles in which the walkers step"};
-  Histogram line_columns{"line_columns", "columns", "columns of a line"};
+  Counter groups{"groups", "groups", "cycles in which the walkers stepped"};
+  Histogram line_columns{"line_columns", "columns", "columns per line"};
 
   static Datasheet datasheet();
 
  private:
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   const std::uint32_t walkers_;
-  spec::geometric::LineRecord line_;  // the rest of it: its next column, position and depth
+  spec::geometric::LineRecord line_;  // the remainder of the line: next column, position and depth
 };
 
 }  // namespace deburr::rtl::geometric

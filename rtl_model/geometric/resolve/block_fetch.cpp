@@ -61,7 +61,7 @@ Activity BlockFetch::look_up(Cycle cycle) {
   return kBusy;
 }
 
-// What a pixel takes from, by its weights: bits of `lines`.
+// The lines (bits of `lines`) that a pixel needs with its weights.
 std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, std::uint32_t pixel,
                                          bool horizontal) {
   const std::uint32_t x = pixel & 3, y = pixel >> 2;
@@ -71,7 +71,7 @@ std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, st
   const auto bit = [](std::uint32_t i, std::uint32_t j) { return 1u << (3 * i + j); };
   std::uint32_t lines = bit(row, 1);
   if (horizontal) {
-    const std::uint32_t edge = tiled ? 0 : block.x & 3;  // in its line of memory
+    const std::uint32_t edge = tiled ? 0 : block.x & 3;  // position in its memory line
     if (first && x == 0 && edge == 0) lines |= bit(row, 0);
     if (second && x == 3 && (tiled || edge == 3)) lines |= bit(row, 2);
   } else {
@@ -81,12 +81,12 @@ std::uint32_t BlockFetch::lines_of_pixel(bool tiled, const BlockToken& block, st
   return lines;
 }
 
-// What memory gives as weights may be anything.
+// Weights from memory may have any value.
 void BlockFetch::limit(const FrameConfiguration& configuration, BlockToken& block) {
   for (spec::geometric::Weights& weights : block.weights)
     for (std::uint8_t& weight : weights)
       weight = std::min<std::uint8_t>(weight, spec::geometric::kMaxWeight);
-  // Only a block at the frame's border has pixels without a neighbour.
+  // Only blocks at the frame border have pixels without a neighbour.
   const auto last_x = static_cast<std::int32_t>(configuration.width) - 1,
              last_y = static_cast<std::int32_t>(configuration.height) - 1;
   if (block.x != 0 && block.y != 0 && 4 * block.x + 3 < last_x && 4 * block.y + 3 < last_y) return;
@@ -116,7 +116,7 @@ void BlockFetch::choose(const FrameConfiguration& configuration, BlockToken& blo
   }
 }
 
-// The first line that is left: kept, or asked for; kIdle: done.
+// Handles the first remaining line: kept, or requested. kIdle: done.
 Activity BlockFetch::ask_for_line(Cycle cycle) {
   const FrameConfiguration& configuration = configuration_in.read(cycle);
   const auto line = static_cast<std::uint32_t>(std::countr_zero(to_ask_));
@@ -222,22 +222,22 @@ void BlockFetch::reset() {
 Datasheet BlockFetch::datasheet() {
   return {
       .unit = "BlockFetch",
-      .does = "Brings the weights of a touched block and the lines of colours that it needs.",
-      .latency = {5, "5, and the wait for weights"},
-      .interval = {1, "max(1, lines that are needed) a block"},
+      .does = "Fetches the weights of a touched block and the colour lines that it needs.",
+      .latency = {5, "5, plus the wait for weights"},
+      .interval = {1, "max(1, needed lines) per block"},
       .stages = {{"1", "tag of the block"},
-                 {"2", "a read of weights ordered; FIFO"},
-                 {"3", "a read of the cache's weights, or the line that came"},
-                 {"4", "limits of the weights, axis, lines that are needed",
+                 {"2", "read request for weights; FIFO"},
+                 {"3", "read of cached weights, or the arrived line"},
+                 {"4", "limits of the weights, axis, needed lines",
                   "SRAM read, limits of a weight, 8-bit add, 9-bit compare, or of 16 pixels: more "
                   "than a read and an addition"},
                  {"5",
-                  "lines that are kept; requests of the others, one or the other a clock, the "
+                  "kept lines; requests of the others, one line per cycle, the "
                   "block with the first",
                   "`colour_lines`: 23-bit compare"}},
       .cost =
-          "weights and lines on their way, the FIFO, 16 9-bit compares, a 13 x 10 and a "
-          "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N compares of 23 bits, the order "
+          "weights and lines in flight, the FIFO, 16 9-bit comparators, a 13 x 10 and a "
+          "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N comparators of 23 bits, the order "
           "of lines, 9 bits each."};
 }
 

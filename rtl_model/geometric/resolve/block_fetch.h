@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Brings what the resolve of a touched block needs: its weights, from the cache or from memory, and
-// the lines of colours that hold its blended pixels and what these take from.
+// Function  Fetches the data for the resolve of a touched block: its weights, from the cache or
+//           from memory, and the colour lines that hold its blended pixels and their neighbours.
+// Position  Between BlockScanner and Resolver, which takes the lines from the ColourStore.
+// Stalls    `weights` (a block has not arrived), `colours` (no entry for a line), `downstream`.
 //
-// Where: between BlockScanner and Resolver, which takes the lines out of the ColourStore. Weights
-// and colours have their places apart: weights of blocks to come cannot take those of the lines
-// that the oldest block waits for. A line that the ColourStore keeps is not asked for. Stalls:
-// `weights` (a block has not come), `colours` (no place for a line), `downstream`. Requests of
-// colours go before those of weights. Whatever memory gives as weights, a pixel takes a half at
-// most of each neighbour, and nothing from outside of the frame.
+// Weights and colours have separate entries, so weights of later blocks cannot take those of the
+// lines for which the oldest block waits. A line kept in the ColourStore is not requested. Colour
+// requests have priority over weight requests. Whatever weights are read from memory, a pixel takes
+// at most half of each neighbour and nothing from outside the frame.
 #pragma once
 
 #include <cstdint>
@@ -40,10 +40,10 @@ class BlockFetch final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  Counter weights_read{"weights_read", "lines", "weight blocks read from memory"};
-  Counter lines_read{"lines_read", "lines", "colour lines read, from the frame or its copy"};
-  Counter lines_kept{"lines_kept", "lines", "colour lines reused without a read"};
-  Counter lines_replaced{"lines_replaced", "lines", "colour lines read that replaced a kept one"};
+  Counter weights_read{"weights_read", "lines", "blocks of weights read from memory"};
+  Counter lines_read{"lines_read", "lines", "lines of colours read, of the frame or its copy"};
+  Counter lines_kept{"lines_kept", "lines", "lines of colours that were kept and not read again"};
+  Counter lines_replaced{"lines_replaced", "lines", "lines read that replaced a kept line"};
 
   static Datasheet datasheet();
 

@@ -72,11 +72,11 @@ void BlockScanner::reset() {
 Datasheet BlockScanner::datasheet() {
   return {.unit = "BlockScanner",
           .does = "Finds the touched blocks of a frame, in raster order of blocks.",
-          .latency = {3, "3 from its begin to the first block"},
-          .interval = {1, "a word of 128 blocks takes a clock for each touched block, at least 1"},
+          .latency = {3, "3 from the start to the first block"},
+          .interval = {1, "one cycle per touched block, at least 1 per word of 128 blocks"},
           .stages = {{"1", "address of the word"},
                      {"2", "word", "SRAM read"},
-                     {"3", "first bit of 128, by groups of 16", "16 : 1 priority"}},
+                     {"3", "first set bit of 128, in groups of 16", "16 : 1 priority"}},
           .cost =
               "the touched words of the block row above (touched_above), two words of registers, "
               "two 16 : 1 priorities."};

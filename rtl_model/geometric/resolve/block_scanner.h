@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Finds the touched blocks of a frame, in raster order of blocks.
+// Function  Finds the touched blocks of a frame, in raster order of blocks. The last block is
+//           followed by the end token.
+// Position  Start of the resolve.
+// Stalls    `downstream`.
 //
-// Where: head of the resolve. The next group of 16 bits is taken up while the last bit of the one
-// before leaves. After the last block comes the frame's end. Stalls: `downstream`.
+// The next group of 16 bits is loaded while the last bit of the previous one leaves.
 #pragma once
 
 #include <cstdint>
@@ -38,10 +40,10 @@ class BlockScanner final : public Unit {
   Memory<TouchedWord> above_;
   ReadPort<TouchedWord> above_read_{above_, "this row"};
   WritePort<TouchedWord> above_write_{above_, "next row"};
-  std::uint32_t asked_ = 0, taken_ = 0;      // U17, words
-  std::uint32_t column_ = 0, row_ = 0;       // U5, U12: of the word taken next
+  std::uint32_t asked_ = 0, taken_ = 0;      // U17, requested and taken words
+  std::uint32_t column_ = 0, row_ = 0;       // U5, U12: of the next word to take
   std::uint32_t block_x_ = 0, block_y_ = 0;  // first block of the word in stage 3
-  TouchedWord left_, above_word_;            // of that word: not yet sent; the row above
+  TouchedWord left_, above_word_;            // of that word: blocks not yet sent; the row above
   bool ended_ = false;
 };
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Lines of colours on their way from memory to the resolve, and those that it has read last.
+// Function  Colour lines in flight from memory to the resolve, and the most recently read lines.
+//           Without kept lines (colour_lines = 0) timing and cost are those of the FillStore.
+// Position  Between BlockFetch, which requests lines, and Resolver, which takes them in that order.
+//           Each holds one side.
+// Latency   A hit can be taken from the second cycle after its lookup on. A missed line is read
+//           from memory.
+// Cost      N lines, N tags, and an entry of colour_order per requested line. Longest path: N
+//           comparators of 23 bits.
 //
-// Where: between BlockFetch, which orders lines, and Resolver, which takes them in that order. Each
-// holds its side alone. Without kept lines (colour_lines = 0) timing and cost are the FillStore's.
-// With N of them the BlockFetch looks a line up, one a clock: a hit is on the chip or on its way
-// and can be taken from the second clock after that on; a miss is read, and takes the place of the
-// line that was read first in the same clock. The data follow in order: a missed line is written
-// into kept_colours as it is taken, and a hit reads its word in the clock before it is taken. So a
-// line is overwritten after all hits before it. Made for 250 MHz; longest path: N compares of 23
-// bits. Cost: N lines, N tags, and an entry of colour_order for each line that is ordered.
+// With N kept lines BlockFetch looks up one line per cycle. A hit is in the store or in flight; a
+// miss replaces the oldest kept line in the same cycle. Data follow in order: a missed line is
+// written into kept_colours when it is taken, and a hit reads its word in the cycle before it is
+// taken. So all earlier hits precede the overwriting of a line.
 #pragma once
 
 #include <algorithm>
@@ -28,20 +31,20 @@ namespace deburr::rtl::geometric {
 
 class ColourStore final {
  public:
-  // BlockFetch's side. A line of memory goes by its tag; all of them are of one frame and layout.
+  // BlockFetch's side. Lines are identified by tags, valid for one frame and layout.
   class Filler {
    public:
     static std::uint32_t tag_of(bool tiled, std::uint32_t u, std::uint32_t v) {
       return kValid | v << (tiled ? 11 : 9) | u;
     }
-    // Where the line is kept, if it is: it needs no read.
+    // The entry of a kept line, which needs no read; nullopt on a miss.
     std::optional<std::uint8_t> find(std::uint32_t tag) const { return store_->find(tag); }
     bool can_order_kept(Cycle cycle) const { return store_->kept_->order.can_push(cycle); }
     void order_kept(Cycle cycle, std::uint8_t place) {
       store_->kept_->order.push(cycle, {true, place});
     }
     bool can_order_read(Cycle cycle) const { return store_->can_order_read(cycle); }
-    // The place of what memory will answer, and whether the line takes that of a kept one.
+    // The entry for the memory's response, and whether it replaces a kept line.
     struct Ordered {
       std::uint32_t place;
       bool replaces;
@@ -50,7 +53,7 @@ class ColourStore final {
     void fill(Cycle cycle, std::uint32_t place, const Line& line) {
       store_->fills_.fill(cycle, place, line);
     }
-    // A frame begins with no line kept.
+    // Called at the start of a frame: discards all kept lines.
     void clear() { store_->clear(); }
     void reset() { store_->reset(); }
 
@@ -59,13 +62,13 @@ class ColourStore final {
     explicit Filler(ColourStore& store) : store_(&store) {}
     ColourStore* store_;
   };
-  // Resolver's side: the oldest line that was ordered.
+  // Resolver's side: the oldest requested line.
   class Reader {
    public:
     bool ready(Cycle cycle) const { return store_->ready(cycle); }
     const Line& line(Cycle cycle) const { return store_->line(cycle); }
     void release(Cycle cycle) { store_->release(cycle); }
-    // In every clock, after anything else.
+    // Call in every cycle, after all other functions.
     void read_ahead(Cycle cycle) { store_->read_ahead(cycle); }
 
    private:
@@ -99,9 +102,9 @@ class ColourStore final {
     explicit Kept(const spec::geometric::Parameters& p)
         : lines("kept_colours", {.words = static_cast<std::uint64_t>(p.colour_lines),
                                  .word_bits = 8 * spec::geometric::kLineBytes,
-                                 // A line may be used in the clock that keeps it.
+                                 // A line may be used in the cycle that stores it.
                                  .read_during_write = ReadDuringWrite::kNewWord,
-                                 .content = "lines of colours that were read last"}),
+                                 .content = "most recently read lines of colours"}),
           tags("kept_tags", {.words = static_cast<std::uint64_t>(p.colour_lines),
                              .word_bits = kTagBits,
                              .kind = MemoryKind::kFlops,
@@ -112,12 +115,12 @@ class ColourStore final {
           tag(static_cast<std::size_t>(p.colour_lines), 0) {}
     Memory<Line> lines;
     ReadPort<Line> read{lines, "hit"};
-    WritePort<Line> write{lines, "line that was read"};
-    MemoryBase tags;  // by place: in `tag`
+    WritePort<Line> write{lines, "line read"};
+    MemoryBase tags;  // by entry: stored in `tag`
     Fifo<Order> order;
     std::vector<std::uint32_t> tag;  // 0: no line
-    std::uint32_t next = 0;          // U8, place of the line that was read first
-    // The oldest line: what it is, since when.
+    std::uint32_t next = 0;          // U8, entry of the oldest kept line
+    // The oldest requested line, and the cycle since which it is known.
     Order oldest{};
     bool has_oldest = false;
     Cycle since = kNever;

@@ -22,7 +22,7 @@ Activity FrameCopier::tick(Cycle cycle) {
 }
 
 Activity FrameCopier::work(Cycle cycle) {
-  if (copied_out.driven()) {  // for the frame before
+  if (copied_out.driven()) {  // of the previous frame
     copied_out.drive(cycle, false);
     asked_ = written_ = answered_ = 0;
     return kIdle;
@@ -38,7 +38,7 @@ Activity FrameCopier::work(Cycle cycle) {
       buffer_.fill(cycle, response.tag, response.data);
     did = true;
   }
-  // A read goes first, so that the places stay on their way.
+  // Reads have priority, so that all entries stay in flight.
   const bool reads = asked_ != lines && buffer_.can_reserve(cycle),
              blocked = !memory.requests_out.can_push(cycle);
   if ((reads || buffer_.ready(cycle)) && !blocked) {
@@ -66,16 +66,15 @@ void FrameCopier::reset() {
 }
 
 Datasheet FrameCopier::datasheet() {
-  return {
-      .unit = "FrameCopier",
-      .does = "Copies the whole frame before it is resolved (`frame_copy`).",
-      .latency = {0, "-"},
-      .interval =
-          {2,
-           "2 cycles of the port a line, while M + 8 <= 2 copy_lines; then (M + 8) / copy_lines"},
-      .stages = {{"1", "a line is read while a place is free, else one is written in its turn",
-                  "26-bit add"}},
-      .cost = "copy_buffer, two 32-bit addresses."};
+  return {.unit = "FrameCopier",
+          .does = "Copies the whole frame before it is resolved (`frame_copy`).",
+          .latency = {0, "-"},
+          .interval = {2,
+                       "2 cycles of the port per line if M + 8 <= 2 copy_lines, otherwise (M + 8) "
+                       "/ copy_lines"},
+          .stages = {{"1", "reads a line while an entry is free, otherwise writes the oldest line",
+                      "26-bit add"}},
+          .cost = "copy_buffer, two 32-bit addresses."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Copies the whole frame before it is resolved, as the original method does (frame_copy).
-//
-// Where: beside the edges' pipe. copy_lines are on their way at most, and each is written in its
-// turn. Stalls: `memory` (the next line has not come), `downstream`.
+// Function  Copies the whole frame before the resolve, as the original method does (frame_copy). At
+//           most copy_lines are in flight; they are written in order.
+// Position  Parallel to the edge pipeline.
+// Stalls    `memory` (the next line has not arrived), `downstream`.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class FrameCopier final : public Unit {
  public:
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
-  // Every line is copied, or none is to be.
+  // True if every line is copied, or no copy is needed.
   WireOut<bool> copied_out{"copied_out"};
   MemoryClient memory;
 
@@ -37,12 +37,13 @@ class FrameCopier final : public Unit {
   static Datasheet datasheet();
 
  private:
-  // A clock in which there is something to do.
+  // A cycle with work to do.
   [[gnu::noinline]] Activity work(Cycle cycle);
 
   FillStore<Line> buffer_;
   Activity stalled_memory_;
-  std::uint32_t asked_ = 0, written_ = 0, answered_ = 0;  // U23, lines
+  std::uint32_t asked_ = 0, written_ = 0,
+                answered_ = 0;  // U23, requested, written and answered lines
 };
 
 }  // namespace deburr::rtl::geometric

@@ -29,21 +29,20 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
     : Unit(name, clock),
       colours_(colours),
       lanes_(resolve_lanes_of(p)),
-      originals_(
-          "originals",
-          {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
-           .word_bits = 100,
-           // A block is looked up beside the one that is written, which may be its neighbour.
-           .read_during_write = ReadDuringWrite::kNewWord,
-           .content = "four original pixels, and whether they were blended",
-           .columns = static_cast<std::uint64_t>(p.line_pixels)}),
+      originals_("originals",
+                 {.words = static_cast<std::uint64_t>((p.line_pixels + 3) / 4),
+                  .word_bits = 100,
+                  // A block is looked up while its neighbour may be written.
+                  .read_during_write = ReadDuringWrite::kNewWord,
+                  .content = "four pixels before blending, and flags whether they were blended",
+                  .columns = static_cast<std::uint64_t>(p.line_pixels)}),
       linear_rom_("linear_rom",
                   {.words = spec::geometric::kLinear12FromSrgb.size(),
                    .word_bits = 12,
                    .kind = MemoryKind::kRom,
                    .read_ports = 9 * lanes_,
                    .write_ports = 0,
-                   .content = "linear light of a code"},
+                   .content = "linear light value of a code"},
                   spec::geometric::kLinear12FromSrgb),
       encode_rom_("encode_rom",
                   {.words = spec::geometric::kSrgbFromLinear12.size(),
@@ -51,7 +50,7 @@ Resolver::Resolver(const sc_core::sc_module_name& name, ClockDomain& clock,
                    .kind = MemoryKind::kRom,
                    .read_ports = 3 * lanes_,
                    .write_ports = 0,
-                   .content = "code of a linear light"},
+                   .content = "code of a linear light value"},
                   spec::geometric::kSrgbFromLinear12),
       stalled_colours_(declare_stall("colours", "a line of colours has not arrived")) {
   for (std::uint32_t lane = 0; lane < lanes_; ++lane)
@@ -112,7 +111,7 @@ Activity Resolver::load(Cycle cycle) {
   return kBusy;
 }
 
-// Neighbours that were blended before are what they were then.
+// Replaces blended neighbours by their original values.
 void Resolver::restore(Cycle cycle, const BlockToken& block) {
   const auto over = [](const Originals& kept, std::array<Rgba, 4>& pixels) {
     for (std::size_t k = 0; k < 4; ++k)
@@ -241,7 +240,7 @@ void Resolver::encode(Cycle cycle, const Beat& beat) {
   if (beat.last) close(beat.block, configuration.tiled);
 }
 
-// A block is complete.
+// Ends a block.
 void Resolver::close(std::uint32_t number, bool tiled) {
   const BlockToken& token = block(number);
   if (token.end) {
@@ -268,7 +267,7 @@ void Resolver::close(std::uint32_t number, bool tiled) {
   observer(record);
 }
 
-// Stage 8; false: the link takes nothing.
+// Stage 8; false: the link is not ready.
 bool Resolver::write(Cycle cycle) {
   if (!memory.requests_out.can_push(cycle)) return false;
   const FrameConfiguration& configuration = configuration_in.read(cycle);
@@ -276,7 +275,7 @@ bool Resolver::write(Cycle cycle) {
   const auto row = static_cast<std::uint32_t>(std::countr_zero(to_write_));
   const std::uint32_t first_pixel = configuration.tiled ? 0 : 4 * row,
                       pixels = configuration.tiled ? 16 : 4,
-                      at = configuration.tiled ? 0 : 4u * (token.x & 3);  // in the line
+                      at = configuration.tiled ? 0 : 4u * (token.x & 3);  // position in the line
   const std::uint32_t offset = configuration.tiled
                                    ? configuration.line_offset(token.x, token.y)
                                    : configuration.line_offset(token.x >> 2, token.y * 4u + row);
@@ -294,7 +293,7 @@ bool Resolver::write(Cycle cycle) {
   return true;
 }
 
-// Stages 7 to 3; false: the block before is not written yet.
+// Stages 7 to 3; false: the previous block is not written yet.
 bool Resolver::blend(Cycle cycle) {
   if (const Beat* next = pipe_.at(4); next && next->last && to_write_ != 0) return false;
   pipe_.move();
@@ -324,8 +323,8 @@ Activity Resolver::tick(Cycle cycle) {
   colours_.read_ahead(cycle);
   if (ended_ && writes_ == 0 && to_write_ == 0 && !resolved_out.driven())
     resolved_out.drive(cycle, true);
-  // The stage that sets the pace: loading; blending, where it takes longer than loading did or a
-  // loaded block waits for it; the writes, where the blend waits for them.
+  // The activity is that of the limiting stage: loading; blending, if it takes longer than loading
+  // or a loaded block waits for it; writing, if blending waits for it.
   if (loaded == kBusy || beyond) return kBusy;
   if (loaded == kStalledDownstream && (blended || wrote)) return kBusy;
   return loaded == kIdle && writes && !wrote ? kStalledDownstream : loaded;
@@ -343,12 +342,12 @@ Datasheet Resolver::datasheet() {
   return {
       .unit = "Resolver",
       .does = "Blends the pixels of a touched block and writes them back, in place.",
-      .latency = {8, "8 for a block of one line and resolve_lanes pixels, and the wait for lines"},
+      .latency = {8, "8 for a block of one line and resolve_lanes pixels, plus the wait for lines"},
       .interval = {1,
-                   "max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) a block"},
-      .stages = {{"1", "lines into a window of 16 pixels and their 16 neighbours, one a clock"},
-                 {"2", "originals over it", "SRAM read"},
-                 {"3", "choice of pixels, address of linear_rom"},
+                   "max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) per block"},
+      .stages = {{"1", "one line per cycle into a window of 16 pixels and their 16 neighbours"},
+                 {"2", "original values of blended neighbours", "SRAM read"},
+                 {"3", "selection of pixels, address of linear_rom"},
                  {"4", "linear light, differences", "ROM read"},
                  {"5", "products", "8 x 13 multiply + 22-bit add"},
                  {"6", "rounding, address of encode_rom"},
@@ -356,7 +355,7 @@ Datasheet Resolver::datasheet() {
                  {"8", "write"}},
       .formats = "weights U0.8, linear light U0.12.",
       .cost =
-          "window of 32 pixels twice, 16 pixels of results twice, originals; a lane nine reads of "
+          "two windows of 32 pixels, two of 16 result pixels, originals; per lane nine reads of "
           "linear_rom, three of encode_rom, six multiplies 8 x 13."};
 }
 

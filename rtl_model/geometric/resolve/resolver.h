@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Blends the pixels of a touched block and writes them back, in place.
+// Function  Blends the pixels of a touched block and writes them back, in place. Results are
+//           rounded by magnitude.
+// Position  End of the resolve.
+// Stalls    `colours` (the next line has not arrived), `downstream`.
+// Source    Paper 002, eq (8).
 //
-// Where: end of the resolve. Loading, blending and writing work on three successive blocks.
-// A neighbour that was blended before is replaced by what it was: `originals` keeps the last row of
-// each block column, registers the last column of the block to the left. With frame_copy neighbours
-// come from the copy, and nothing is replaced. Results are rounded by magnitude. Stalls: `colours`
-// (the next line has not come), `downstream`. A block counts max(1, lines, beats) cycles as busy,
-// however long its lines are waited for. Source: paper 002, eq (8).
+// Loading, blending and writing work on three consecutive blocks. A neighbour that was already
+// blended is replaced by its original value: `originals` stores the last row of each block column,
+// registers store the last column of the block to the left. With frame_copy neighbours come from
+// the copy and are not replaced. A block counts max(1, lines, beats) cycles as busy, however long
+// it waits for lines.
 #pragma once
 
 #include <array>
@@ -31,7 +34,7 @@ class Resolver final : public Unit {
  public:
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
-  // The frame's end has come, and every write is answered.
+  // True if the end token has arrived and every write is answered.
   WireOut<bool> resolved_out{"resolved_out"};
   In<BlockToken> blocks_in{"blocks_in"};
   MemoryClient memory;
@@ -55,7 +58,7 @@ class Resolver final : public Unit {
     std::array<Rgba, 16> own;
     std::array<Rgba, 4> up, down, left, right;
   };
-  // A row or column of a block as it was before, and which of it was blended.
+  // A row or column of a block before blending, and which pixels were blended.
   struct Originals {
     std::array<Rgba, 4> pixel{};
     std::uint8_t blended = 0;
@@ -66,10 +69,10 @@ class Resolver final : public Unit {
     std::array<std::int32_t, 3> centre, first, second;  // differences to the centre; S13
     std::array<std::int32_t, 3> sum;                    // S22
     std::array<std::uint16_t, 3> value;                 // U0.12
-    std::uint8_t pixel;                                 // U4, of the block
+    std::uint8_t pixel;                                 // U4, position in the block
   };
   struct Beat {
-    std::uint8_t block;  // its place in blocks_
+    std::uint8_t block;  // index in blocks_
     std::uint8_t count;  // U3, pixels
     bool last;           // of its block
     std::array<Operands, kLanes> operands;
@@ -89,18 +92,18 @@ class Resolver final : public Unit {
   bool write(Cycle cycle);
   bool blend(Cycle cycle);
 
-  ColourStore::Reader colours_;  // which the BlockFetch fills
+  ColourStore::Reader colours_;  // filled by the BlockFetch
   const std::uint32_t lanes_;
   Memory<Originals> originals_;
   ReadPort<Originals> originals_read_{originals_, "above"};
   WritePort<Originals> originals_write_{originals_, "last row"};
   Memory<std::uint16_t> linear_rom_;
-  std::vector<ReadPort<std::uint16_t>> light_;  // lane, channel, operand
+  std::vector<ReadPort<std::uint16_t>> light_;  // by lane, channel, operand
   Memory<std::uint8_t> encode_rom_;
-  std::vector<ReadPort<std::uint8_t>> codes_;  // lane, channel
+  std::vector<ReadPort<std::uint8_t>> codes_;  // by lane, channel
   Activity stalled_colours_;
 
-  // The tokens of the blocks inside: they travel with their stages.
+  // Tokens of the blocks in the pipeline. In hardware they move with the stages.
   static constexpr std::uint32_t kBlocks = 16;
   std::array<BlockToken, kBlocks> blocks_{};
   std::uint32_t newest_ = 0;  // number of the block in stage 1
@@ -110,22 +113,22 @@ class Resolver final : public Unit {
   std::uint32_t to_load_ = 0;  // lines
   Window window_{};
   // Stage 2.
-  Originals left_;  // last column of the block that came last
+  Originals left_;  // last column of the previous block
   std::uint16_t left_x_ = 0, left_y_ = 0;
   bool has_left_ = false;
   // Stages 3 to 7.
   bool blending_ = false;
   std::uint32_t blended_block_ = 0;  // number
   std::uint32_t to_blend_ = 0;       // bit i: pixel i
-  int loaded_beats_ = 0;             // an instrument: beats left that took no longer than loading
+  int loaded_beats_ = 0;             // for statistics: remaining beats hidden by loading
   Window sources_{};
   Pipe<Beat, 5> pipe_;
   std::array<Rgba, 16> results_{};
   // Stage 8.
   std::uint32_t written_block_ = 0;  // number
-  std::uint32_t to_write_ = 0;       // its lines; rows if raster
+  std::uint32_t to_write_ = 0;       // lines, or rows if raster
   std::array<Rgba, 16> written_{};
-  std::uint32_t writes_ = 0;  // U11, that are not answered
+  std::uint32_t writes_ = 0;  // U11, unanswered writes
   bool ended_ = false;
 };
 

@@ -30,28 +30,28 @@ WeightCombiner::WeightCombiner(const sc_core::sc_module_name& name, ClockDomain&
       places_(p),
       touched_("touched", {.words = static_cast<std::uint64_t>(p.touched_words),
                            .word_bits = spec::geometric::kBlocksInWord,
-                           // Marks of one word follow each other, each on those before.
+                           // Consecutive groups may set bits of the same word.
                            .read_during_write = ReadDuringWrite::kNewWord,
-                           .content = "touched bits, one per block"}),
+                           .content = "one bit per block: a line cuts it"}),
       cache_({.lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)],
               .ports = 1,
               .tags = {"weight_tags", "block position x, y, valid", WeightPlaces::kTagBits},
               .data = {"weight_data", "sixteen pixels of four weights",
                        8 * spec::geometric::kLineBytes, MemoryKind::kSram,
-                       // Groups of one block follow each other, each on the weights before.
+                       // Consecutive groups may update the same block.
                        ReadDuringWrite::kNewWord},
               .fills = {"weight_fills", "weights in flight", p.fills},
               .no_line = declare_stall("weights", "a block of weights has not arrived"),
-              .no_fill = declare_stall("fills", "no entry for a block of weights is free")}),
+              .no_fill = declare_stall("fills", "no fill entry for a block of weights is free")}),
       spill_("spill", {.words = static_cast<std::uint64_t>(p.fills),
                        .word_bits = WeightPlaces::kTagBits,
                        .kind = MemoryKind::kFlops,
                        .read_ports = static_cast<std::uint32_t>(p.fills),
                        .write_ports = 2,
                        .latency = 0,
-                       .content = "blocks being written, compared in parallel"}),
+                       .content = "blocks being written back, compared in parallel"}),
       fifo_("latency_fifo", static_cast<std::uint32_t>(p.latency_fifo), lookup_shape(p)),
-      stalled_spill_(declare_stall("spill", "a block is still being written")),
+      stalled_spill_(declare_stall("spill", "a block is still being written back")),
       spilled_(static_cast<std::size_t>(p.fills), 0) {
   if (p.write_buffer > 0) buffer_ = std::make_unique<WriteBuffer>(p.write_buffer);
 }
@@ -77,7 +77,7 @@ bool WeightCombiner::spilling(std::uint32_t tag) const {
   return std::find(spilled_.begin(), spilled_.end(), tag) != spilled_.end();
 }
 
-// Puts the block into the list; false: it is full.
+// Adds the block to the spill list; false if it is full.
 bool WeightCombiner::spill(Lookup& lookup, std::uint32_t tag) {
   const auto free = std::find(spilled_.begin(), spilled_.end(), 0u);
   if (free == spilled_.end()) return false;
@@ -88,7 +88,7 @@ bool WeightCombiner::spill(Lookup& lookup, std::uint32_t tag) {
   return true;
 }
 
-// Stage 2, of a block that leaves the cache; kIdle: done.
+// Stage 2, for a block that leaves the cache; kIdle: done.
 Activity WeightCombiner::replace(std::uint32_t tag) {
   if (!buffer_) return spill(lookup_, tag) ? kIdle : stalled_spill_;
   lookup_.writes = false;
@@ -165,7 +165,7 @@ Activity WeightCombiner::look_up(Cycle cycle) {
   return kBusy;
 }
 
-// Second candidates of another block wait; they all lie in the same one.
+// Defers second candidates of another block; they are all in the same one.
 void WeightCombiner::keep_own_block() {
   WeightToken& group = lookup_.group;
   lookup_.more = false;
@@ -200,7 +200,7 @@ void WeightCombiner::address(Cycle cycle) {
   touched_port_.read(cycle, touched_at_);
 }
 
-// A whole block to memory; its place in the spill list is in the tag.
+// Writes a whole block to memory; the tag holds its entry in the spill list.
 void WeightCombiner::write_out(Cycle cycle, const Lookup& l, const BlockWeights& block) {
   Line& line = memory.write(cycle, address_of(cycle, l.old_x, l.old_y), l.spill, kWholeLine);
   for (std::size_t i = 0; i < block.size(); ++i)
@@ -209,7 +209,7 @@ void WeightCombiner::write_out(Cycle cycle, const Lookup& l, const BlockWeights&
   ++blocks_written;
 }
 
-// What was there leaves the cache.
+// Moves the replaced block out of the cache.
 void WeightCombiner::move_out(Cycle cycle, Work& work, const BlockWeights& there) {
   const Lookup& l = work.lookup;
   if (!buffer_) return write_out(cycle, l, there);
@@ -237,7 +237,7 @@ void WeightCombiner::combine(Cycle cycle, Work& work) {
     const bool smallest = rule == Combine::kOutermost && nearer && weight != 0;
     weight = smallest ? std::min(weight, coverage) : std::max(weight, coverage);
   };
-  // All of them are different pixels.
+  // All candidates are different pixels.
   const WeightToken& group = l.group;
   for (std::uint32_t left = group.candidates; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -283,7 +283,7 @@ Activity WeightCombiner::deliver(Cycle cycle) {
   return kBusy;
 }
 
-// After the last token: what is in the write buffer, a block a clock.
+// After the last token: writes the contents of the write buffer, one block per cycle.
 Activity WeightCombiner::flush(Cycle cycle) {
   if (buffer_->full() == 0) return kIdle;
   if (buffer_->has_first()) {
@@ -296,7 +296,7 @@ Activity WeightCombiner::flush(Cycle cycle) {
   return kBusy;
 }
 
-// Of a write.
+// Handles the response to a write.
 bool WeightCombiner::answer(Cycle cycle) {
   if (!memory.responses_in.can_pop(cycle) || !memory.responses_in.front(cycle).write) return false;
   spilled_[memory.responses_in.take(cycle).tag] = 0;
@@ -344,28 +344,27 @@ void WeightCombiner::reset() {
 Datasheet WeightCombiner::datasheet() {
   return {
       .unit = "WeightCombiner",
-      .does = "Keeps the weights of each pixel that a line has cut, and which blocks these are.",
-      .latency = {5, "5, and the wait for a block"},
-      .interval = {1, "1, a group with second candidates in another block 2"},
+      .does = "Combines the weights of each pixel cut by a line, and marks the touched blocks.",
+      .latency = {5, "5, plus the wait for a block"},
+      .interval = {1, "1; 2 for a group with second candidates in another block"},
       .stages = {{"1", "address of tag and touched word, product of the block's address",
                   "11 x 11 multiply"},
                  {"2",
-                  "tag, touched bit, the blocks on their way out and in the write buffer; a read "
-                  "ordered; FIFO",
+                  "tag, touched bit, spill list and write buffer; read "
+                  "request; FIFO",
                   "SRAM read + 23-bit compare"},
-                 {"3", "a block installed, address of the word, and of that in the write buffer"},
+                 {"3", "block install, address of the word and of the one in the write buffer"},
                  {"4",
-                  "the word, or what came for it, and the maxima and minima; a replaced block "
-                  "written back, or into the write buffer, and back what leaves this",
+                  "the word or its fill, maxima and minima; the replaced block "
+                  "written back, or into the write buffer, whose oldest block is written back",
                   "SRAM read + 16 : 1 choice + 8-bit compare"},
-                 {"5", "written, past the memory to the group after it"}},
+                 {"5", "write, with a bypass to the next group"}},
       .cost =
-          "tags, touched map and data 1R1W, the blocks on their way, the FIFO; the spill "
-          "list, 23 bits each, compared with a tag at once: `fills` compares of 23 bits (108 "
-          "for a memory of 100 cycles) and a choice of its first free place; two 11 x 11 "
-          "multiplies; a lane, of each "
-          "of its two candidates, a 16 : 1 place and an 8-bit compare. `write_buffer` = N: N "
-          "blocks 1R1W, N compares of 23 bits, 9 bits more of the FIFO."};
+          "tags, touched map and data 1R1W, the blocks in flight, the FIFO; the spill "
+          "list, 23 bits each, compared with a tag in parallel: `fills` comparators of 23 bits "
+          "(108 for a memory of 100 cycles) and a choice of its first free entry; two 11 x 11 "
+          "multiplies; per lane and candidate (two) a 16 : 1 choice and an 8-bit comparator. "
+          "`write_buffer` = N: N blocks 1R1W, N comparators of 23 bits, 9 more bits of the FIFO."};
 }
 
 }  // namespace deburr::rtl::geometric

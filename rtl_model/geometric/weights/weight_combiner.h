@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Keeps the four weights of each pixel that a line has cut, block by block, and which blocks these
-// are.
+// Function  Combines the four weights of each pixel cut by a line, block by block, and marks the
+//           touched blocks.
+// Position  End of the edge pipeline. The resolve reads its memories through handles of its ports.
+// Stalls    `weights` (the block has not arrived), `fills` (no fill entry is free), `spill` (the
+//           block is still being written back, or the spill list is full), `downstream`.
 //
-// Where: end of the edges' pipe; the resolve reads its memories through handles of its ports. Where
-// second candidates lie in another block than the first ones, the group is looked up once more. A
-// word that is written in stage 5 goes past the memory to the group after it. With a write buffer a
-// replaced block goes into its ring and is written when it leaves this, at the latest after the
-// last token: one a clock then. Stalls: `weights` (the block has not come), `fills` (no place for
-// one), `spill` (the block is still on its way out, or the list of those is full), `downstream`. A
-// write goes before a read of the same clock.
+// If second candidates are in another block than the first ones, the group is looked up a second
+// time. A word written in stage 5 bypasses the memory to the next group. With a write buffer, a
+// replaced block enters its ring and is written to memory when it leaves it, at the latest after
+// the last token, then one per cycle. A write has priority over a read in the same cycle.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class WeightCombiner final : public Unit {
   WireIn<FrameConfiguration> configuration_in{"configuration_in"};
   WireIn<Phase> phase_in{"phase_in"};
   WireOut<bool> cleared_out{"cleared_out"};
-  // The frame's end has come, and every write is answered.
+  // True if the end token has arrived and every write is answered.
   WireOut<bool> drawn_out{"drawn_out"};
   In<WeightToken> weights_in{"weights_in"};
   MemoryClient memory;
@@ -55,29 +55,29 @@ class WeightCombiner final : public Unit {
 
   Counter lookups{"lookups", "blocks", "blocks looked up"};
   Counter misses{"misses", "blocks", "lookups of a block that is not in the cache"};
-  Counter blocks_read{"blocks_read", "blocks", "evicted blocks read back from memory"};
-  Counter blocks_written{"blocks_written", "blocks", "evicted blocks written to memory"};
-  Counter buffer_hits{"buffer_hits", "blocks", "evicted blocks returned by the write buffer"};
+  Counter blocks_read{"blocks_read", "blocks", "blocks read back from memory"};
+  Counter blocks_written{"blocks_written", "blocks", "replaced blocks written to memory"};
+  Counter buffer_hits{"buffer_hits", "blocks", "blocks taken back from the write buffer"};
   Histogram buffered_blocks{"buffered_blocks", "blocks",
-                            "in the write buffer of a frame when its edges are drawn"};
+                            "blocks in the write buffer when all edges of a frame are drawn"};
   Histogram edge_latency{"edge_latency", "clk",
-                         "from an edge's leaving the EdgeReader to its last group's being written"};
+                         "from an edge leaving the EdgeReader to the write of its last group"};
 
   static Datasheet datasheet();
 
  private:
-  // A group of which the candidates of one block are left.
+  // A group reduced to the candidates of one block.
   struct Lookup {
     WeightToken group;
-    bool more;                   // those of the other block come after it
-    std::uint16_t index;         // U10
-    bool missed, reads;          // reads: what missed comes from memory, else it is zeros
-    bool replaces;               // a block leaves the cache
-    bool writes;                 // a block is written to memory: that one, or of the write buffer
-    std::uint16_t old_x, old_y;  // U11, the block that is written
-    std::uint8_t spill;          // U8, its place in the list
-    bool hit;                    // of the write buffer
-    std::uint8_t ring;           // U7, its place, or that of the block that leaves the cache
+    bool more;            // those of the other block follow
+    std::uint16_t index;  // U10
+    bool missed, reads;   // reads: a missed block comes from memory, otherwise it is zero
+    bool replaces;        // a block leaves the cache
+    bool writes;  // a block is written to memory: the replaced one, or one of the write buffer
+    std::uint16_t old_x, old_y;  // U11, the block to write
+    std::uint8_t spill;          // U8, its entry in the spill list
+    bool hit;                    // in the write buffer
+    std::uint8_t ring;           // U7, its entry, or that of the block that leaves the cache
     template <class Self, class Visit>
     static constexpr void fields(Self& self, Visit&& visit) {
       visit("group", self.group);
@@ -114,19 +114,19 @@ class WeightCombiner final : public Unit {
   bool spilling(std::uint32_t tag) const;
   bool spill(Lookup& lookup, std::uint32_t tag);
   void write_out(Cycle cycle, const Lookup& lookup, const BlockWeights& block);
-  // A block of this token is written to memory.
+  // True if the token writes a block to memory.
   bool writes(const Lookup& lookup) const { return lookup.replaces && (!buffer_ || lookup.writes); }
   void note(std::optional<Cycle> latency) {
     if (latency) edge_latency.record(*latency);
   }
 
-  EdgeLatency& latency_;  // an instrument
+  EdgeLatency& latency_;  // measuring instrument
   const WeightPlaces places_;
   Memory<TouchedWord> touched_;
   ReadPort<TouchedWord> touched_port_{touched_, "look-up"};
   WritePort<TouchedWord> touched_write_{touched_, "look-up"};
   LineCache<BlockWeights> cache_;
-  MemoryBase spill_;                     // by place: valid and tag, in spilled_
+  MemoryBase spill_;                     // by entry: valid and tag, stored in spilled_
   std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0
   Fifo<Lookup> fifo_;
   const Activity stalled_spill_;
@@ -134,14 +134,14 @@ class WeightCombiner final : public Unit {
 
   // Stage 2.
   Lookup lookup_{};
-  WeightToken waiting_{};         // of its group what lies in the other block
-  std::uint32_t touched_at_ = 0;  // U16, word of its touched bit
+  WeightToken waiting_{};         // the candidates of its group in the other block
+  std::uint32_t touched_at_ = 0;  // U16, address of its touched bit's word
   bool looking_ = false;
   Cycle looked_ = 0;
   // Stages 3 to 5.
   Pipe<Work, 3> pipe_;
   std::vector<std::uint32_t> spilled_;  // 0: free
-  std::uint32_t writes_ = 0;            // U9, that are not answered
+  std::uint32_t writes_ = 0;            // U9, unanswered writes
   bool ended_ = false;
 };
 

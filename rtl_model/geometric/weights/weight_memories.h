@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How words of the WeightCombiner's memories are addressed and what they are: it writes them, and
-// the resolve reads them through handles of its ports.
+// Address mapping and word types of the WeightCombiner's memories, shared with the resolve, which
+// reads them through handles of its ports.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct TouchedWord {
   void set(std::uint32_t bit) { bits[bit >> 6] |= std::uint64_t{1} << (bit & 63); }
 };
 
-// Where a block of weights is in the cache.
+// Position of a block of weights in the cache.
 class WeightPlaces {
  public:
   static constexpr std::uint32_t kTagBits = 23, kValid = 1u << (kTagBits - 1);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Blocks of weights that the cache has replaced, in a ring, before they are written to memory.
+// Function  A ring of blocks of weights that the cache has replaced, before they are written to
+//           memory.
+// Position  Inside the WeightCombiner, which updates the tags in stage 2 and moves the data in
+//           stages 3 (read) and 4 (write). A written word bypasses the memory to a read of the same
+//           cycle.
+// Stalls    None.
+// Cost      N blocks, N tags, two pointers. Longest path: a 23-bit compare with all tags.
 //
-// Where: inside the WeightCombiner, which changes the tags in stage 2 and moves the data in stages
-// 3 (read) and 4 (write): a word that is written goes past the memory to a read of the same clock.
-// A place is empty until a block has come to it, so the full ones are all, or those from 0 on.
-// Never stalls. Made for 250 MHz; longest path: a compare of 23 bits with all tags. Cost: N blocks,
-// N tags, two pointers.
+// An entry is empty until a block is stored in it, so the full entries are all, or those from 0 on.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +27,15 @@ class WriteBuffer {
   explicit WriteBuffer(std::int32_t places)
       : data_("write_buffer", {.words = static_cast<std::uint64_t>(places),
                                .word_bits = 8 * spec::geometric::kLineBytes,
-                               // A block may be taken back in the clock that replaces it.
+                               // A block may be taken back in the cycle that replaces it.
                                .read_during_write = ReadDuringWrite::kNewWord,
-                               .content = "blocks of weights that were replaced"}),
+                               .content = "replaced blocks of weights"}),
         tags_("write_tags", {.words = static_cast<std::uint64_t>(places),
                              .word_bits = WeightPlaces::kTagBits,
                              .kind = MemoryKind::kFlops,
                              .read_ports = static_cast<std::uint32_t>(places),
                              .latency = 0,
-                             .content = "x, y of each, valid, compared at once"}),
+                             .content = "x, y of each, valid, compared in parallel"}),
         tag_(static_cast<std::size_t>(places), 0) {}
 
   // --- Tags ---
@@ -42,7 +44,8 @@ class WriteBuffer {
     if (there == tag_.end()) return std::nullopt;
     return static_cast<std::uint8_t>(there - tag_.begin());
   }
-  // The place of the next block that does not take that of a hit, and the block there; 0: none.
+  // The entry for the next block (unless it takes the entry of a hit), and the tag of an entry; 0:
+  // empty.
   std::uint8_t next() const { return static_cast<std::uint8_t>(next_); }
   std::uint32_t tag(std::uint8_t place) const { return tag_[place]; }
   void put_next(std::uint32_t tag) {
@@ -50,7 +53,7 @@ class WriteBuffer {
     tag_[next_] = tag;
     advance();
   }
-  // In the place of a hit.
+  // Replaces the block of a hit.
   void exchange(std::uint8_t place, std::uint32_t tag) { tag_[place] = tag; }
 
   // --- Data ---
@@ -60,9 +63,9 @@ class WriteBuffer {
     write_.write(cycle, place, block);
   }
 
-  // --- At the end of the edges: all blocks, from `next` on ---
+  // --- After the last edge: all blocks, from `next` on ---
   std::uint32_t full() const { return full_; }
-  // Is the word of the first one on the output register?
+  // True if the first block's word is on the output register.
   bool has_first() const { return has_first_; }
   void read_first(Cycle cycle) {
     has_first_ = full_ != 0;
@@ -76,7 +79,7 @@ class WriteBuffer {
     advance();
   }
 
-  // A frame begins with all places empty.
+  // Called at the start of a frame: clears all entries.
   void clear() {
     std::fill(tag_.begin(), tag_.end(), 0);
     next_ = full_ = 0;
@@ -89,7 +92,7 @@ class WriteBuffer {
   Memory<BlockWeights> data_;
   ReadPort<BlockWeights> read_{data_, "place"};
   WritePort<BlockWeights> write_{data_, "place"};
-  MemoryBase tags_;  // by place: in tag_
+  MemoryBase tags_;  // by entry: stored in tag_
   std::vector<std::uint32_t> tag_;
   std::uint32_t next_ = 0, full_ = 0;  // U7, U8
   bool has_first_ = false;

@@ -815,8 +815,8 @@ TEST(ClockDomains, WhatBelongsToNoneOfSeveralIsAnErrorAtElaboration) {
   };
   const auto expect_unknown = [&](const char* name, const auto& make) {
     EXPECT_THAT(with(make, false),
-                testing::HasSubstr(fmt::format("{}: its clock domain is not known", name)));
-    EXPECT_THAT(with(make, false), testing::HasSubstr("several domains around it (one, two)"));
+                testing::HasSubstr(fmt::format("{}: its clock domain is unknown", name)));
+    EXPECT_THAT(with(make, false), testing::HasSubstr("several domains surround it (one, two)"));
     EXPECT_EQ(with(make, true), "");
   };
   expect_unknown("fifo", [] { return std::make_unique<rtl::Fifo<Token>>("fifo", 4); });
@@ -882,7 +882,7 @@ TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
   one.adopt(parts);
   EXPECT_THAT([&] { two.adopt(parts); },
               testing::ThrowsMessage<spec::CheckFailed>(
-                  testing::HasSubstr("parts is given to two clock domains (one and two)")));
+                  testing::HasSubstr("parts belongs to two clock domains (one and two)")));
 }
 
 // A module that is ticked, and is no unit: what it has belongs to the domain that ticks it.

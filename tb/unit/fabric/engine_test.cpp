@@ -476,10 +476,10 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
   EXPECT_THAT(said(all.last(2)), HasSubstr("without a register STATUS"));
   std::array<spec::RegisterInfo, 3> fewer = kRows;
   fewer[0].fields = std::span(kStates).first(1);
-  EXPECT_THAT(said(fewer), HasSubstr("STATUS without a field written_while_busy"));
+  EXPECT_THAT(said(fewer), HasSubstr("STATUS has no field written_while_busy"));
   fewer = kRows;
   fewer[2].fields = std::span(kSwitches).last(1);
-  EXPECT_THAT(said(fewer), HasSubstr("CONTROL without a field enable"));
+  EXPECT_THAT(said(fewer), HasSubstr("CONTROL has no field enable"));
   // What the hardware does with these four is the same in every engine.
   std::array states = kStates, switches = kSwitches;
   const auto with = [&](spec::Field& field, Access access) {

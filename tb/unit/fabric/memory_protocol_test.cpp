@@ -185,7 +185,7 @@ TEST(MemoryPort, SaysWhatATargetDoesWrong) {
   using Fault = BrokenTarget::Fault;
   for (const ResponseEnd end : kEnds) {
     EXPECT_THAT(rejection_of(Fault::kSecondAnswer, end),
-                testing::HasSubstr("port: the memory answered the read of 0x0 twice"));
+                testing::HasSubstr("port: the memory responded twice to the read of 0x0"));
     EXPECT_THAT(rejection_of(Fault::kBackwardRequest, end),
                 testing::HasSubstr("port: the memory sent phase BEGIN_REQ backwards"));
   }

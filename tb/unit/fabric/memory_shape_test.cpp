@@ -58,7 +58,7 @@ class MemoryLatency : public testing::TestWithParam<std::uint32_t> {};
 TEST_P(MemoryLatency, WordIsThereInTheClockThatItIsDueAndNotBefore) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
-  EXPECT_THAT(rejection([&] { p.read.word(9); }), HasSubstr("none has been asked for"));
+  EXPECT_THAT(rejection([&] { p.read.word(9); }), HasSubstr("no read was issued"));
   p.read.read(10, 3);
   for (Cycle c = 10; c < 10 + latency; ++c) {
     EXPECT_FALSE(p.read.arrives(c));
@@ -82,7 +82,7 @@ TEST_P(MemoryLatency, WordStaysUntilTheNextOneComes) {
   EXPECT_EQ(p.read.at(19 + latency, 3), 103);
   EXPECT_EQ(p.read.word(20 + latency), 104);
   EXPECT_THAT(rejection([&] { p.read.at(20 + latency, 3); }),
-              HasSubstr("output register is that of address 4"));
+              HasSubstr("output register holds that of address 4"));
 }
 
 // The word of the access before is still there: only the address tells.
@@ -94,7 +94,7 @@ TEST_P(MemoryLatency, AStaleWordUsedAClockEarlyIsCaught) {
   const Cycle early = 20 + latency - 1;
   EXPECT_THAT(rejection([&] { p.read.at(early, 4); }),
               AllOf(HasSubstr("cycle " + std::to_string(early)),
-                    HasSubstr("comes in cycle " + std::to_string(20 + latency)),
+                    HasSubstr("arrives in cycle " + std::to_string(20 + latency)),
                     HasSubstr("that of address 3")));
   EXPECT_EQ(p.read.at(20 + latency, 4), 104);
 }
@@ -368,7 +368,7 @@ TEST(Memory, AWordThatIsReadAgainIsToldByItsAccess) {
   EXPECT_EQ(p.read.at(13, 3), 103);  // a clock early: by its address it may be the one
   EXPECT_THAT(rejection([&] { p.read.at(13, 3, 12); }),
               AllOf(HasSubstr("cycle 13: read port reader: the word of address 3"),
-                    HasSubstr("as it was read in cycle 12"), HasSubstr("is that of cycle 10")));
+                    HasSubstr("as it was read in cycle 12"), HasSubstr("holds that of cycle 10")));
   EXPECT_EQ(p.read.at(13, 3, 10), 103);
   EXPECT_EQ(p.read.at(14, 3, 12), 7);
   EXPECT_THROW(p.read.at(14, 3, 10), spec::CheckFailed);
@@ -392,7 +392,7 @@ TEST(Memory, OneAccessTooManyIsCaught) {
   p.read.read(4, 1);
   EXPECT_THAT(rejection([&] { p.read.read(4, 2); }),
               AllOf(HasSubstr("memory: cycle 4: read port reader"), HasSubstr("address 2"),
-                    HasSubstr("one access too many"), HasSubstr("1R1W")));
+                    HasSubstr("second access"), HasSubstr("1R1W")));
   p.write.write(4, 1, 0);
   EXPECT_THAT(rejection([&] { p.write.write(4, 2, 0); }), HasSubstr("write port writer"));
   EXPECT_NO_THROW(p.read.read(5, 2));
@@ -412,7 +412,7 @@ TEST(Memory, AddressesThatAreNotThere) {
 TEST(Memory, PortsAreWhatTheShapeSays) {
   Memory<int> memory("memory", {.words = 16, .word_bits = 8, .read_ports = 2});
   ReadPort<int> first(memory, "first");
-  EXPECT_THAT(rejection([&] { memory.check_ports(); }), HasSubstr("2R1W is used by nobody"));
+  EXPECT_THAT(rejection([&] { memory.check_ports(); }), HasSubstr("2R1W is unused"));
   ReadPort<int> second(memory, "second");
   EXPECT_THAT(rejection([&] { ReadPort<int> third(memory, "third"); }),
               AllOf(HasSubstr("third"), HasSubstr("2R1W")));
@@ -421,7 +421,7 @@ TEST(Memory, PortsAreWhatTheShapeSays) {
   first.read(3, 1);
   EXPECT_NO_THROW(second.read(3, 2));
   ReadPort<int> shares = second;  // a second user of the same port
-  EXPECT_THAT(rejection([&] { shares.read(3, 3); }), HasSubstr("one access too many"));
+  EXPECT_THAT(rejection([&] { shares.read(3, 3); }), HasSubstr("second access"));
   shares.read(4, 3);
   EXPECT_NO_THROW(second.at(5, 3));
 }
@@ -669,18 +669,18 @@ TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
   read.read(1, 0);
   EXPECT_EQ(read.at(2, 0), 5);
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 1, MemoryKind::kSram); }),
-              HasSubstr("no port that writes"));
+              HasSubstr("cannot have write ports"));
   EXPECT_THAT(
       text_of<spec::ConfigError>([] {
         MemoryBase(
             "loaded",
             {.words = 4, .word_bits = 8, .write_ports = 1, .shared_ports = 1, .loaded = true});
       }),
-      HasSubstr("no port that writes"));
+      HasSubstr("cannot have write ports"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kRom); }),
-              HasSubstr("only sram is loaded"));
+              HasSubstr("only sram can be loaded"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { build(2, 0, MemoryKind::kFlops); }),
-              HasSubstr("only sram is loaded"));
+              HasSubstr("only sram can be loaded"));
 }
 
 TEST(Memory, RomHasItsContent) {
@@ -700,7 +700,7 @@ TEST(Memory, RomHasItsContent) {
                                  kTable);
   };
   EXPECT_THAT(rejection([&] { build(4, 5, MemoryKind::kRom); }), HasSubstr("5 words of content"));
-  EXPECT_THAT(rejection([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("all of their words"));
+  EXPECT_THAT(rejection([&] { build(6, 5, MemoryKind::kRom); }), HasSubstr("need all words"));
   EXPECT_THAT(rejection([&] { build(5, 4, MemoryKind::kRom); }),
               HasSubstr("0x10 at address 3 has more than 4 bits"));
   EXPECT_THAT(rejection([&] { build(5, 5, MemoryKind::kSram); }), HasSubstr("sram has none"));
@@ -873,23 +873,24 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
               AllOf(HasSubstr("memory: 16416 bits as flops 1R1W"), HasSubstr("16384"),
                     HasSubstr("use sram")));
   EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .kind = MemoryKind::kFlops, .latency = 2}),
-              HasSubstr("latency 0 or 1"));
-  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .latency = 0}), HasSubstr("latency 1 or more"));
+              HasSubstr("latency of 0 or 1"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .latency = 0}),
+              HasSubstr("latency of at least 1"));
   EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .write_ports = 2}),
               AllOf(HasSubstr("sram 1R2W"), HasSubstr("separate banks")));
   EXPECT_THAT(
       rejected({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 0, .shared_ports = 2}),
-      HasSubstr("no more writes"));
+      HasSubstr("no write ports"));
   EXPECT_THAT(
       rejected({.words = 8, .word_bits = 8, .read_ports = 1, .write_ports = 1, .shared_ports = 1}),
-      HasSubstr("no port left to read"));
+      HasSubstr("no read port is left"));
   EXPECT_THAT(
       rejected({.words = 8, .word_bits = 8, .read_ports = 0, .write_ports = 1, .shared_ports = 2}),
-      HasSubstr("no more writes"));
+      HasSubstr("no write ports"));
   EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .write_ports = 0}), HasSubstr("use rom"));
-  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("nobody reads"));
+  EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .read_ports = 0}), HasSubstr("no read port"));
   EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .kind = MemoryKind::kRom}),
-              HasSubstr("not written"));
+              HasSubstr("cannot have write ports"));
   EXPECT_THAT(rejected({.words = 8, .word_bits = 8, .span = 2}), HasSubstr("interleaved banks"));
   EXPECT_THAT(
       rejected({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
@@ -928,7 +929,7 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
                                       .latency = 0,
                                       .read_during_write = ReadDuringWrite::kNewWord});
               }),
-              HasSubstr("cannot be read in it without latency"));
+              HasSubstr("need a latency of at least 1"));
   EXPECT_THAT(
       rejection([] { MemoryBase("memory", {.words = 8, .word_bits = 16, .mask_bits = 5}); }),
       HasSubstr("a write mask of 5 bits does not divide words of 16"));
@@ -961,7 +962,7 @@ TEST(MemoryCost, IdealisedSaysSoAndWhy) {
                                  .write_ports = 2,
                                  .not_implementable = "shows what unlimited ports would give"});
   EXPECT_EQ(wide.not_implementable(), "shows what unlimited ports would give");
-  EXPECT_EQ(wide.built_as(), "idealised 13R2W");
+  EXPECT_EQ(wide.built_as(), "not implementable 13R2W");
   const MemoryBase small("small", {.words = 16, .word_bits = 8, .not_implementable = "not needed"});
   EXPECT_TRUE(small.not_implementable().empty());
 }
@@ -979,7 +980,7 @@ TEST(MemoryCost, ARomHasNoPortThatWritesOfEitherKind) {
                                    .write_ports = 1,
                                    .shared_ports = 1});
               }),
-              HasSubstr("a rom is not written"));
+              HasSubstr("a rom cannot have write ports"));
 }
 
 TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {

@@ -1053,7 +1053,7 @@ TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
                 s.clock.run(20);
                 return std::string("written");
               }),
-              testing::HasSubstr("a write of 0xc0 through a port that only reads"));
+              testing::HasSubstr("write to 0xc0 through a read-only port"));
 }
 
 // Of a burst that writes two lines the first beat is taken, and waits inside for the other.

@@ -200,9 +200,9 @@ struct NoSign {
 
 TEST(Payload, AFormatHasAsManyBitsAsTheField) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneBitMore>(); }),
-              HasSubstr("area: U14.16 has 30 bits, the list says 31"));
+              HasSubstr("area: format U14.16 has 30 bits, but 31 are listed"));
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<NoSign>(); }),
-              HasSubstr("area: S14.16 has 31 bits, the list says 30"));
+              HasSubstr("area: format S14.16 has 31 bits, but 30 are listed"));
 }
 
 // Formats are Ua.b and Sa.b; what only looks like one is another text.
@@ -320,9 +320,9 @@ TEST(Payload, ABitIsAWholeNumber) {
 
 TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneName>(); }),
-              HasSubstr("a and a: one name"));
+              HasSubstr("a and a: two fields with the same name"));
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OnePlace>(); }),
-              AllOf(HasSubstr("one place"), HasSubstr("b")));
+              AllOf(HasSubstr("same offset"), HasSubstr("b")));
 }
 
 // The noise of a slot: what was forgotten differs from its neighbours and from the slot before.
@@ -411,7 +411,7 @@ TEST(Payload, EveryBitIsFlippedByNumberAndByName) {
   EXPECT_EQ(bit("261"), "last[0]");
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("262"); }), HasSubstr("there are 262"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.0.r.8"); }),
-              HasSubstr("no bit 8 of pixel.0.r: it has 8"));
+              HasSubstr("no bit 8 of pixel.0.r: the field has 8"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.9.r"); }),
               AllOf(HasSubstr("no field is named pixel.9.r"), HasSubstr("\n  slope (13 bits)")));
 }
@@ -497,7 +497,7 @@ TEST(Payload, PackageDeclaresWhatIsInIt) {
             "  typedef struct packed {\n"
             "    logic last;\n"
             "    logic [1:0] colour;\n"
-            "    logic [1:0] edges;  // a bit a lane\n"
+            "    logic [1:0] edges;  // one bit per lane\n"
             "    logic signed [32:0] wide;  // S8.24\n"
             "    logic signed [12:0] slope;  // S0.12\n"
             "    place_t [1:0] corner;\n"

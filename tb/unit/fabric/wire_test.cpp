@@ -47,7 +47,7 @@ TEST(Wire, IsDrivenOnceAClock) {
   Wire<int> wire("wire", 7);
   wire.drive(3, 1);
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { wire.drive(3, 1); }),
-              HasSubstr("wire: cycle 3: driven twice in a clock"));
+              HasSubstr("wire: cycle 3: driven twice in a cycle"));
   wire.drive(4, 2);
 }
 
@@ -90,7 +90,7 @@ TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
   const auto rejected = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
   };
-  EXPECT_THAT(rejected(4), HasSubstr("cycle 4: read before it was driven in this clock"));
+  EXPECT_THAT(rejected(4), HasSubstr("cycle 4: read before it was driven in this cycle"));
   wire.drive(4, 8);
   EXPECT_EQ(wire.read(4), 8);
   EXPECT_THAT(rejected(5), HasSubstr("(combinational wire;"));
@@ -117,7 +117,7 @@ TEST(Pulse, IsHighInItsClockAndLowInEveryOther) {
   EXPECT_EQ(*pulse.seen(4), std::byte{1});
   EXPECT_EQ(*pulse.seen(5), std::byte{0});
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { pulse.raise(4); }),
-              HasSubstr("pulse: cycle 4: raised twice in a clock"));
+              HasSubstr("pulse: cycle 4: raised twice in a cycle"));
   pulse.reset();
   EXPECT_FALSE(pulse.read(4));
 }
@@ -273,7 +273,7 @@ TEST(Wire, CombinationalNeedsItsDriverFirst) {
                 clock.run(1);
                 return std::string("ran");
               }),
-              HasSubstr("wire is combinational, so driver has to be ticked before reader"));
+              HasSubstr("wire is combinational, so driver must be ticked before reader"));
 }
 
 // The driver stops: its readers get no old value.
@@ -285,7 +285,7 @@ TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
                 joined.clock.run(1);
                 return std::string("ran");
               }),
-              HasSubstr("wire: cycle 2: read before it was driven in this clock (combinational "
+              HasSubstr("wire: cycle 2: read before it was driven in this cycle (combinational "
                         "wire; driver driver.count_out, readers reader.count_in)"));
 }
 // A driver that forgets its first value: an error in the reader, whatever the order.

@@ -339,7 +339,7 @@ TEST(DomainWindows, UnitOfAnotherDomainIsRejected) {
   IntervalRecorder recorder(one->clock(), {.cycles = 500, .lose = {}});
   EXPECT_THAT(([&] { watch(recorder, *two); }),
               testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr(
-                  "belongs to two.clock, but is watched in the cycles of one.clock")));
+                  "belongs to two.clock, but is observed in the cycles of one.clock")));
 }
 
 TEST(DomainStatistics, HaveThePartsOfTheirOwnDomain) {

@@ -215,7 +215,7 @@ TEST(GeometricRegions, OfLessTrafficComeLast) {
 TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
   const GeometricSizes frames[] = {{8192, 8192, 1 << 24, std::uint64_t{1} << 28, 0}};
   EXPECT_THAT(error_of<spec::ConfigError>([&] { GeometricRegions::allocate(frames, {}); }),
-              HasSubstr("addresses of 32 bits reach 4294967296: use a smaller frame or mesh"));
+              HasSubstr("32-bit addresses cover 4294967296: use a smaller frame or mesh"));
 }
 
 // ---- the driver
@@ -407,7 +407,7 @@ TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
   EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.program(); }),
               HasSubstr("sizes and bases while it is busy"));
   EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.set_configuration({}); }),
-              HasSubstr("new rules while it is busy"));
+              HasSubstr("a new configuration while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());
 }
 
@@ -483,9 +483,10 @@ TEST(GeometricDriver, RegionsThatOverlapOrDoNotFitAreRejected) {
             "driver of the geometric engine: region depth (0x4000 to 0x40ff) overlaps region "
             "weights (0x40c0 to 0x41ff)");
   EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x4100, 0x4240, 0}), "");
-  EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x4100, 0x6020, 0x7000}),
-            "driver of the geometric engine: region colour begins at 0x6020, which is no multiple "
-            "of 64");
+  EXPECT_EQ(
+      at({0x1000, 0x2000, 0x3000, 0x4000, 0x4100, 0x6020, 0x7000}),
+      "driver of the geometric engine: region colour begins at 0x6020, which is not a multiple "
+      "of 64");
   EXPECT_EQ(at({0x1000, 0x2000, 0x3000, 0x4000, 0x5000, 0xFFF40, 0x7000}),
             "driver of the geometric engine: region colour (0xfff40 to 0x10003f) ends past the "
             "memory of 1048576 bytes: make it larger, or the input smaller");

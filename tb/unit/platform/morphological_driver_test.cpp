@@ -202,7 +202,7 @@ TEST(MorphologicalDriver, NothingIsWrittenToABusyEngine) {
             "idle");
   EXPECT_THAT(busy([&] { b.driver.place(0); }), HasSubstr("PIXEL_BASE while it is busy"));
   EXPECT_THAT(busy([&] { b.driver.set_configuration(p); }),
-              HasSubstr("new rules while it is busy"));
+              HasSubstr("a new configuration while it is busy"));
   EXPECT_THAT(busy([&] { b.driver.load_weights(std::vector<std::int8_t>(2304)); }),
               HasSubstr("learned weights while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());
@@ -239,7 +239,7 @@ TEST(MorphologicalDriver, AFrameThatDoesNotFitIntoMemoryIsRejected) {
   EXPECT_THAT(size(16, 1024), HasSubstr("region pixels (0x40 to 0x1003f)"));
   EXPECT_EQ(size(16, 1023), "");
   EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.place(32); }),
-              HasSubstr("begins at 0x20, which is no multiple of 64"));
+              HasSubstr("frame base 0x20 is not a multiple of 64"));
   MorphologicalDriver without(b.registers, p);
   EXPECT_NO_THROW(without.set_size(16, 1025));
 }

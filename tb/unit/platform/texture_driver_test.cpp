@@ -230,7 +230,7 @@ TEST(TextureDriver, NothingIsWrittenToABusyUnit) {
             "driver of the texture unit: a descriptor while it is busy: wait until STATUS says "
             "idle");
   EXPECT_THAT(error_of<spec::SimulationError>([&] { b.driver.invalidate(); }),
-              HasSubstr("invalidate the cache while it is busy"));
+              HasSubstr("an invalidate command while it is busy"));
   EXPECT_TRUE(b.registers.written.empty());
 }
 
@@ -252,8 +252,9 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
   EXPECT_THAT(with([](Descriptor& d) { d.levels = 0; }),
               HasSubstr("levels of a texture: expected 1..5, got 0"));
   EXPECT_THAT(with([](Descriptor& d) { d.levels = 6; }), HasSubstr("got 6"));
-  EXPECT_THAT(with([](Descriptor& d) { d.base[1] = 544; }),
-              HasSubstr("texture 0: region level 1 begins at 0x220, which is no multiple of 64"));
+  EXPECT_THAT(
+      with([](Descriptor& d) { d.base[1] = 544; }),
+      HasSubstr("texture 0: region level 1 begins at 0x220, which is not a multiple of 64"));
   EXPECT_THAT(with([](Descriptor& d) { d.base[1] = 448; }),
               HasSubstr("texture 0: region level 0 (0x0 to 0x1ff) overlaps region level 1 (0x1c0 "
                         "to 0x23f)"));

@@ -252,7 +252,7 @@ TEST_F(CommandLine, ParamsPrintsReferencePages) {
                                      {"--markdown datasheets", "# Datasheets"},
                                      {"--c-header", "#ifndef DEBURR_REGISTERS_H"},
                                      {"--systemrdl",
-                                      "// Registers of Deburr's engines as SystemRDL 2.0, an "
+                                      "// Registers of Deburr's engines as SystemRDL 2.0, one "
                                       "address map each. Bits without a field, and"}})
     EXPECT_THAT("\n" + printed(std::string("params ") + option),
                 HasSubstr(std::string("\n") + line + "\n"))

@@ -472,7 +472,7 @@ class Faults(Base):
             self.fault(f"flip:blended:100:{bit}", 1, "mismatch", *self.UNCHECKED, engine="frame")
         for bit in (56, 264, 100000):
             self.run_engine(2, *self.UNCHECKED, "--fault", f"flip:blended:100:{bit}", engine="frame",
-                            says=f"no bit {bit}: there are 56")
+                            says=f"no bit {bit}: the payload has 56 bits")
 
     def test_errors_of_the_texture_memory_of_a_frame(self):
         self.run_engine(3, *self.SMALL, "--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000",

@@ -225,7 +225,7 @@ TEST_P(TableCycles, ARootIsNotUsedAClockLate) {
                 table.address_entries(3, 0, query);
               }),
               ::testing::AllOf(::testing::HasSubstr("sqrt_rom"),
-                               ::testing::HasSubstr("was there from cycle 2 on")));
+                               ::testing::HasSubstr("was available from cycle 2 on")));
 }
 TEST_P(TableCycles, AnEntryIsNotUsedAClockEarly) {
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
@@ -244,7 +244,7 @@ TEST_P(TableCycles, AnEntryIsNotUsedAClockLate) {
                 table.weights(4, 0, query);
               }),
               ::testing::AllOf(::testing::HasSubstr("area_rom"),
-                               ::testing::HasSubstr("was there from cycle 3 on")));
+                               ::testing::HasSubstr("was available from cycle 3 on")));
 }
 // A port gives a word a clock: a second query of a reader in the same clock is rejected.
 TEST_P(TableCycles, AReaderAsksOnceAClock) {
@@ -252,7 +252,7 @@ TEST_P(TableCycles, AReaderAsksOnceAClock) {
                 table.address_roots(1, 0, query);
                 table.address_roots(1, 0, other);
               }),
-              ::testing::HasSubstr("a second access"));
+              ::testing::HasSubstr("second access"));
   EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
                 table.address_roots(1, 1, query);
                 table.address_roots(1, 0, query);

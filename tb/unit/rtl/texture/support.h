@@ -62,7 +62,7 @@ MATCHER_P2(Rejects, memory, reason, "") {
   return arg.find(memory) != std::string::npos && arg.find(reason) != std::string::npos;
 }
 inline constexpr const char* kEarly = "is used";
-inline constexpr const char* kTooMany = "one access too many";
+inline constexpr const char* kTooMany = "second access";
 
 // A port that nobody has declared, on the only memory of this kind of word below `root`.
 template <class Port, class Word>
