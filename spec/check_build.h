@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What hardware can be built with: each parameter within its range (spec/parameters.h), and the
+// Checks whether hardware can be built: each parameter in its range (spec/parameters.h), and the
 // rules between parameters that an engine lists in spec/ENGINE/check_build.h:
 //
 //   inline constexpr std::array<BuildRule<Parameters>, 1> kBuildRules = {{
@@ -7,8 +7,8 @@
 //   }};
 //   inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&);
 //
-// The hardware's constructor calls check_build(), and so does whatever is to know before: resolved
-// configurations, plans of sweeps, searches, random draws. The reference pages list the rules.
+// check_build() is called by the constructor of the hardware, and earlier for resolved
+// configurations, plans of sweeps, searches and random draws. The reference pages list the rules.
 // Nothing here computes what an engine computes.
 #pragma once
 
@@ -27,15 +27,15 @@ inline constexpr std::size_t kMostRuleNames = 3;
 
 template <class Parameters>
 struct BuildRule {
-  // The parameter that the rule is about, and those that it depends on.
+  // The parameter that is restricted, then those that it depends on.
   std::array<std::string_view, kMostRuleNames> names;
-  std::string_view must;  // "must be a power of two", in words that hold for all values
+  std::string_view must;  // text that holds for all values: "must be a power of two"
   bool (*holds)(const Parameters&);
-  // What would do with the values given, if that is more than the words say.
+  // Advice that depends on the values; nullptr if the text is enough.
   std::string (*remedy)(const Parameters&) = nullptr;
 };
 
-// A visitor of parameters that rejects a value out of its declared range.
+// Visitor of parameters; rejects a value outside its declared range.
 class RangeCheck {
  public:
   explicit RangeCheck(std::string_view engine) : engine_(engine) {}
@@ -61,7 +61,7 @@ class RangeCheck {
       if (!known.empty()) known += ", ";
       known += one;
     }
-    throw ConfigError(of(name) + " = " + std::to_string(value) + " is none of " + known);
+    throw ConfigError(of(name) + " = " + std::to_string(value) + " is not one of " + known);
   }
   std::string of(std::string_view name) const {
     return std::string(engine_) + "." + std::string(name);
@@ -69,7 +69,7 @@ class RangeCheck {
   std::string_view engine_;
 };
 
-// A visitor that writes down the value of one parameter.
+// Visitor that formats the value of one parameter.
 class ValueText {
  public:
   explicit ValueText(std::string_view wanted) : wanted_(wanted) {}
@@ -104,11 +104,11 @@ std::string value_text(Parameters parameters, std::string_view name) {
   return value.text();
 }
 
-// ConfigError for the first value out of its range.
+// Throws ConfigError for the first value outside its range.
 template <class Parameters>
 void check_ranges(std::string_view engine, Parameters parameters) {
   const RangeCheck check(engine);
-  describe(parameters, check);  // of the namespace that declares them
+  describe(parameters, check);  // found in the namespace of Parameters
 }
 
 // "unit.cache.bytes = 256 with cache.ways = 8: must hold a set; make it at least 512"
@@ -126,7 +126,8 @@ std::string rejection(std::string_view engine, const BuildRule<Parameters>& rule
   return text;
 }
 
-// The parameters, if hardware can be built with them; ConfigError if not, for the first reason.
+// Returns the parameters if hardware can be built with them; otherwise throws ConfigError with the
+// first reason.
 template <class Parameters>
 const Parameters& check_build(std::string_view engine, const Parameters& parameters) {
   check_ranges(engine, parameters);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is wrong with the depths of a frame, in the words that the command, the C interface and
-// Python say: near / w as real numbers, or codes U24 (docs/reference/morphological/algorithm.md,
+// Checks the depths of a frame and gives the error text of the command, the C interface and Python.
+// Depths are near / w as real numbers, or codes U24 (docs/reference/morphological/algorithm.md,
 // "Conversion of images").
 #pragma once
 
@@ -13,7 +13,7 @@ namespace deburr::spec {
 
 inline constexpr std::uint32_t kLargestDepth = 0xFFFFFF;  // U24
 
-// How many of the values of a frame something holds for, and where first.
+// Number of values with a property, and the index of the first one.
 struct Found {
   std::size_t number = 0, first = 0;
   void add(std::size_t index) {
@@ -29,7 +29,7 @@ struct Found {
 
 class DepthCheck {
  public:
-  // One after another; a real number as its binary32 pattern.
+  // Adds the next value; a real number as its binary32 pattern.
   void add_binary32(std::uint32_t pattern) {
     constexpr std::uint32_t kOne = 0x3F800000, kInfinity = 0x7F800000, kSign = 0x80000000;
     const std::uint32_t magnitude = pattern & ~kSign;
@@ -44,21 +44,21 @@ class DepthCheck {
     ++values_;
   }
 
-  // Why they are rejected; empty: they are not.
+  // The reason to reject the depths, or an empty text.
   std::string error(std::size_t width) const {
     if (nan_.number > 0)
-      return nan_.in_words(values_, width, "are NaN, which is no depth") +
-             ": write 0, infinitely far, where nothing is, and render the rest again";
+      return nan_.in_words(values_, width, "are NaN") +
+             ": write 0 (infinitely far) for empty pixels, and render the others again";
     if (wide_.number > 0)
       return wide_.in_words(values_, width, "lie outside 0.." + std::to_string(kLargestDepth)) +
-             ": a depth has 24 bits; clear what stands above them, such as a stencil";
+             ": a depth has 24 bits; clear the bits above them, such as a stencil";
     return {};
   }
-  // What is done to them; empty: nothing.
+  // The conversion applied to the depths, or an empty text.
   std::string note(std::size_t width) const {
     if (outside_.number == 0) return {};
     return outside_.in_words(values_, width, "lie outside [0, 1]") +
-           ": edges from depth use them clamped, so steps among them are lost";
+           ": they are clamped for edges from depth, so steps between them are lost";
   }
 
  private:

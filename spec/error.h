@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one base type of errors that a user can cause, and the check for errors that only we can.
+// Base type of all errors that a user can cause, and the check for errors of the models themselves.
 #pragma once
 
 #include <stdexcept>
@@ -18,7 +18,7 @@ enum class ExitCode : int {
 };
 
 // Base of every error caused by input, configuration or the environment. The text says what is
-// wrong, where (file, line, instance, cycle, pixel), what was expected and got, and what to do.
+// wrong, where (file, line, instance, cycle, pixel), what was expected and given, and what to do.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -28,13 +28,13 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-// Wrong command line, configuration or parameter value.
+// Invalid command line, configuration or parameter value.
 class ConfigError : public Error {
  public:
   explicit ConfigError(const std::string& text) : Error(ExitCode::kUsage, text) {}
 };
 
-// A file that cannot be read, understood or written.
+// A file that cannot be read, parsed or written.
 class FileError : public Error {
  public:
   explicit FileError(const std::string& text) : Error(ExitCode::kFile, text) {}
@@ -46,7 +46,7 @@ class SimulationError : public Error {
   explicit SimulationError(const std::string& text) : Error(ExitCode::kSimulation, text) {}
 };
 
-// No progress: the watchdog's text holds the state of every link.
+// No progress: the text of the watchdog contains the state of every link.
 class DeadlockError : public Error {
  public:
   explicit DeadlockError(const std::string& text) : Error(ExitCode::kDeadlock, text) {}
@@ -66,8 +66,8 @@ class CheckFailed : public std::logic_error {
 
 }  // namespace deburr::spec
 
-// DEBURR_CHECK(condition, text): an invariant that stays on in every build. `text` is evaluated
-// only on failure and says which instance, cycle or pixel broke it.
+// DEBURR_CHECK(condition, text): an invariant that is checked in every build. `text` is only
+// evaluated on failure; it names the instance, cycle or pixel.
 #define DEBURR_CHECK(condition, text)                                     \
   do {                                                                    \
     if (!(condition)) [[unlikely]]                                        \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a unit's parameters are declared once: name, storage, range, unit and one line of meaning.
+// Declaration of a unit's parameters: name, storage, range, unit and one line of meaning.
 //
 // A parameter struct P is a plain struct whose member initialisers are the defaults, with a
 // function
@@ -10,8 +10,7 @@
 //     v.boolean("mesh.two_sided", p.two_sided, "...");
 //   }
 //
-// Every consumer (command line, YAML, documentation, manifest) is a visitor with those three
-// members:
+// Every consumer (command line, YAML, documentation, manifest) is a visitor with these members:
 //   void integer(std::string_view name, std::int32_t& value, std::int32_t min, std::int32_t max,
 //                std::string_view unit, std::string_view meaning);
 //   template <class Enum, std::size_t N>
@@ -19,7 +18,7 @@
 //               std::string_view meaning);          // enumerators are 0..N-1 in the order of names
 //   void boolean(std::string_view name, bool& value, std::string_view meaning);
 //
-// Nothing here computes: a range is data, and the consumer that reads a value checks it.
+// A range is data only; the consumer that reads a value checks it.
 #pragma once
 
 #include <array>

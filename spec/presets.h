@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How presets are applied. An engine lists what its presets set, once, as a function that names
-// each parameter with its member and its value:
+// Presets. An engine lists the values of its presets once, in a function that passes each parameter
+// by name, member and value:
 //
 //   template <class Set>
 //   constexpr void for_each_of(Preset preset, Set&& set) {
 //     const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
-//     set("axes", &Rules::axes, row.axes);
+//     set("axes", &Configuration::axes, row.axes);
 //   }
 //
-// preset_parameters() of the engine gives the defaults with these values; the command goes by the
+// The engine's preset_parameters() returns the defaults with these values; the command uses the
 // names.
 #pragma once
 
@@ -18,13 +18,12 @@
 
 namespace deburr::spec {
 
-// The row of a table whose key is this value. ConfigError where there is none.
+// The row of a table with this key. Throws ConfigError if there is none.
 template <class Rows, class Row, class Key>
 constexpr const Row& row_of(const Rows& rows, Key Row::*key, Key value) {
   for (const Row& row : rows)
     if (row.*key == value) return row;
-  throw ConfigError("no preset or quality has the number " +
-                    std::to_string(static_cast<int>(value)));
+  throw ConfigError("unknown preset or quality: number " + std::to_string(static_cast<int>(value)));
 }
 
 }  // namespace deburr::spec

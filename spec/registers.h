@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How a 32-bit register is declared once: offset, name, meaning and fields; of each field the bits,
-// the access, the reset value and the meaning. The register sockets, masks, encoders and decoders,
-// the tables of the docs, the C header for a user's software and SystemRDL are made from these
-// rows.
+// Declaration of 32-bit registers: offset, name, meaning and fields; for each field bits, access,
+// reset value and meaning. Register sockets, masks, encoders and decoders, the tables of the docs,
+// the C header for software and SystemRDL are made from these rows.
 #pragma once
 
 #include <array>
@@ -14,15 +13,15 @@
 
 namespace deburr::spec {
 
-// What software and hardware do with a field.
+// Access to a field by software and hardware.
 enum class Access : std::uint8_t {
-  kConstant,        // software reads it; nothing changes it
-  kReadOnly,        // software reads it; hardware changes it
-  kReadWrite,       // software reads and writes it; hardware reads it
-  kShared,          // software reads and writes it; hardware changes it, too
-  kWriteOnly,       // software writes it
-  kCommand,         // one bit: a one written to it starts something; reads as 0
-  kWriteOneToClear  // hardware sets it, a one written to a bit clears that bit
+  kConstant,        // software reads; constant
+  kReadOnly,        // software reads; hardware changes
+  kReadWrite,       // software reads and writes; hardware reads
+  kShared,          // software reads and writes; hardware also changes
+  kWriteOnly,       // software writes
+  kCommand,         // one bit: writing 1 starts something; reads as 0
+  kWriteOneToClear  // hardware sets; writing 1 clears the bit
 };
 constexpr bool is_readable(Access access) {
   return access != Access::kWriteOnly && access != Access::kCommand;
@@ -33,23 +32,22 @@ constexpr bool is_writable(Access access) {
 
 // Bits [high:low] of a register.
 struct Field {
-  std::string_view name;  // of the parameter that it holds, where there is one
+  std::string_view name;  // the name of its parameter, if it has one
   std::uint8_t high, low;
   Access access;
   std::string_view meaning;
-  std::span<const std::string_view> codes{};  // the name of each, where it is a choice
-  // The value after a reset, unless the parameters of a build give another one (loaded_registers()
-  // of an engine). None: a reset leaves it as it is.
+  std::span<const std::string_view> codes{};  // names of the codes, for a choice
+  // Value after a reset, unless loaded_registers() of the engine derives another one from the build
+  // parameters. nullopt: not reset.
   std::optional<std::uint32_t> reset = 0;
 
   constexpr std::uint32_t mask() const { return (~std::uint32_t{0} >> (31 - high + low)) << low; }
-  // The field's value out of a word, and a value in its place within one: what does not fit is
-  // dropped.
+  // of() extracts the field from a word; in() places a value into a word and drops excess bits.
   constexpr std::uint32_t of(std::uint32_t word) const { return (word & mask()) >> low; }
   constexpr std::uint32_t in(std::uint32_t value) const { return value << low & mask(); }
 };
 
-// The field of a register that is one number: it has no name.
+// The field of a register that contains a single number; it has no name.
 constexpr std::array<Field, 1> number(Access access, std::optional<std::uint32_t> reset = 0) {
   return {{{{}, 31, 0, access, {}, {}, reset}}};
 }
@@ -60,10 +58,10 @@ struct RegisterInfo {
   std::uint32_t offset;
   std::string_view name;
   std::string_view meaning;
-  std::span<const Field> fields;  // from the lowest on
+  std::span<const Field> fields;  // lowest first
 
   constexpr bool is_number() const { return fields.size() == 1 && fields.front().name.empty(); }
-  // The bits that exist; the others read as 0 and are ignored.
+  // Existing bits; all others read as 0 and ignore writes.
   constexpr std::uint32_t mask() const {
     return bits([](Access) { return true; });
   }
@@ -72,7 +70,7 @@ struct RegisterInfo {
   }
   constexpr std::uint32_t readable() const { return bits(is_readable); }
   constexpr std::uint32_t writable() const { return bits(is_writable); }
-  // Those that keep what software writes.
+  // Bits that store what software writes.
   constexpr std::uint32_t written() const {
     return bits(Access::kReadWrite) | bits(Access::kShared) | bits(Access::kWriteOnly);
   }
@@ -92,13 +90,13 @@ struct RegisterInfo {
   }
 };
 
-// A register whose reset value the parameters of a build give.
+// A register whose reset value is derived from the build parameters.
 struct LoadedRegister {
   std::uint32_t offset, value;
 };
 
-// A register of a table by its name, and a field of a register by its own: what every engine has,
-// wherever it has it. Without one there is none such: nullptr, no bit.
+// Finds a register by name, and a field of a register by name, for any engine. Without a match:
+// nullptr, 0.
 constexpr const RegisterInfo* register_named(std::span<const RegisterInfo> table,
                                              std::string_view name) {
   for (const RegisterInfo& info : table)
@@ -111,12 +109,12 @@ constexpr std::uint32_t bits_named(const RegisterInfo& info, std::string_view fi
   return 0;
 }
 
-// Of a register that holds the address of a line of memory.
+// For a register with the address of a memory line.
 inline constexpr Field kLineAddress{"address", 31, 6, Access::kReadWrite,
                                     "bits 31..6 of a multiple of 64"};
 
-// Whether every register has fields that stand from the lowest on and share no bit, a command is
-// one bit that reads as 0, and each reset value fits.
+// Whether fields are ordered from the lowest bit without overlap, commands are single bits that
+// reset to 0, and reset values fit.
 constexpr bool fields_are_in_order(std::span<const RegisterInfo> table) {
   for (const RegisterInfo& info : table) {
     if (info.fields.empty()) return false;

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kMaxFrameSide = 8192;
 constexpr std::uint32_t kPixelBytes = 4;
 
-// The place of a plane in the list; ArgumentError where it has no values.
+// Index of a plane; ArgumentError if it is unknown or was not computed.
 std::size_t plane_named(const FrameHandle& handle, const char* name) {
   require_pointer(name, "plane");
   const std::span<const Plane> planes = handle.planes();
@@ -22,7 +22,7 @@ std::size_t plane_named(const FrameHandle& handle, const char* name) {
     reject_name("plane", name, known);
   }
   require(handle.result_size().width != 0,
-          "no frame has been smoothed: call deburr_frame_process before");
+          "no frame has been smoothed: call deburr_frame_process first");
   require(!found->detail || handle.has_detail(),
           "the plane '" + std::string(name) +
               "' was not kept: call deburr_frame_detail with 1 before deburr_frame_process");
@@ -42,7 +42,7 @@ void require_depths(const spec::DepthCheck& check, std::size_t width) {
 }
 
 void require_frame(const FrameHandle& handle) {
-  require(handle.width != 0, "no frame was begun: call deburr_frame_begin before");
+  require(handle.width != 0, "no frame was begun: call deburr_frame_begin first");
 }
 
 }  // namespace deburr::golden::c
@@ -63,9 +63,9 @@ int deburr_frame_begin(deburr_golden* golden, uint32_t width, uint32_t height) {
     constexpr std::uint32_t kMax = deburr::golden::c::kMaxFrameSide;
     require(width >= 1 && height >= 1 && width <= kMax && height <= kMax,
             "a frame of " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels; 1..8192 each way are possible");
+                " pixels; width and height must be 1..8192");
     const std::size_t count = std::size_t{width} * height;
-    // Both or, without memory, neither.
+    // Allocate both before any change: without memory nothing changes.
     std::vector<deburr::golden::c::Rgba8> pixels(count, {0, 0, 0, 255});
     std::vector<std::uint32_t> depth(count);
     h.begin_frame();
@@ -120,7 +120,7 @@ int deburr_frame_put(deburr_golden* golden, uint32_t x, uint32_t y, uint32_t rgb
 
 int deburr_frame_detail(deburr_golden* golden, uint32_t everything) {
   return call_of<FrameHandle>(golden, __func__, [&](FrameHandle& h) {
-    require(everything <= 1, "everything is " + std::to_string(everything) + "; 0 or 1 are meant");
+    require(everything <= 1, "everything is " + std::to_string(everything) + "; it must be 0 or 1");
     h.keep_everything(everything == 1);
   });
 }

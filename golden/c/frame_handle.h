@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the handles of engines that smooth frames weight: the frame that is being given, and planes
-// of the one that was smoothed.
+// Common part of the handles of engines that smooth frames: the input frame, and planes of the
+// smoothed one.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ namespace deburr::golden::c {
 
 using Rgba8 = std::array<std::uint8_t, 4>;
 
-// A plane of the results: up to four bytes a pixel, in order.
+// A plane of the results: up to four bytes per pixel, in order.
 struct Plane {
   std::string_view name;
   std::uint32_t pixel_bytes;
-  bool detail;  // of a model that keeps everything only
+  bool detail;  // only with Detail::kEverything
 };
 
 struct FrameSize {
@@ -37,14 +37,14 @@ struct FrameHandle : deburr_golden {
   static constexpr const char* kWanted = "an engine that smooths frames";
 
   virtual std::span<const Plane> planes() const = 0;
-  // Of the last frame that was smoothed; 0 without one.
+  // Size of the last smoothed frame; 0 without one.
   virtual FrameSize result_size() const = 0;
   virtual bool has_detail() const = 0;
   virtual Rgba8 plane_pixel(std::size_t plane, int x, int y) const = 0;
   virtual void keep_everything(bool on) = 0;
-  // A frame is about to be begun: what else was given of the last one goes.
+  // Called before a new frame: discards other inputs of the previous frame.
   virtual void begin_frame() {}
-  // Smooths the frame that was given.
+  // Smooths the input frame.
   virtual void process() = 0;
 
   void clear_frame() {
@@ -55,19 +55,20 @@ struct FrameHandle : deburr_golden {
   }
   std::size_t index(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * width + x; }
 
-  // As given; rows without gaps.
+  // The input frame; rows without padding.
   std::uint32_t width = 0, height = 0;
   std::vector<Rgba8> pixels;
   std::vector<std::uint32_t> depth;
   bool has_depth = false;
 };
 
-// ArgumentError for depths that are none.
+// Throws ArgumentError if a depth is invalid.
 void require_depths(const spec::DepthCheck& check, std::size_t width);
-// ArgumentError without a frame that was begun.
+// Throws ArgumentError unless a frame was begun.
 void require_frame(const FrameHandle& handle);
 
-// The model of an engine: made anew when a parameter has changed, and only if it takes the frame.
+// Model of an engine. A changed parameter creates a new model, which replaces the old one only if
+// it accepts the frame.
 template <class Golden, class Parameters>
 class FrameModel {
  public:
@@ -86,7 +87,7 @@ class FrameModel {
       }
       work(*model_);
     } catch (const spec::ConfigError&) {
-      throw;  // said before anything was done
+      throw;  // thrown before any change
     } catch (...) {
       model_.reset();
       throw;
@@ -109,8 +110,8 @@ class FrameModel {
   bool everything_ = false;
 };
 
-// What the handle of such an engine is but for what it is given and gives: its parameters, and the
-// model that is made of them. The engine's check_build(parameters) says what cannot be built.
+// Parameters and model of such an engine; inputs and results are in derived classes. The engine's
+// check_build(parameters) rejects invalid parameters.
 template <class Golden, class Parameters>
 struct ModelHandle : FrameHandle {
   explicit ModelHandle(ParameterTexts<Parameters> of_engine) : texts(std::move(of_engine)) {}
@@ -139,7 +140,7 @@ struct ModelHandle : FrameHandle {
   std::vector<Counter> shown;
 };
 
-// The counts of an engine, by the names of the registers that show them (spec/ENGINE/packets.h).
+// Counts of an engine, named after their registers (spec/ENGINE/packets.h).
 template <class Counts, class Registers, class Work>
 std::vector<Counter> counters_of(const Counts& counts, const Registers& registers,
                                  const Work& work) {

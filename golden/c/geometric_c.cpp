@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine's part of the C interface: vertices, edges and facing bits as they lie in
-// memory (docs/reference/geometric/memory.md, "What is in memory").
+// C interface of the geometric engine: vertices, edges and facing bits in the layout of memory
+// (docs/reference/geometric/memory.md, "What is in memory").
 #include <array>
 #include <vector>
 
@@ -36,7 +36,7 @@ struct GeometricHandle final : GeometricModel {
   std::span<const Plane> planes() const override { return kGeometricPlanes; }
   void process() override {
     require(has_depth || texts.values().depth_test == spec::geometric::DepthTest::kOff,
-            "the frame has no depth: give one by deburr_frame_depth, or set depth_test = off");
+            "the frame has no depth: call deburr_frame_depth, or set depth_test = off");
     const int w = static_cast<int>(width), h = static_cast<int>(height);
     geometric::FrameInput input;
     input.image = {pixels, w, h};
@@ -61,8 +61,7 @@ struct GeometricHandle final : GeometricModel {
   std::uint32_t faces = 0;
 };
 
-// The records of words that were given; ArgumentError for a part of one, or more than can be
-// counted.
+// Decodes records from words. Throws ArgumentError for an incomplete record or too many records.
 template <class Record, class Decode>
 std::vector<Record> records_of(const std::uint32_t* words, std::size_t size, std::size_t most,
                                const char* what, Decode&& decode) {
@@ -70,7 +69,7 @@ std::vector<Record> records_of(const std::uint32_t* words, std::size_t size, std
   require(size % kRecordWords == 0,
           "words_size is " + std::to_string(size) + "; " + what + " have four words each");
   require(size / kRecordWords <= most,
-          std::to_string(size / kRecordWords) + " " + what + "; at most 2^24 are possible");
+          std::to_string(size / kRecordWords) + " " + what + "; the limit is 2^24");
   std::vector<Record> records;
   records.reserve(size / kRecordWords);
   for (std::size_t i = 0; i < size; i += kRecordWords)
@@ -135,8 +134,9 @@ int deburr_geometric_classes(deburr_golden* golden, uint8_t* classes, size_t cla
                "classes were not kept: call deburr_frame_detail with 1 before "
                "deburr_frame_process");
     const auto& from = h.model.get()->classes();
-    c::require(to.size() >= from.size(), "classes_size is " + std::to_string(to.size()) + "; " +
-                                             std::to_string(from.size()) + " edges need as many");
+    c::require(to.size() >= from.size(), "classes_size is " + std::to_string(to.size()) +
+                                             ", but there are " + std::to_string(from.size()) +
+                                             " edges");
     std::size_t i = 0;
     for (const auto each : from) to[i++] = static_cast<std::uint8_t>(each);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a geometric engine is given by callers of other languages.
+// Inputs of a geometric engine in the bindings to other languages.
 #pragma once
 
 #include "golden/c/parameter_texts.h"

@@ -13,10 +13,10 @@ namespace {
 constexpr std::string_view kNoHandle =
     "the handle is NULL: make one with a deburr_..._new function";
 constexpr std::string_view kBusy =
-    "the handle is in use by another thread: give each thread a handle of its own, or call in turn";
-constexpr std::string_view kNoMemory = "the machine has no memory left for it";
+    "the handle is in use by another thread: use one handle per thread, or serialise the calls";
+constexpr std::string_view kNoMemory = "out of memory";
 
-// Cut to what fits; never throws.
+// Truncates the text to the size; never throws.
 void put_cut(std::string_view from, char* text, std::size_t size) {
   const std::size_t length = std::min(from.size(), size - 1);
   std::memcpy(text, from.data(), length);
@@ -29,7 +29,7 @@ void require(bool condition, std::string_view text) {
   if (!condition) throw ArgumentError(std::string(text));
 }
 
-// Calls are many, and complaints few: texts are made for these alone.
+// Takes a name, not a text: the text is only built on an error, since calls are frequent.
 void require_pointer(const void* pointer, std::string_view what) {
   if (!pointer) throw ArgumentError(std::string(what) + " is NULL");
 }
@@ -41,8 +41,8 @@ void require_below(std::uint64_t value, std::uint64_t limit, std::string_view wh
 }
 
 void reject_kind(const char* given, const char* wanted) {
-  throw ArgumentError(std::string("a handle of the engine ") + given +
-                      " was given; it takes one of " + wanted);
+  throw ArgumentError(std::string("the handle belongs to the engine ") + given + "; expected " +
+                      wanted);
 }
 
 void put_text(std::string_view from, char* text, std::size_t size) {
@@ -55,10 +55,10 @@ void put_text(std::string_view from, char* text, std::size_t size) {
 std::size_t row_distance(std::string_view what, std::size_t size, std::uint64_t width,
                          std::uint64_t height, std::uint32_t stride) {
   const std::string name(what);
-  require(stride == 0 || stride >= width,
-          "stride " + std::to_string(stride) + " is shorter than a row of " + name + ", " +
-              std::to_string(width) + "; 0 says that rows have no gaps");
-  // There are at most 2^13 rows, below 2^32 elements each: nothing overflows.
+  require(stride == 0 || stride >= width, "stride " + std::to_string(stride) +
+                                              " is shorter than a row of " + name + ", " +
+                                              std::to_string(width) + "; 0: rows without gaps");
+  // At most 2^13 rows of fewer than 2^32 elements each: no overflow.
   const std::uint64_t distance = stride == 0 ? width : stride;
   const std::uint64_t needed = (height - 1) * distance + width;
   require(size >= needed, name + "_size is " + std::to_string(size) + "; " +
@@ -89,7 +89,7 @@ int status_of_exception(deburr_golden& golden, const char* function) noexcept {
     } catch (...) {
       return keep(DEBURR_INTERNAL, "an unknown exception");
     }
-  } catch (...) {  // no memory for the text either
+  } catch (...) {  // out of memory for the text as well
     golden.error.clear();
     return DEBURR_MEMORY;
   }
@@ -109,7 +109,7 @@ const char* deburr_version(void) { return DEBURR_VERSION; }
 
 int deburr_close(deburr_golden* golden) {
   if (!golden) return DEBURR_OK;
-  // The turn is never given back: there is nothing left to give it to.
+  // `busy` is never cleared, since the handle is deleted.
   if (golden->busy.exchange(true, std::memory_order_acquire)) return DEBURR_BUSY;
   delete golden;
   return DEBURR_OK;
@@ -186,7 +186,7 @@ int deburr_counter(deburr_golden* golden, const char* name, uint64_t* value) {
       }
       known += (known.empty() ? "" : ", ") + counter.name;
     }
-    require(false, "no counter is named '" + std::string(name) + "'; there are " + known);
+    require(false, "unknown counter '" + std::string(name) + "'; known: " + known);
   });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is behind a handle of the C interface (docs/reference/c_interface.md), and how a call of it
-// becomes a status: one thread at a time, no exception, a text that says what was wrong.
+// Handles of the C interface (docs/reference/c_interface.md), and the conversion of a call to a
+// status: one thread at a time, no exception leaves, and errors have a text.
 #pragma once
 
 #include <atomic>
@@ -15,30 +15,30 @@
 
 namespace deburr::golden::c {
 
-// An argument of a call that cannot be meant.
+// An invalid argument of a call.
 class ArgumentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// ArgumentError unless the condition holds.
+// Throws ArgumentError if the condition is false.
 void require(bool condition, std::string_view text);
-// ArgumentError for a null pointer; `what` is the argument's name.
+// Throws ArgumentError for a null pointer; `what`: name of the argument.
 void require_pointer(const void* pointer, std::string_view what);
 void require_below(std::uint64_t value, std::uint64_t limit, std::string_view what);
 
-// The elements of an array that a caller gave.
+// The elements of an array argument.
 template <class Element>
 std::span<Element> array_of(Element* elements, std::size_t size, std::string_view what) {
   if (size != 0) require_pointer(elements, what);
   return {elements, size};
 }
 
-// Copies a text with its zero; ArgumentError if it does not fit.
+// Copies a text with its terminating zero; ArgumentError if it does not fit.
 void put_text(std::string_view from, char* text, std::size_t size);
 
-// Elements from row to row, `width` for a stride of 0. ArgumentError if rows overlap or do not fit
-// the array.
+// Elements per row; `width` if the stride is 0. Throws ArgumentError if rows overlap or exceed the
+// array.
 std::size_t row_distance(std::string_view what, std::size_t size, std::uint64_t width,
                          std::uint64_t height, std::uint32_t stride);
 
@@ -49,7 +49,7 @@ struct Counter {
 
 }  // namespace deburr::golden::c
 
-// A model with its parameters. Functions throw; call() turns what they throw into a status.
+// A model with its parameters. Functions throw; call() converts exceptions to a status.
 struct deburr_golden {
   deburr_golden() = default;
   virtual ~deburr_golden() = default;
@@ -64,15 +64,15 @@ struct deburr_golden {
   virtual std::span<const deburr::golden::c::Counter> counters() = 0;
   virtual void reset() = 0;
 
-  // Set while a thread is in a call; what follows belongs to that thread.
+  // Set while a thread is in a call; members below belong to that thread.
   std::atomic<bool> busy{false};
-  // Of the last call that failed, but for DEBURR_BUSY.
+  // Text of the last call that failed, except with DEBURR_BUSY.
   std::string error;
 };
 
 namespace deburr::golden::c {
 
-// The thread's turn with a handle, or none.
+// Exclusive use of a handle by a thread; false if another thread has it.
 class Turn {
  public:
   explicit Turn(deburr_golden& golden)
@@ -89,7 +89,7 @@ class Turn {
   bool taken_;
 };
 
-// The status of the exception in hand, whose text is kept behind the function's name.
+// Status of the current exception; stores its text, prefixed with the name of the function.
 int status_of_exception(deburr_golden& golden, const char* function) noexcept;
 
 [[noreturn]] void reject_kind(const char* given, const char* wanted);
@@ -108,7 +108,7 @@ int call(deburr_golden* golden, const char* function, Work&& work) noexcept {
   }
 }
 
-// The same for functions of one kind of handle: `work` gets that.
+// For functions of one kind of handle, which is passed to `work`.
 template <class Kind, class Work>
 int call_of(deburr_golden* golden, const char* function, Work&& work) noexcept {
   return call(golden, function, [&](deburr_golden& any) {
@@ -118,7 +118,7 @@ int call_of(deburr_golden* golden, const char* function, Work&& work) noexcept {
   });
 }
 
-// A handle of the kind, or NULL without memory.
+// Creates a handle; NULL if out of memory.
 template <class Kind>
 deburr_golden* new_handle() noexcept {
   try {

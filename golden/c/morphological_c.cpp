@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine's part of the C interface.
+// C interface of the morphological engine.
 #include <array>
 #include <optional>
 #include <vector>

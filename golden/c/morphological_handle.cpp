@@ -8,8 +8,9 @@ namespace {
 
 [[noreturn]] void reject_edges(int x, int y, unsigned bits, unsigned possible) {
   throw ArgumentError("edges of (" + std::to_string(x) + ", " + std::to_string(y) + ") are " +
-                      std::to_string(bits) + "; of bit 0, left, and bit 1, above, " +
-                      std::to_string(possible) + " has those with a neighbour in the frame");
+                      std::to_string(bits) + ", but only bits of the mask " +
+                      std::to_string(possible) +
+                      " have a neighbour in the frame (bit 0: left, bit 1: above)");
 }
 
 }  // namespace

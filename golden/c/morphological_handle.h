@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a morphological engine is given by callers of other languages.
+// Inputs of a morphological engine in the bindings to other languages.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ inline ParameterTexts<spec::morphological::Parameters> morphological_texts() {
           }};
 }
 
-// Edges of a frame, a byte a pixel, rows `distance` bytes apart: bit 0 to the left neighbour, bit 1
-// to the upper one. ArgumentError for one that leads out of the frame.
+// Edges of a frame, one byte per pixel, rows `distance` bytes apart: bit 0 to the left neighbour,
+// bit 1 to the upper one. Throws ArgumentError if the neighbour is outside the frame.
 morphological::EdgePlanes edge_planes(std::span<const std::uint8_t> edges, std::size_t distance,
                                       int width, int height);
 

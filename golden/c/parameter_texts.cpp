@@ -37,8 +37,8 @@ void reject_value(std::string_view name, std::string_view text, std::string_view
 }
 
 void reject_name(std::string_view what, std::string_view name, std::span<const std::string> known) {
-  throw ArgumentError("unknown " + std::string(what) + " '" + std::string(name) + "'; there are " +
-                      joined(known));
+  throw ArgumentError("unknown " + std::string(what) + " '" + std::string(name) +
+                      "'; known: " + joined(known));
 }
 
 std::int64_t number_in_range(std::string_view name, std::string_view text, std::int64_t min,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parameters of an engine by name and text, from the one declaration in spec/ENGINE/parameters.h: a
-// preset first, then what was set by name, as the command does it.
+// Parameters of an engine by name and text, from their only declaration in
+// spec/ENGINE/parameters.h. The preset is applied first, then the parameters set by name, as in the
+// command.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +21,10 @@
 
 namespace deburr::golden::c {
 
-// A number in decimal, or in hexadecimal after 0x; nothing if it is none.
+// A number in decimal, or in hexadecimal after 0x; nullopt if the text is not a number.
 std::optional<std::int64_t> integer_of(std::string_view text);
 
-// ArgumentErrors, in the command's words.
+// Throw ArgumentError with the text of the command.
 [[noreturn]] void reject_value(std::string_view name, std::string_view text, std::string_view why);
 [[noreturn]] void reject_name(std::string_view what, std::string_view name,
                               std::span<const std::string> known);
@@ -33,7 +34,7 @@ std::size_t code_of(std::string_view name, std::string_view text,
                     std::span<const std::string_view> names);
 bool switch_of(std::string_view name, std::string_view text);
 
-// A visitor (spec/parameters.h) that gives one parameter the value that a text says.
+// Visitor (spec/parameters.h) that sets one parameter from a text.
 class ParameterWriter {
  public:
   ParameterWriter(std::string_view wanted, std::string_view text) : wanted_(wanted), text_(text) {}
@@ -54,7 +55,7 @@ class ParameterWriter {
   std::string_view wanted_, text_;
 };
 
-// A visitor that collects the names.
+// Visitor that collects the names.
 class ParameterNames {
  public:
   void integer(std::string_view name, std::int32_t, std::int32_t, std::int32_t, std::string_view,
@@ -74,7 +75,7 @@ class ParameterNames {
 template <class Parameters>
 class ParameterTexts {
  public:
-  // `preset` gives the defaults with what the presets named in its argument set.
+  // `preset` returns the defaults of the presets named in its argument.
   using Preset = Parameters (*)(const Parameters&);
   ParameterTexts(std::string_view engine, Preset preset) : engine_(engine), preset_(preset) {
     ParameterNames visitor;
@@ -82,7 +83,8 @@ class ParameterTexts {
     names_ = std::move(visitor.names);
   }
 
-  // Takes the name as it is, and with the engine before it. Changes all or, if it throws, nothing.
+  // Accepts names with and without the engine's prefix. Changes everything or, if it throws,
+  // nothing.
   void set(std::string_view name, std::string_view text) {
     const std::string known = known_name(name);
     Given given = given_;

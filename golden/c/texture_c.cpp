@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texture unit's part of the C interface: a memory, descriptors by registers or by names of
-// their fields, quads.
+// C interface of the texture unit: memory, descriptors by register or field name, quads.
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -23,7 +22,7 @@ spec::texture::Quad quad_of(std::uint32_t texture, const std::int32_t* s, const 
   return quad;
 }
 
-// What is decided about a fragment, by name.
+// A decision about a fragment, by name.
 std::int64_t decided(const texture::FragmentAnalysis& of, const char* what) {
   const struct {
     const char* name;

@@ -45,7 +45,7 @@ void set_field(DescriptorWords& words, std::string_view name, std::string_view t
   reject_name("field of a texture", name, known);
 }
 
-// The texels of a level, row by row, to where its layout has them.
+// Writes the texels of a level, row by row, to their addresses.
 void put_texels(TextureHandle& h, const spec::texture::Descriptor& d, int level,
                 const std::uint8_t* texels, std::size_t distance) {
   const texture::LevelAddresses addresses = texture::level_addresses(d, level);
@@ -95,10 +95,10 @@ spec::texture::Descriptor valid_descriptor(TextureHandle& h, std::uint32_t textu
 }
 
 void resize_memory(TextureHandle& h, std::uint64_t bytes) {
-  require(bytes <= kMostMemory, std::to_string(bytes) + " bytes; at most 2^32 have an address");
+  require(bytes <= kMostMemory, std::to_string(bytes) + " bytes; at most 2^32 are addressable");
   std::vector<std::uint8_t> memory(static_cast<std::size_t>(bytes));
   std::copy_n(h.memory.begin(), std::min(h.memory.size(), memory.size()), memory.begin());
-  // The model looks at the memory that goes.
+  // The model refers to the old memory.
   h.golden.reset();
   h.memory.swap(memory);
 }
@@ -107,7 +107,8 @@ void set_register(TextureHandle& h, std::uint32_t texture, std::uint32_t offset,
                   std::uint32_t word) {
   auto words = h.words(texture);
   require(offset % 4 == 0 && offset / 4 < words.size(),
-          "offset " + std::to_string(offset) + " is none of a descriptor's registers, 0, 4, .. " +
+          "offset " + std::to_string(offset) +
+              " is not a register of a descriptor; expected 0, 4, .. " +
               std::to_string(4 * (words.size() - 1)));
   words[offset / 4] = word;
   h.put_words(texture, words);
@@ -122,9 +123,8 @@ void set_field(TextureHandle& h, std::uint32_t texture, std::string_view name,
 
 std::uint64_t place(TextureHandle& h, std::uint32_t texture, std::uint64_t address) {
   auto words = h.words(texture);
-  require(address % 64 == 0,
-          "address " + std::to_string(address) + " is no multiple of 64, as bases are");
-  // The bases that are there may be what makes the descriptor invalid.
+  require(address % 64 == 0, "address " + std::to_string(address) + " is not a multiple of 64");
+  // Old bases must not make the descriptor invalid.
   std::fill(words.begin() + reg::kLevelBase / 4, words.end(), 0);
   const auto d = descriptor_of(words);
   if (const char* fault = texture::descriptor_fault(d))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a texture unit is to callers of other languages: a memory, descriptors by registers or by
-// names of their fields, and the model that is made of them.
+// A texture unit in the bindings to other languages: memory, descriptors by register or field name,
+// and the model made from them.
 #pragma once
 
 #include <array>
@@ -25,10 +25,10 @@ inline constexpr std::uint32_t kDescriptorWords =
     spec::texture::reg::kLevelBase / 4 + static_cast<std::uint32_t>(spec::texture::kMaxLevels);
 using DescriptorWords = std::array<std::uint32_t, kDescriptorWords>;
 
-// What the registers of a descriptor hold, masked as they are.
+// Decodes the registers of a descriptor, masked to their fields.
 spec::texture::Descriptor descriptor_of(const DescriptorWords& words);
 
-// After a reset a register of a descriptor is 0.
+// Descriptor registers are 0 after a reset.
 struct TextureHandle final : deburr_golden {
   static constexpr const char* kWanted = "texture";
 
@@ -57,7 +57,7 @@ struct TextureHandle final : deburr_golden {
     if (golden) golden->reset();
   }
 
-  // The model, made anew where a parameter or the memory has changed.
+  // The model; a changed parameter or memory creates a new one.
   texture::TextureGolden& model() {
     if (golden && !stale) return *golden;
     auto fresh = std::make_unique<texture::TextureGolden>(texts.values(), memory);
@@ -86,20 +86,20 @@ struct TextureHandle final : deburr_golden {
   std::unique_ptr<texture::TextureGolden> golden;
   bool stale = false;
   std::vector<Counter> shown;
-  // What a caller is told to do when bytes lie beyond the memory.
+  // The advice in the error about addresses beyond the memory.
   std::string_view remedy = "deburr_texture_memory makes it larger";
 };
 
-// ArgumentError for bytes beyond the memory; `what` is their name.
+// Throws ArgumentError for bytes beyond the memory; `what`: their name in the error.
 void require_in_memory(const TextureHandle& h, std::uint64_t address, std::uint64_t bytes,
                        const std::string& what);
-// As deburr_texture_memory, _register, _field, _check, _place and _level.
+// Implement deburr_texture_memory, _register, _field, _check, _place and _level.
 void resize_memory(TextureHandle& h, std::uint64_t bytes);
 void set_register(TextureHandle& h, std::uint32_t texture, std::uint32_t offset,
                   std::uint32_t word);
 void set_field(TextureHandle& h, std::uint32_t texture, std::string_view name,
                std::string_view text);
-// ConfigError where quads would be given zero.
+// Throws ConfigError for an invalid descriptor, whose quads would get zero.
 spec::texture::Descriptor valid_descriptor(TextureHandle& h, std::uint32_t texture);
 std::uint64_t place(TextureHandle& h, std::uint32_t texture, std::uint64_t address);
 void put_level(TextureHandle& h, std::uint32_t texture, std::uint32_t level,

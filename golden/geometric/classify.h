@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which edges are worth a line.
+// Classifies the edges of the mesh and tells which are drawn.
 //
-// First step; docs/reference/geometric/algorithm.md, "Classify". Paper 002, equations (1) to (4):
-// silhouettes are an exclusive or of facings, creases may be asked to break the shading, and what
-// is turned away need not be hidden.
+// First step; docs/reference/geometric/algorithm.md, "Classify". Paper 002, equations (1) to (4).
+// Silhouettes are the exclusive or of two facing bits, creases can be limited to those
+// that change the shading, and back edges can be kept.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace deburr::golden::geometric {
 
-// One bit a face, as it lies in memory.
+// Facing bits as stored in memory, one bit per face.
 struct FacingBits {
   std::span<const std::uint8_t> bytes;
   std::uint32_t count = 0;  // faces
   bool at(std::uint32_t face) const { return (bytes[face >> 3] >> (face & 7) & 1) != 0; }
 };
 
-// Whether what an edge refers to is there. Facing bits matter to `edges` alone.
+// Whether the indices of an edge are in range. Face indices are only checked with select = edges.
 constexpr bool are_vertices_there(std::uint32_t v0, std::uint32_t v1, std::uint32_t vertex_count) {
   return v0 < vertex_count && v1 < vertex_count;
 }
 bool are_faces_there(spec::geometric::Select select, const spec::geometric::Edge& edge,
                      std::uint32_t face_count);
 bool is_crease(spec::geometric::Crease crease, std::uint8_t flags);
-// The first class that holds.
+// Returns the first class whose condition holds.
 spec::geometric::EdgeClass classify(const spec::geometric::Configuration& configuration,
                                     const spec::geometric::Edge& edge, std::uint32_t vertex_count,
                                     const FacingBits& facing);
-// The same without a look at the vertices.
+// The same without the check of the vertex indices.
 spec::geometric::EdgeClass classify_faces(const spec::geometric::Configuration& configuration,
                                           const spec::geometric::Edge& edge,
                                           const FacingBits& facing);

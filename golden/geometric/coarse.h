@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The coarse test of depth, by the least depth of tiles of pixels:
+// Coarse depth test against the smallest depth of each 8 x 8 tile:
 // docs/reference/geometric/memory.md, "Coarse depth test".
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace deburr::golden::geometric {
 
-// Where the entries of tiles lie.
+// Layout of the tile entries in memory.
 class CoarseLayout {
  public:
   CoarseLayout() = default;
@@ -30,11 +30,11 @@ class CoarseLayout {
   static LineOfPixels line_of(const Tile& tile) {
     return {tile.x / spec::geometric::kCoarseAcross, tile.y / spec::geometric::kCoarseDown};
   }
-  // Bytes from the region's base.
+  // Offset in bytes from the base of the region.
   std::uint32_t offset_of(const LineOfPixels& line) const {
     return spec::geometric::kLineBytes * (line.v * lines_across_ + line.u);
   }
-  // Tiles row by row.
+  // Tiles are numbered row by row.
   std::size_t index_of(const Tile& tile) const { return std::size_t{tile.y} * columns_ + tile.x; }
   std::size_t tiles() const { return std::size_t{columns_} * rows_; }
   std::uint32_t columns() const { return columns_; }
@@ -44,7 +44,7 @@ class CoarseLayout {
   std::uint32_t columns_ = 0, rows_ = 0, lines_across_ = 0;
 };
 
-// What the driver writes of a depth buffer, by CoarseLayout::index_of().
+// The entries that the driver derives from a depth buffer, indexed by CoarseLayout::index_of().
 template <class View>
 std::vector<std::uint16_t> coarse_entries(const View& depth) {
   const CoarseLayout layout(depth.width, depth.height);
@@ -59,7 +59,7 @@ std::vector<std::uint16_t> coarse_entries(const View& depth) {
   return entries;
 }
 
-// Whether a line at depth d is behind all that an entry allows.
+// Whether a line at depth d fails the depth test everywhere in a tile with this entry.
 constexpr bool is_dropped(const spec::geometric::Configuration& configuration, std::uint32_t d,
                           std::uint16_t entry) {
   const std::uint32_t c = std::uint32_t{entry} << spec::geometric::kCoarseShift;

@@ -34,27 +34,25 @@ void check_frame(const spec::geometric::Parameters& p, const FrameCounts& counts
     case Rejection::kDisabled:
       return;
     case Rejection::kSize:
-      throw spec::ConfigError(frame + "; 1..8192 each way are possible");
+      throw spec::ConfigError(frame + "; width and height must be 1..8192");
     case Rejection::kWidth:
-      throw spec::ConfigError(frame + " does not fit rows of " + std::to_string(p.line_pixels) +
-                              " pixels; raise line_pixels");
+      throw spec::ConfigError(frame + " is wider than the row buffers of " +
+                              std::to_string(p.line_pixels) + " pixels; raise line_pixels");
     case Rejection::kTouchedWords:
       throw spec::ConfigError(frame + " needs " +
                               std::to_string(touched_words(counts.width, counts.height)) +
-                              " touched words, the build has " + std::to_string(p.touched_words) +
-                              "; raise touched_words");
+                              " touched words, but the build has " +
+                              std::to_string(p.touched_words) + "; raise touched_words");
     case Rejection::kEdgeCount:
-      throw spec::ConfigError(std::to_string(counts.edge_count) +
-                              " edges; at most 2^24 are possible");
+      throw spec::ConfigError(std::to_string(counts.edge_count) + " edges; the limit is 2^24");
     case Rejection::kVertexCount:
-      throw spec::ConfigError(std::to_string(counts.vertex_count) +
-                              " vertices; at most 2^24 are possible");
+      throw spec::ConfigError(std::to_string(counts.vertex_count) + " vertices; the limit is 2^24");
     case Rejection::kFaceCount:
       throw spec::ConfigError(std::to_string(counts.face_count) +
-                              " faces, the build holds the facing bits of " +
+                              " faces, but the build stores facing bits for " +
                               std::to_string(p.face_limit) + "; raise face_limit");
     case Rejection::kBoundaryCount:
-      throw spec::ConfigError(std::to_string(counts.boundary_count) + " boundaries of " +
+      throw spec::ConfigError(std::to_string(counts.boundary_count) + " boundary edges, but only " +
                               std::to_string(counts.edge_count) + " edges");
   }
 }

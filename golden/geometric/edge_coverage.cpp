@@ -57,7 +57,7 @@ std::string slash(std::initializer_list<std::string_view> parts) {
   return name;
 }
 
-// A class that the rules can give.
+// Whether this configuration can produce the class.
 bool reachable(Select select, Crease crease, EdgeClass c) {
   if (c == EdgeClass::kInvalid || c == EdgeClass::kBoundary) return true;
   if (select == Select::kAll) return c == EdgeClass::kUnclassified;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of the geometric engine: which situations the frames so far contained.
+// Functional coverage of the geometric engine: the situations that occurred in the frames so far.
 //
-// Counted by the golden, which knows every edge, line, candidate and block. Small named bins:
-//   class/<select>/<crease>/<class>      of edges
-//   turned-away/<cull>/<class>           of edges of two faces turned away
-//   line/<octant>/<length>               below a pixel, below four (the table's), longer
-//   fate/<fate>                          of kept edges that are no line
-//   columns/<cut>                        by the frame: at the start, at the end, both, none
-//   rows/<crossing>                      of the frame's rows along a line
-//   tie/<kind>                           a line exactly through a pixel's centre
-//   border/<border>                      a neighbour outside of it
-//   depth/<farther>/<outcome>            of the test against the farther pixel
-//   crease/<direction>/<limit>           of candidates of creases that passed that test
-//   second/<direction>/<block>           of second candidates: the first one's block or another
-//   weight/<direction>/<outcome>
-//   group/<end>                          what ended a group of columns
-//   fetch/<cache>/<outcome>              of look-ups, in what is kept on the chip besides, too
-//   coarse/<direction>/dropped           of the coarse test of depth; kept at equality; two tiles
+// The golden model counts, since it knows every edge, line, candidate and block. Bins:
+//   class/<select>/<crease>/<class>    edges
+//   turned-away/<cull>/<class>         edges between two back faces
+//   line/<octant>/<length>             shorter than 1 pixel, shorter than 4 (within the reciprocal
+//                                      table), longer
+//   fate/<fate>                        kept edges that give no line
+//   columns/<cut>                      lines cut by the frame: at the start, the end, both, none
+//   rows/<crossing>                    lines that enter or leave the rows of the frame
+//   tie/<kind>                         lines exactly through the centre of a pixel
+//   border/<border>                    candidates whose neighbour is outside the frame
+//   depth/<farther>/<outcome>          depth tests against the farther pixel
+//   crease/<direction>/<limit>         crease candidates that passed the depth test
+//   second/<direction>/<block>         second candidates: in the block of the first, or another
+//   weight/<direction>/<outcome>       updates of a weight
+//   group/<end>                        what ended a group of columns
+//   fetch/<cache>/<outcome>            lookups of every cache, of pairs and of the write buffer
+//   coarse/...                         coarse depth tests: dropped, kept at equality, two tiles
 //   resolve/<decision>, original/<where>
-//   lines/<layout>/<n>                   of colours of a block
-// Every bin can be reached (tb/unit/golden/geometric/coverage_test.cpp).
+//   lines/<layout>/<n>                 colour lines per block
+// Every bin is reachable (tb/unit/golden/geometric/coverage_test.cpp).
 #pragma once
 
 #include <array>
@@ -65,7 +66,7 @@ class EdgeCoverage {
   }
   void count_turned_away(spec::geometric::Cull cull, spec::geometric::EdgeClass c);
   void count_fate(LineFate fate) { ++fates_[index(fate)]; }
-  // Whether the ends of the edge from p to q were cut off by the frame, and its octant and length.
+  // Counts octant, length and the ends that the frame cuts off, of the edge from p to q.
   void count_line(const spec::geometric::Vertex& p, const spec::geometric::Vertex& q, int width,
                   int height);
   void count_tie(const spec::geometric::LineRecord& line);
@@ -93,13 +94,13 @@ class EdgeCoverage {
     ++block_lines_[index(layout)][lines];
   }
 
-  // Every bin that can be reached, hit or not, always in the same order.
+  // All reachable bins, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;
   void merge(const EdgeCoverage& other);
 
-  // Raster: four rows of a block and of its neighbours to one side, and a row above and below.
+  // Raster: four rows of the block, four of one side neighbour, one row above, one below.
   static constexpr std::size_t kMaxBlockLines = 10;
-  static constexpr std::size_t kMaxTiledLines = 5;  // itself and its neighbours
+  static constexpr std::size_t kMaxTiledLines = 5;  // the line of the block and its four neighbours
 
  private:
   template <class Enum>

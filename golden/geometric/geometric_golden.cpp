@@ -37,7 +37,7 @@ void check_view(const morphological::ViewOf<Pixel>& view, int width, int height,
                    std::to_string(width) + " x " + std::to_string(height));
 }
 
-// The few lines of a block, by v, then u.
+// Lines that a block needs (a handful), ordered by v, then u.
 class LineSet {
  public:
   void add(const LineOfPixels& line) {
@@ -120,7 +120,7 @@ void GeometricGolden::start(const FrameInput& input) {
   touched_.assign(blocks, 0);
   weights_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), {});
   if (split_) pairs_ = split_pairs(input.edges, boundaries, input.bases);
-  // Entries that are made from the depths drop nothing that they let pass.
+  // Entries derived from the depth buffer drop no visible candidate, so pixels do not need them.
   screen_ = parameters_.coarse_lines != spec::geometric::CoarseLines::kNone &&
             (follow_ || !input.coarse.empty());
   if (screen_ && input.coarse.empty()) {
@@ -162,7 +162,7 @@ void GeometricGolden::start_traffic() {
     kept_colours_.reset(layout_.bytes() / spec::geometric::kLineBytes, parameters_.colour_lines);
 }
 
-// Lines that memory cannot read are zeros.
+// A line that memory cannot read is all zeros.
 void GeometricGolden::read_with_errors() {
   const Bases& bases = input_.bases;
   constexpr std::uint32_t kLine = spec::geometric::kLineBytes;
@@ -285,7 +285,7 @@ void GeometricGolden::count_class(const Edge& edge, EdgeClass c) {
   }
 }
 
-// False if its number or a vertex is not there.
+// Returns false if the pair number or a vertex index is out of range.
 bool GeometricGolden::fetch_pair(std::size_t array, std::uint32_t number, Pair& pair) {
   PairArray& from = pairs_[array];
   const auto count = [&](PairFetch outcome) {
@@ -302,7 +302,7 @@ bool GeometricGolden::fetch_pair(std::size_t array, std::uint32_t number, Pair& 
   from.last_line = line;
   count(array == 0 ? (hit ? PairFetch::kBoundaryHit : PairFetch::kBoundaryMiss)
                    : (hit ? PairFetch::kOtherHit : PairFetch::kOtherMiss));
-  // After the array, where registers, flags and memory do not agree, nothing was written.
+  // An entry beyond the array (if registers, flags and memory disagree) was never written: zeros.
   pair = bad(address) || number >= from.pairs.size() ? Pair{} : from.pairs[number];
   const auto vertices = static_cast<std::uint32_t>(input_.vertices.size());
   if (are_vertices_there(pair.v0, pair.v1, vertices)) return true;
@@ -334,7 +334,7 @@ void GeometricGolden::walk(const LineRecord& line) {
   const int rows = horizontal ? height_ : width_;
   const bool test = parameters_.depth_test != spec::geometric::DepthTest::kOff;
   std::int64_t position = line.position, depth = line.depth;
-  int group_block = 0, group_size = 0;  // row of blocks, columns
+  int group_block = 0, group_size = 0;  // row of blocks; columns
   const int end = line.first + line.count;
   for (int c = line.first; c < end; ++c, position += line.slope, depth += line.depth_step) {
     const ColumnPoint at = point_at(position, depth);
@@ -421,7 +421,7 @@ bool GeometricGolden::is_dropped_early(int x, int y, int nx, int ny, Direction t
   if (two && CoarseLayout::line_of(other) != line) fetch_coarse(CoarseLayout::line_of(other));
   if (!everything_) return dropped;
   if (dropped) coverage_.count_dropped(to);
-  // The least depth that is not dropped.
+  // Exactly at the limit: a depth that is smaller by 1 would be dropped.
   if (!dropped && depth > 0 && is_dropped(parameters_, depth - 1, entry))
     coverage_.count_coarse_equal();
   if (first != second)
@@ -500,7 +500,7 @@ void GeometricGolden::write_block(std::uint64_t tag) {
       .push_back(block_address(DirectMapped::u_of(tag), DirectMapped::v_of(tag)));
 }
 
-// So that the resolve finds every block in the cache or in memory.
+// Afterwards the resolve finds every block in the cache or in memory.
 void GeometricGolden::empty_write_buffer() {
   const std::vector<std::uint64_t> blocks = write_buffer_.remaining();
   for (const std::uint64_t block : blocks) write_block(block);
@@ -539,7 +539,7 @@ void GeometricGolden::resolve_block(int bx, int by) {
       const Probe probe = probe_of(weights);
       const int dx = probe.left_right ? 1 : 0, dy = probe.left_right ? 0 : 1;
       const Rgba8& pixel = input_.image.at(x, y);
-      // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
+      // A neighbour without a weight may lie outside the frame; the pixel is used in its place.
       const Rgba8& first = probe.first != 0 ? input_.image.at(x - dx, y - dy) : pixel;
       const Rgba8& second = probe.second != 0 ? input_.image.at(x + dx, y + dy) : pixel;
       const Rgba8 blended = resolve(parameters_, probe, pixel, first, second);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Bit-exact reference of the whole geometric engine: edges, vertices, facing bits, depth and a
-// frame in, the smoothed frame out, with every intermediate result and the memory traffic.
+// Bit-exact reference of the geometric engine. Inputs: edges, vertices, facing bits, depth and a
+// frame. Outputs: the smoothed frame, every intermediate result and the memory traffic.
 //
 // No time, no SystemC, integers only (docs/reference/geometric/algorithm.md; paper 002). The steps
-// are functions: classify.h, line.h, resolve.h; where things lie and what is fetched: traffic.h.
-// GeometricGolden strings them together over a frame. An edge that is dropped costs a look at its
-// record, a line its columns, a touched block its pixels; nothing else of the frame is visited but
-// to copy it.
+// are functions in classify.h, line.h and resolve.h; memory layout and cache contents are in
+// traffic.h. GeometricGolden runs them over a frame. Run time depends on edges, columns of lines
+// and touched blocks; other pixels are only copied.
 #pragma once
 
 #include <cstdint>
@@ -30,57 +29,57 @@
 namespace deburr::golden::geometric {
 
 using ImageView = morphological::ViewOf<spec::geometric::Rgba8>;
-using DepthView = morphological::ViewOf<std::uint32_t>;  // U24 in bits 23..0, the rest is ignored
+using DepthView = morphological::ViewOf<std::uint32_t>;  // U24; bits 31..24 are ignored
 
-// What the engine finds in memory, and where. Views and spans are someone else's.
+// The contents of memory and their addresses. Views and spans are not owned.
 struct FrameInput {
-  ImageView image;  // its size is the frame's
-  DepthView depth;  // of the same size; may be empty with depth_test = off
+  ImageView image;  // defines the size of the frame
+  DepthView depth;  // same size; may be empty with depth_test = off
   std::span<const spec::geometric::Edge> edges;
   std::span<const spec::geometric::Vertex> vertices;
   FacingBits facing;
   Bases bases = {};
-  // BOUNDARY_COUNT; what the edges say, if it is not given. With split records alone.
+  // BOUNDARY_COUNT, split records only. Without a value: counted from the flags of the edges.
   std::optional<std::uint32_t> boundary_count = {};
-  // Coarse depth, by CoarseLayout::index_of(); what the depths say, if it is empty.
+  // Coarse depth, indexed by CoarseLayout::index_of(). Empty: derived from the depths.
   std::span<const std::uint16_t> coarse = {};
 };
 
 class GeometricGolden {
  public:
-  // kPixels: pixels, weights and work only; the fastest. kEverything: classes, lines, candidates,
-  // blocks, traffic and coverage too.
+  // kPixels: pixels, weights and work counters only; the fastest. kEverything: also classes, lines,
+  // candidates, blocks, traffic and coverage.
   enum class Detail { kPixels, kEverything };
 
   // Throws ConfigError (spec/geometric/check_build.h).
   explicit GeometricGolden(const spec::geometric::Parameters& parameters,
                            Detail detail = Detail::kEverything);
 
-  // The output frame, row by row without gaps; valid until the next call. Throws ConfigError for
-  // what the engine rejects at a start, CheckFailed for views that are smaller than they say.
+  // Returns the output frame, row by row without padding; valid until the next call. Throws
+  // ConfigError for a frame that the engine rejects at START, CheckFailed for views that are
+  // smaller than their size.
   const std::vector<spec::geometric::Rgba8>& process(const FrameInput& input);
 
-  // ---- of the last frame; index y * width + x -----------------------------------------------
+  // ---- Results of the last frame; index y * width + x ----------------------------------------
   int width() const { return width_; }
   int height() const { return height_; }
   const std::vector<spec::geometric::Rgba8>& pixels() const { return pixels_; }
   const std::vector<spec::geometric::Weights>& weights() const { return weights_; }
-  // Counters of this frame alone; hardware adds up until its counters are cleared.
+  // Counters of this frame only; the hardware accumulates them until its counters are cleared.
   const spec::geometric::Work& work() const { return work_; }
-  // With kEverything, else empty; each in order. Split records: an edge whose vertices are not
-  // there is invalid here, and counted in its class, too.
+  // Empty without kEverything; each in order. Split records: an edge with an invalid vertex index
+  // is listed as invalid here; its class counts it as well.
   const std::vector<spec::geometric::EdgeClass>& classes() const { return classes_; }
   const std::vector<spec::geometric::LineRecord>& lines() const { return lines_; }
   const std::vector<spec::geometric::Candidate>& candidates() const { return candidates_; }
   const std::vector<spec::geometric::BlockRecord>& blocks() const { return blocks_; }
   const Traffic& traffic() const { return traffic_; }
 
-  // ---- of all frames ------------------------------------------------------------------------
+  // ---- Results of all frames -----------------------------------------------------------------
   const EdgeCoverage& coverage() const { return coverage_; }
   void clear_coverage() { coverage_ = {}; }
 
-  // Line addresses whose reads and writes memory answers with an error: reads give zeros, writes
-  // are taken for done and store nothing.
+  // Line addresses whose accesses get an error response: reads return zeros, writes store nothing.
   using LinePredicate = std::function<bool(std::uint32_t address)>;
   void set_memory_errors(LinePredicate error) { error_ = std::move(error); }
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
@@ -130,7 +129,7 @@ class GeometricGolden {
 
   spec::geometric::Parameters parameters_;
   bool everything_;
-  bool follow_ = false;  // the caches, too
+  bool follow_ = false;  // models the caches
   int lanes_ = 1;
 
   FrameInput input_;
@@ -138,13 +137,13 @@ class GeometricGolden {
   FrameLayout layout_;
   std::vector<spec::geometric::Rgba8> pixels_;
   std::vector<spec::geometric::Weights> weights_;
-  std::vector<std::uint8_t> touched_;  // by block
+  std::vector<std::uint8_t> touched_;  // one per block
   spec::geometric::Work work_;
 
-  // With split records.
+  // Split records only.
   bool split_ = false;
   std::array<PairArray, 2> pairs_;
-  // With a coarse test.
+  // Coarse depth test only.
   bool screen_ = false;
   CoarseLayout coarse_layout_;
   std::vector<std::uint16_t> coarse_;
@@ -161,7 +160,7 @@ class GeometricGolden {
 
   LinePredicate error_;
   std::uint64_t memory_errors_ = 0;
-  // What is read where memory has errors.
+  // Inputs as read from memory with errors.
   std::vector<spec::geometric::Edge> read_edges_;
   std::vector<spec::geometric::Vertex> read_vertices_;
   std::vector<std::uint8_t> read_facing_;

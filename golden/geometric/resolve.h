@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// From four weights a pixel to its colour.
+// Computes the colour of a pixel from its four weights.
 //
 // Last step; docs/reference/geometric/algorithm.md, "Weights" and "Resolve". Paper 002, equation
-// (8); the arithmetic is the morphological engine's (golden/morphological/blend.h).
+// (8); the arithmetic is that of the morphological engine (golden/morphological/blend.h).
 #pragma once
 
 #include "spec/geometric/packets.h"
@@ -10,14 +10,14 @@
 
 namespace deburr::golden::geometric {
 
-// `nearer`: the pixel than the neighbour in this direction.
+// `nearer`: whether the pixel is nearer than its neighbour in this direction.
 void combine(spec::geometric::Combine rule, bool nearer, spec::geometric::Weights& weights,
              spec::geometric::Direction direction, std::uint8_t coverage);
 
-// The two weights that a pixel is blended with.
+// The two weights used for blending.
 struct Probe {
   bool left_right = false;
-  int first = 0, second = 0;  // of up and down, or of left and right
+  int first = 0, second = 0;  // up and down, or left and right
 };
 Probe probe_of(const spec::geometric::Weights& weights);
 constexpr bool is_blended(const spec::geometric::Weights& w) {

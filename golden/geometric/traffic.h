@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where things lie in memory, and which lines of it a frame reads and writes.
+// Memory layout, and the lines that a frame reads and writes.
 //
-// Beside the arithmetic: pixels do not depend on it, but for lines that memory cannot read.
+// Pixels do not depend on it, except where memory responds with errors.
 // docs/reference/geometric/memory.md, "What is in memory" and "Traffic".
 #pragma once
 
@@ -21,23 +21,23 @@ namespace deburr::golden::geometric {
 struct Bases {
   std::uint32_t edges = 0, vertices = 0, facing = 0, depth = 0, colour = 0, weights = 0, copy = 0;
   std::uint32_t pairs = 0, coarse = 0;
-  // Pairs of edges that are no boundary; where the driver puts them, after those of boundaries, if
-  // nothing else is said.
+  // Pairs of edges that are not boundaries. Without a value: after the pairs of the boundaries,
+  // where the driver puts them.
   std::optional<std::uint32_t> other_pairs = {};
 };
 
-// Lines that so many records fill.
+// Number of lines that hold this number of records.
 constexpr std::uint32_t lines_of(std::uint32_t records, std::uint32_t in_line) {
   return records / in_line + (records % in_line != 0 ? 1 : 0);
 }
 
-// A line of memory that holds sixteen pixels of one buffer: column and row of lines.
+// A memory line with sixteen pixels of a buffer, by column and row of lines.
 struct LineOfPixels {
   std::uint32_t u = 0, v = 0;
   friend bool operator==(const LineOfPixels&, const LineOfPixels&) = default;
 };
 
-// Where pixels and blocks lie relative to their bases.
+// Offsets of pixels and blocks from their base addresses.
 class FrameLayout {
  public:
   FrameLayout() = default;
@@ -47,7 +47,7 @@ class FrameLayout {
     const auto px = static_cast<std::uint32_t>(x), py = static_cast<std::uint32_t>(y);
     return tiled_ ? LineOfPixels{px >> 2, py >> 2} : LineOfPixels{px >> 4, py};
   }
-  // Bytes from the buffer's base.
+  // Offset in bytes from the base of the buffer.
   std::uint32_t offset_of(const LineOfPixels& line) const;
   std::uint32_t offset_of(int x, int y) const;
   std::uint32_t bytes() const { return bytes_; }
@@ -60,18 +60,18 @@ class FrameLayout {
 
  private:
   bool tiled_ = false;
-  std::uint32_t pitch_ = 0;  // raster: lines from row to row; tiled: tiles
+  std::uint32_t pitch_ = 0;  // raster: lines per row; tiled: tiles per row
   std::uint32_t bytes_ = 0;
   int block_columns_ = 0, block_rows_ = 0;
 };
 
-// Tags of a direct-mapped cache of lines with two coordinates. Of 2^bits lines, 2^column_bits are
-// told apart by u.
+// Tags of a direct-mapped cache whose lines have two coordinates: 2^bits lines, of whose index
+// 2^column_bits values come from u.
 class DirectMapped {
  public:
   static constexpr std::uint64_t kNothing = ~std::uint64_t{0};
   void reset(int bits, int column_bits);
-  // True if (u, v) is there. Else it takes its place, and `replaced` is what was there before.
+  // Returns true on a hit. A miss allocates (u, v); `replaced` is the previous tag.
   bool look_up(std::uint32_t u, std::uint32_t v, std::uint64_t& replaced) {
     std::uint64_t& tag = tags_[index(u, v)];
     const std::uint64_t wanted = tag_of(u, v);
@@ -97,11 +97,11 @@ class DirectMapped {
   std::uint32_t column_mask_ = 0, row_mask_ = 0;
   int column_bits_ = 0;
 };
-// Bits of the line's column in the index of a cache of 2^bits lines.
+// Index bits that come from the column, for a cache of 2^bits lines.
 int depth_column_bits(spec::geometric::Layout layout, int bits);
 int block_column_bits(int bits);
 
-// Lines of a buffer of which those that were read last are kept.
+// FIFO of the lines that were read last.
 class KeptLines {
  public:
   void reset(std::size_t lines, int kept) {
@@ -109,22 +109,22 @@ class KeptLines {
     reads_ = 0;
     kept_ = static_cast<std::uint32_t>(kept);
   }
-  // True if a line is kept, else it is read.
+  // Returns true if the line is held; otherwise it is read.
   bool look_up(std::size_t line) {
     std::uint32_t& read = read_[line];
     if (read != 0 && reads_ - read < kept_) return true;
     read = ++reads_;
     return false;
   }
-  // The next line that is read takes the place of another.
+  // Whether the next read replaces a line.
   bool is_full() const { return reads_ >= kept_; }
 
  private:
-  std::vector<std::uint32_t> read_;  // by line: how many lines were read with it; 0: none
+  std::vector<std::uint32_t> read_;  // by line: count of reads at its last read; 0: never read
   std::uint32_t reads_ = 0, kept_ = 0;
 };
 
-// Blocks that were replaced in their cache and are not yet in memory, by DirectMapped's tags.
+// Evicted blocks that are not yet written to memory, by the tags of DirectMapped.
 class WriteBuffer {
  public:
   static constexpr std::uint64_t kNothing = DirectMapped::kNothing;
@@ -133,11 +133,12 @@ class WriteBuffer {
     next_ = 0;
   }
   bool empty() const { return blocks_.empty(); }
-  // Takes `wanted` out and puts `replaced` in its place. False if `wanted` is not there.
+  // Removes `wanted` and stores `replaced` in its entry. Returns false if `wanted` is not present.
   bool exchange(std::uint64_t wanted, std::uint64_t replaced);
-  // Puts `replaced` in; what leaves for it, if anything. Without places that is `replaced`.
+  // Stores `replaced`; returns the block that is evicted for it, or kNothing. Without entries:
+  // `replaced`.
   std::uint64_t push(std::uint64_t replaced);
-  // What is left, in the order in which it leaves.
+  // The remaining blocks in the order of their eviction.
   std::vector<std::uint64_t> remaining() const;
 
  private:
@@ -145,7 +146,7 @@ class WriteBuffer {
   std::size_t next_ = 0;
 };
 
-// Addresses by region, reads and writes apart, each in order.
+// Line addresses by region, reads and writes separately, each in order.
 struct Traffic {
   using List = std::vector<std::uint32_t>;
   std::array<List, spec::geometric::kRegionNames.size()> reads, writes;
@@ -158,7 +159,7 @@ struct Traffic {
     return writes[static_cast<std::size_t>(region)];
   }
   void clear();
-  // Lines 0..count-1 from `base`.
+  // Appends lines 0..count-1 from `base`.
   static void append_lines(List& list, std::uint32_t base, std::uint32_t count);
 };
 

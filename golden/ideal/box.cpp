@@ -50,7 +50,7 @@ Colour box(const TextureImage& texture, const PixelFootprint& footprint, int n, 
   Colour total{};
   for (int j = 0; j < n; ++j) {
     const double q = (j + 0.5) / n - 0.5;
-    Sum sum;  // of one line of points: short enough for single precision
+    Sum sum;  // one row of points: few enough for single precision
     for (int i = 0; i < n; ++i) {
       const double p = (i + 0.5) / n - 0.5;
       const double s = footprint.s + p * footprint.s_x + q * footprint.s_y;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a pixel shows when its parallelogram in the texture is averaged with equal weights.
+// Average of the texture over the parallelogram of a pixel, with equal weights.
 //
-// Reference of texture quality: n x n points of the parallelogram, each read from level 0.
+// Reference for texture quality: n x n points of the parallelogram, each read from level 0.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ enum class Tap { kPoint, kBilinear };
 Colour box(const TextureImage& texture, const PixelFootprint& footprint, int n = 32,
            Tap tap = Tap::kBilinear);
 
-// One colour a footprint, in order.
+// One colour per footprint, in order.
 std::vector<Colour> box_image(const TextureImage& texture,
                               std::span<const PixelFootprint> footprints, int n = 32,
                               Tap tap = Tap::kBilinear);

@@ -10,7 +10,7 @@ namespace {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-// Differences of the channels, weighted as in luma; nothing is seen of what lies outside.
+// Differences of the channels, weighted as in luma; 0 if a pixel is outside the frame.
 double channel_step(const ColourFrame& frame, int x, int y, int to_x, int to_y) {
   const auto outside = [&](int px, int py) {
     return px < 0 || py < 0 || px >= frame.width || py >= frame.height;
@@ -25,8 +25,8 @@ double channel_step(const ColourFrame& frame, int x, int y, int to_x, int to_y) 
 
 // ---- shapes -------------------------------------------------------------------------------------
 
-// The edges of an axis: `along` lies below a pixel, `across` on its right. Turned, rows and columns
-// are exchanged.
+// The edges of an axis: `along` is below a pixel, `across` to its right. `turned` exchanges rows
+// and columns.
 struct Cmaa2Axis {
   const Cmaa2Edges& edges;
   bool turned;
@@ -34,7 +34,7 @@ struct Cmaa2Axis {
   bool across(int x, int y) const { return turned ? edges.has_below(y, x) : edges.has_right(x, y); }
 };
 
-// Pixels from x on over which the edge below row y goes on until something crosses it.
+// Number of pixels from x on, up to the first edge that crosses the edge below row y.
 int arm(const Cmaa2Axis& axis, int x, int y, int direction, int longest) {
   int length = 0;
   while (length < longest && axis.along(x + direction * length, y)) {
@@ -45,7 +45,7 @@ int arm(const Cmaa2Axis& axis, int x, int y, int direction, int longest) {
   return length;
 }
 
-// Colours that a pixel was given, of which its mean is taken; those of long steps count alone.
+// Sums of the colours that a pixel receives, for their mean. Colours of long steps replace others.
 class Samples {
  public:
   explicit Samples(std::size_t pixels) : simple_(pixels), steps_(pixels) {}
@@ -102,7 +102,8 @@ class Filter {
  private:
   Rgb colour(int x, int y) const { return scale_.decoded(frame_.at(x, y)); }
 
-  // Two edges that meet, three or four; a straight edge and the two of a thin line are left alone.
+  // For two edges that meet, three or four. A straight edge and the two edges of a thin line are
+  // not blended.
   void blend_corner(int x, int y) {
     const bool left = edges_.has_right(x - 1, y), right = edges_.has_right(x, y),
                above = edges_.has_below(x, y - 1), below = edges_.has_below(x, y);
@@ -124,10 +125,10 @@ class Filter {
     }
   }
 
-  // A step on the right of a pixel whose left arm lies below the pixel's row (side 1) or above it,
-  // and the right arm on the other side. A line from the middle of the left arm through that of the
-  // step to the middle of the right arm lies within the row: left of the step the row takes from
-  // the side of the left arm, right of it from the other.
+  // Blends a step to the right of pixel (x, y). Its left arm is below the row of the pixel (side 1)
+  // or above it (side -1), its right arm on the other side. The line from the middle of the left
+  // arm through the middle of the step to the middle of the right arm stays within the row: left of
+  // the step the row takes from the side of the left arm, right of it from the other side.
   void blend_step(const Cmaa2Axis& axis, int x, int y, int side) {
     const int left_row = side > 0 ? y : y - 1, right_row = side > 0 ? y - 1 : y;
     if (!axis.across(x, y) || !axis.along(x, left_row) || !axis.along(x + 1, right_row)) return;
@@ -137,10 +138,10 @@ class Filter {
     blend_arm(axis, x, y, -1, side, (left + 1) / 2);
     blend_arm(axis, x + 1, y, 1, -side, (right + 1) / 2);
   }
-  // The half of an arm that lies at the step, from the step's pixel on.
+  // Blends the half of an arm next to the step, starting at the pixel of the step.
   void blend_arm(const Cmaa2Axis& axis, int x, int y, int direction, int side, int half) {
     for (int i = 0; i < half; ++i) {
-      const double left = half - i - 0.5 - settings_.symmetry;  // to where the line meets the arm
+      const double left = half - i - 0.5 - settings_.symmetry;  // up to where line and arm meet
       add_step(axis, x + direction * i, y, side, left / (half - settings_.symmetry) / 2);
     }
   }
@@ -167,7 +168,8 @@ Cmaa2Edges cmaa2_edges(const ColourFrame& frame, const Cmaa2Settings& settings) 
   edges.height = frame.height;
   edges.right.resize(frame.pixels.size());
   edges.below.resize(frame.pixels.size());
-  // Steps are whole thousandths of codes: a rounded sum must not lose an edge at the threshold.
+  // Steps are multiples of 1/1000 of a code; rounding of sums must not lose an edge at the
+  // threshold.
   const auto edge = [&](double own, std::initializer_list<double> crossing) {
     constexpr double kRounding = 1e-12;
     return own - settings.contrast_adaptation * std::max(crossing) > settings.threshold - kRounding;

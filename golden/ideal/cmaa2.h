@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Conservative morphological anti-aliasing 2 in real numbers: edges between pixels, a small blend
-// of every corner, and long steps blended between the middles of their two arms.
+// at every corner, and long steps blended between the middles of their two arms.
 //
-// For comparison with the engine's presets (docs/measurements/morphological_quality.md); nothing is
-// built from it. Written from the published descriptions (F. Strugar and A. Lake, Conservative
+// For comparison with the engine's presets (docs/measurements/morphological_quality.md); no
+// hardware implements it. Source: the published descriptions (F. Strugar and A. Lake, Conservative
 // Morphological Anti-Aliasing 2.0, Intel, 2018, and the patent application US 2015/0093026), not
-// from the code that came with them. What they leave open is chosen here, for the best figures: the
-// weights of simple shapes, that no further edge at a step makes it none, and that either arm rises
-// to a half for itself. Edges outside of the frame are none.
+// the published code. Chosen here for the best results, since they leave it open: the weights of
+// simple shapes; a step stays a step if further edges meet it; each arm rises to a half
+// independently. There are no edges outside the frame.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +18,18 @@
 namespace deburr::golden::ideal {
 
 struct Cmaa2Settings {
-  double threshold = 0.05;  // share of full scale; the published qualities: 0.15, 0.1, 0.07, 0.05
-  // An edge is weakened by this share of the strongest one that crosses an end of it.
+  double threshold = 0.05;  // fraction of full scale; published qualities: 0.15, 0.1, 0.07, 0.05
+  // An edge is reduced by this fraction of the strongest edge that crosses one of its ends.
   double contrast_adaptation = 0.1;
-  // What a corner's pixel takes of each neighbour across its two, three or four edges.
+  // Weight of each neighbour across the two, three or four edges of a corner pixel.
   double corner = 0.1, tip = 0.1, dot = 0.1;
-  int least_arms = 5;        // pixels of both arms of a long step
+  int least_arms = 5;        // pixels; both arms of a long step together
   int longest_arm = 86;      // pixels
-  double symmetry = 0.22;    // pixels by which either end of a long step's line moves inwards
-  bool linear_light = true;  // blend; edges are found on codes
+  double symmetry = 0.22;    // pixels by which each end of a long step's line moves inwards
+  bool linear_light = true;  // for blending; edges are detected on codes
 };
 
-// Which pixels have an edge on their right, and which below them.
+// Pixels with an edge to their right, and pixels with an edge below them.
 struct Cmaa2Edges {
   std::vector<bool> right, below;
   int width = 0, height = 0;
@@ -45,7 +45,7 @@ struct Cmaa2Edges {
 };
 Cmaa2Edges cmaa2_edges(const ColourFrame& frame, const Cmaa2Settings& settings = {});
 
-// The filtered frame; alpha stays.
+// Returns the filtered frame; alpha is unchanged.
 std::vector<Rgba8> cmaa2(const ColourFrame& frame, const Cmaa2Settings& settings = {});
 
 }  // namespace deburr::golden::ideal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame of stored codes as the reference filters read it, and averages of its colours, in linear
+// Frame of stored codes, as the reference filters read it, and averages of its colours in linear
 // light (sRGB) or in codes.
 #pragma once
 
@@ -23,16 +23,16 @@ struct ColourFrame {
            static_cast<std::size_t>(x);
   }
   const Rgba8& at(int x, int y) const { return pixels[index(x, y)]; }
-  // Outside the frame its border repeats.
+  // Outside the frame: the nearest pixel.
   const Rgba8& clamped(int x, int y) const {
     return at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
   }
 };
 
-// Thousandths of a code, 0..255000: with whole numbers sums do not depend on their order.
+// In units of 1/1000 of a code, 0..255000: integers, so sums do not depend on their order.
 inline int luma_of(const Rgba8& pixel) { return 299 * pixel[0] + 587 * pixel[1] + 114 * pixel[2]; }
 
-// What a code stands for, and back to the nearest code.
+// Converts codes to light (or to code values), and back to the nearest code.
 class ColourScale {
  public:
   explicit ColourScale(bool linear_light);

@@ -16,8 +16,8 @@ struct PolygonPoint {
 
 }  // namespace
 
-// Clips the square and takes the area of the polygon that is left; coordinates are relative to the
-// pixel, so nothing cancels far from the origin.
+// Clips the square and returns the area of the remaining polygon. Coordinates are relative to the
+// pixel, so no digits cancel far from the origin.
 double coverage(const HalfPlane& h, double x, double y) {
   const HalfPlane local{h.a, h.b, h.at(x, y)};
   constexpr std::array<PolygonPoint, 4> kCorners = {{{1, 0}, {1, 1}, {0, 1}, {0, 0}}};
@@ -41,8 +41,8 @@ double coverage(const HalfPlane& h, double x, double y) {
   return std::clamp(std::abs(twice) / 2, 0.0, 1.0);
 }
 
-// Integrates the length of the pixel's columns inside the circle, piecewise: between the places
-// where the circle crosses the pixel's upper and lower side the length is a constant, or runs along
+// Integrates the length of the pixel's columns inside the circle, piecewise: between the points
+// where the circle crosses the upper and lower side of the pixel, the length is constant or follows
 // the circle.
 double disc_coverage(const Disc& disc, double x, double y) {
   const double r = disc.radius, left = std::max(x - disc.x, -r),
@@ -57,7 +57,7 @@ double disc_coverage(const Disc& disc, double x, double y) {
     cuts[next++] = std::clamp(at, left, right);
   }
   std::sort(cuts.begin(), cuts.end());
-  // The integral of the circle's height from the middle to t.
+  // Integral of the height of the circle, from its centre to t.
   const auto area = [r](double t) {
     return (t * std::sqrt(std::max(0.0, r * r - t * t)) + r * r * std::asin(t / r)) / 2;
   };
@@ -67,7 +67,7 @@ double disc_coverage(const Disc& disc, double x, double y) {
     if (b <= a) continue;
     const double middle = (a + b) / 2, height = std::sqrt(std::max(0.0, r * r - middle * middle));
     const double under_arc = area(b) - area(a);
-    // In the middle of the circle it may touch a side that it does not cross.
+    // In the middle of a piece, the circle may touch a side without crossing it.
     const double top = height <= high ? under_arc : high * (b - a);
     const double bottom = -height >= low ? -under_arc : low * (b - a);
     if (height > low && -height < high) sum += top - bottom;
@@ -88,7 +88,7 @@ StepLine fitted(std::span<const StepCorner> corners) {
     variance += (c.index - mean_index) * (c.index - mean_index);
   }
   const double pixels_a_step = covariance / variance;
-  // Corner i lies at height i - 1/2, so height 0 at index 1/2.
+  // Corner i has height i - 1/2, so height 0 is at index 1/2.
   return {1 / pixels_a_step, mean_position - pixels_a_step * (mean_index - 0.5)};
 }
 

@@ -32,14 +32,15 @@ Colour bilinear(const TextureImage& texture, double s, double t, int k) {
 }  // namespace
 
 Ellipse ellipse(const PixelFootprint& f) {
-  // Eigenvalues of J J^T, which has s s, s t and t t of both columns.
+  // Eigenvalues of J J^T, whose elements are the products s s, s t and t t summed over both
+  // columns.
   const double ss = f.s_x * f.s_x + f.s_y * f.s_y, tt = f.t_x * f.t_x + f.t_y * f.t_y;
   const double st = f.s_x * f.t_x + f.s_y * f.t_y;
   const double middle = (ss + tt) / 2, radius = std::hypot((ss - tt) / 2, st);
   const double angle = std::atan2(2 * st, ss - tt) / 2;
   Ellipse result;
   result.d_max = std::sqrt(middle + radius);
-  // The product of the lengths is |det J|: the difference of the eigenvalues would lose its digits.
+  // The product of the lengths is |det J|. The difference of the eigenvalues would lose digits.
   const double area = std::abs(f.s_x * f.t_y - f.t_x * f.s_y);
   result.d_min = result.d_max > 0 ? area / result.d_max : 0;
   result.major_s = result.d_max * std::cos(angle);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ellipse that a round pixel is in the texture, and filtering along it in real arithmetic: what
-// candidate axes, shift-add lengths and table logarithms stand in for.
+// The exact ellipse of a round pixel in the texture, and filtering along it in real arithmetic: the
+// reference for candidate axes, shift-add lengths and table logarithms.
 //
 // Its axes are the singular vectors of the Jacobian whose columns are the steps along row and
 // column (P. Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989). Double precision.
@@ -16,21 +16,21 @@
 namespace deburr::golden::ideal {
 
 struct Ellipse {
-  double d_max = 0, d_min = 0;  // lengths of the axes in texels, as a pixel's sides are measured
-  double major_s = 0, major_t = 0;  // the major axis, of length d_max
+  double d_max = 0, d_min = 0;  // lengths of the axes in texels, in the measure of the pixel sides
+  double major_s = 0, major_t = 0;  // major axis, of length d_max
 };
 Ellipse ellipse(const PixelFootprint& footprint);
 
-// A point of the texture at level l: bilinear of two levels, linear between them. l <= 0: level 0.
+// Samples the texture at level l: bilinear in two levels, linear between them. l <= 0: level 0.
 Colour trilinear(const TextureImage& texture, double s, double t, double l);
 
-// The unit's rules (docs/reference/texture/formats.md) with the true ellipse instead of candidate
-// axes, exact logarithms and unrounded weights: N trilinear samples of equal weight along the major
-// axis.
+// The rules of the unit (docs/reference/texture/formats.md) with the exact ellipse instead of
+// candidate axes, exact logarithms and unrounded weights: N trilinear samples of equal weight along
+// the major axis.
 Colour along_ellipse(const TextureImage& texture, const spec::texture::Parameters& parameters,
                      const spec::texture::Descriptor& descriptor, const PixelFootprint& footprint);
 
-// One colour a footprint, in order.
+// One colour per footprint, in order.
 std::vector<Colour> ellipse_image(const TextureImage& texture,
                                   const spec::texture::Parameters& parameters,
                                   const spec::texture::Descriptor& descriptor,

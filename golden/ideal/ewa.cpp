@@ -9,7 +9,7 @@
 namespace deburr::golden::ideal {
 namespace {
 
-// Q(u, v) = a u^2 + b u v + c v^2, scaled so that Q = 1 is the ellipse that r = 1 maps to.
+// Q(u, v) = a u^2 + b u v + c v^2, scaled so that Q = 1 is the image of r = 1.
 struct Conic {
   double a, b, c;
 };
@@ -22,7 +22,7 @@ Conic conic(const PixelFootprint& f, double reconstruction) {
   return {a * scale, b * scale, c * scale};
 }
 
-// Area of the ellipse Q <= r^2 of this footprint in texels of its level.
+// Area of the ellipse Q <= r^2 of a footprint, in texels of its level.
 double ellipse_area(const Conic& q, double radius) {
   return std::numbers::pi * radius * radius / std::sqrt(q.a * q.c - q.b * q.b / 4);
 }
@@ -47,8 +47,8 @@ Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
   const TextureImage::Level& level = texture.level(k);
   const auto width = static_cast<std::size_t>(level.width);
 
-  // Row by row: u from the roots of Q(u, v) = r^2. Along a row the exponent is a parabola, so each
-  // weight follows from the last by two products.
+  // Row by row, with u from the roots of Q(u, v) = r^2. Along a row the exponent is a parabola, so
+  // two products give each weight from the previous one.
   const double limit = options.radius * options.radius;
   const double tallest = std::sqrt(limit * q.a / (q.a * q.c - q.b * q.b / 4));
   const auto first_row = static_cast<std::int64_t>(std::ceil(f.t - 0.5 - tallest));
@@ -81,7 +81,7 @@ Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
       ratio *= curvature;
     }
   }
-  if (weights <= 0) return box(texture, footprint, 1);  // no texel's centre is inside
+  if (weights <= 0) return box(texture, footprint, 1);  // the ellipse contains no texel centre
   for (double& channel : sum) channel /= weights;
   return sum;
 }

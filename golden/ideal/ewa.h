@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Elliptical weighted average with a Gaussian, the reference of texture quality that papers use.
+// Elliptical weighted average (EWA) with a Gaussian, the usual reference for texture quality.
 //
 // P. Heckbert, Fundamentals of Texture Mapping and Image Warping, 1989, section 3.5: a Gaussian
-// pixel filter mapped to the texture, convolved with a Gaussian that reconstructs the texture.
-// Summed over every texel of level 0 inside the ellipse; no table, no approximate level.
+// pixel filter mapped to the texture, convolved with a Gaussian that reconstructs the texture. The
+// sum covers every texel of level 0 inside the ellipse; no table, no approximate level.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@
 namespace deburr::golden::ideal {
 
 struct EwaOptions {
-  double alpha = 2;   // weight exp(-alpha r^2), r = 1: the ellipse of the footprint
+  double alpha = 2;   // weight exp(-alpha r^2); r = 1 is the ellipse of the footprint
   double radius = 1;  // the sum ends at this r; Heckbert: 1
-  // Subtract the weight at the radius, so that the filter ends without a step (as pbrt does).
+  // Subtract the weight at the radius, so that the filter ends without a step (as in pbrt).
   bool taper = false;
-  double reconstruction = 1;  // variance of the reconstruction filter added, texel^2
-  // More texels than this in an ellipse: read the first level where there are fewer.
+  double reconstruction = 1;  // variance of the added reconstruction filter, texel^2
+  // If an ellipse has more texels than this: read the first level where it has fewer.
   double most_texels = 1 << 20;
 };
 
-// The three Gaussians that go by the name of EWA, narrow to wide. A picture's distance from "EWA"
-// depends more on which one is meant than on the filter under test (standard deviations in pixels:
-// 0.35, 0.37, 0.41).
-inline constexpr EwaOptions kEwaGaussian{.alpha = 4, .radius = 1.9};  // whole, cut below 1e-6
+// Three Gaussians that are called EWA, from narrow to wide (standard deviations in pixels: 0.35,
+// 0.37, 0.41). The distance of a picture from "EWA" depends more on the choice of one than on the
+// filter under test.
+inline constexpr EwaOptions kEwaGaussian{.alpha = 4, .radius = 1.9};  // complete: cut below 1e-6
 inline constexpr EwaOptions kEwaTapered{.taper = true};
 inline constexpr EwaOptions kEwaHeckbert{};
 
 Colour ewa(const TextureImage& texture, const PixelFootprint& footprint,
            const EwaOptions& options = {});
 
-// One colour a footprint, in order.
+// One colour per footprint, in order.
 std::vector<Colour> ewa_image(const TextureImage& texture,
                               std::span<const PixelFootprint> footprints,
                               const EwaOptions& options = {});

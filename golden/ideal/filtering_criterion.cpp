@@ -23,7 +23,7 @@ bool uses_base_level(spec::texture::MinFilter filter) {
          filter == spec::texture::MinFilter::kLinear;
 }
 
-// GL's texture image address of texel index i in a row of `size`.
+// GL's address of texel index i in a row of `size`.
 int wrap_index(spec::texture::Wrap wrap, std::int64_t i, int size) {
   const auto modulo = [](std::int64_t value, std::int64_t period) {
     const std::int64_t r = value % period;
@@ -42,7 +42,7 @@ int wrap_index(spec::texture::Wrap wrap, std::int64_t i, int size) {
   return 0;
 }
 
-// ceil(l + 1/2) - 1, GL's rounding for *_MIPMAP_NEAREST, kept to the levels present.
+// ceil(l + 1/2) - 1, GL's rounding for *_MIPMAP_NEAREST, limited to the existing levels.
 int nearest_level(double lod, int last) {
   const double level = std::ceil(std::max(lod, 0.0) + 0.5) - 1.0;
   return static_cast<int>(std::clamp(level, 0.0, static_cast<double>(last)));
@@ -54,7 +54,7 @@ Rgba lerp(const Rgba& a, const Rgba& b, double f) {
   return r;
 }
 
-// Four texels around a sample and the range of the two fractions that may be used between them.
+// Four texels around a sample and the range of the two fractions allowed between them.
 struct Cell {
   std::array<Rgba, 4> texel;  // 00, 10, 01, 11
   Interval a{0.0, 0.0}, b{0.0, 0.0};
@@ -65,13 +65,13 @@ struct Cell {
   }
 };
 
-// The positions in texels that a sampler of the given accuracy may compute for one coordinate.
+// The positions in texels that a sampler of the given accuracy may compute for a coordinate.
 Interval texel_positions(double coordinate, int size, double relative, double absolute) {
   const double error = std::abs(coordinate) * relative;
   return {(coordinate - error) * size - absolute, (coordinate + error) * size + absolute};
 }
 
-// Every cell that the coordinate error can reach, with the fractions reachable inside each.
+// Every cell within the coordinate error, with the possible fractions in each.
 std::vector<Cell> cells_in_reach(const Level& level, const Sampler& sampler,
                                  const Fragment& fragment, const Precision& precision,
                                  bool linear) {
@@ -109,11 +109,11 @@ std::vector<Cell> cells_in_reach(const Level& level, const Sampler& sampler,
   return cells;
 }
 
-// The search for a point of a box of weights whose colour lies in a cube around the target.
+// Searches a box of weights for a point whose colour is in a cube around the target.
 //
 // The colour is bilinear in (a, b) at either level and linear in the level fraction f, so it is
-// linear in each of five weights: over a box of weights it stays inside the convex hull of its
-// values at the corners. A box whose hull misses the cube holds no legal point.
+// linear in each of five weights: over a box of weights it is inside the convex hull of its values
+// at the corners. A box whose hull misses the cube contains no legal point.
 class Search {
  public:
   Search(const Rgba& target, double tolerance, int max_boxes)
@@ -127,7 +127,7 @@ class Search {
   }
 
  private:
-  using Weights = std::array<Interval, 5>;  // a, b of the fine level; a, b of the coarse; f
+  using Weights = std::array<Interval, 5>;  // a, b of the fine level; a, b of the coarse level; f
 
   // Corner colours of a box: the hull is {(1 - f) p_i + f q_j}.
   struct Hull {
@@ -162,14 +162,14 @@ class Search {
     return worst;
   }
 
-  // Whether some hyperplane certainly separates the hull from the cube. Walks a point of the hull
+  // Whether a hyperplane certainly separates the hull from the cube. Moves a point of the hull
   // towards the cube (Frank-Wolfe) and tests the direction of each step.
   bool separated(const Hull& hull) const {
     Rgba point =
         lerp(lerp(hull.p[0], hull.p[3], 0.5), lerp(hull.q[0], hull.q[3], 0.5), middle(hull.f));
     for (int step = 0; step < 12; ++step) {
       Rgba direction;
-      double cube = 0.0;  // least value of direction . x over the cube
+      double cube = 0.0;  // minimum of direction . x over the cube
       double square = 0.0;
       for (std::size_t c = 0; c < 4; ++c) {
         const double nearest =
@@ -192,7 +192,7 @@ class Search {
       const Rgba near_end = lerp(p, q, hull.f.low);
       const Rgba far_end = lerp(p, q, hull.f.high);
       const Rgba& support = dot(near_end) > dot(far_end) ? near_end : far_end;
-      // A margin keeps rounding errors from dropping a box that touches the cube.
+      // The margin keeps rounding errors from dropping a box that touches the cube.
       if (dot(support) < cube - 1e-9 * (1.0 + std::abs(cube))) return true;
       double along = 0.0;
       double length = 0.0;
@@ -206,7 +206,7 @@ class Search {
     return false;
   }
 
-  // How far the colour can move when weight `i` crosses its interval.
+  // Largest change of the colour when weight `i` crosses its interval.
   static double influence(const Cell& fine, const Cell* coarse, const Hull& hull, const Weights& w,
                           std::size_t i) {
     const double width = w[i].high - w[i].low;
@@ -273,7 +273,7 @@ class Search {
       Weights lower = w;
       Weights upper = w;
       lower[widest].high = upper[widest].low = middle(w[widest]);
-      // The half whose middle is nearer is tried first: right results are found at once.
+      // The half whose middle is nearer is tried first, so correct colours are found quickly.
       const auto colour = [&](const Weights& x) {
         const Rgba near_colour = fine.at(middle(x[0]), middle(x[1]));
         return coarse == nullptr

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Checks a filtered colour as the Khronos conformance tests do: it is right when SOME sub-texel
-// weights and SOME level of detail inside the tolerated intervals explain all four channels
-// together. Real arithmetic; written from the description in
+// Checks a filtered colour by the rule of the Khronos conformance tests: it is right if SOME
+// sub-texel weights and SOME level of detail within the tolerated intervals explain all four
+// channels together. Real arithmetic; written from the description in
 // docs/measurements/filtering_conformance.md.
 //
-// Where it sits: above the golden model. The golden and the hardware model are compared bit for
-// bit; whether the bits are a legal texture filter at all is decided here.
+// It checks the golden model: the RTL model is compared with the golden model bit for bit, and this
+// criterion decides whether those bits are a legal texture filter.
 //
-// The question "does a legal point exist" is answered by interval bounding: a box of weights is
-// dropped only when no colour in it can be the result, accepted only when a colour in it is, and
-// split otherwise. Both answers are therefore certain, to within kResolution of an 8-bit step; the
-// test filtering_criterion_test compares them with brute force.
+// Interval bounding decides whether a legal point exists: a box of weights is dropped only if no
+// colour in it can be the result, accepted only if a colour in it is, and split otherwise. So both
+// answers are certain, to within kResolution of an 8-bit step; filtering_criterion_test compares
+// them with brute force.
 //
-// Units: coordinates and derivatives are normalised (1 = the whole texture), a derivative is per
+// Units: coordinates and derivatives are normalised (1 = the whole texture), derivatives are per
 // pixel; colours are 0..255, linear light; tolerances are in 8-bit steps.
 #pragma once
 
@@ -44,14 +44,14 @@ struct Sampler {
   double lod_bias = 0.0, min_lod = 0.0, max_lod = 12.0;
 };
 
-// One fragment: its coordinates and the four derivatives.
+// The coordinates and the four derivatives of a fragment.
 struct Fragment {
   double s = 0.0, t = 0.0;
   double ds_dx = 0.0, dt_dx = 0.0, ds_dy = 0.0, dt_dy = 0.0;
 };
 
-// Accuracy that a filter must have. Coordinates and derivatives are relative (a mantissa of so many
-// bits), sub-texel position and level of detail are absolute: 2^-bits.
+// Required accuracy of a filter. Coordinates and derivatives are relative (bits of the mantissa),
+// sub-texel position and level of detail are absolute: 2^-bits.
 struct Precision {
   std::string_view name;
   int coordinate_bits, subtexel_bits, derivative_bits, lod_bits;
@@ -60,7 +60,7 @@ inline constexpr Precision kPrecisionHigh{"high", 20, 7, 18, 6};  // OpenGL ES 3
 inline constexpr Precision kPrecisionLow{"low", 20, 4, 18, 4};    // the same, "quality warning"
 inline constexpr Precision kPrecisionGles2{"gles2", 9, 5, 7, 4};
 
-// Colours: N - 1 accurate bits of 8 where nothing is interpolated, else N - 2.
+// N - 1 of 8 bits accurate without interpolation, else N - 2.
 inline constexpr double kNearestTolerance = 255.0 / 128.0;
 inline constexpr double kFilteredTolerance = 255.0 / 64.0;
 double colour_tolerance(const Sampler& sampler);
@@ -69,14 +69,14 @@ struct Interval {
   double low, high;
 };
 
-// The level of detail that a legal filter may use, before the choice of magnification or
-// minification: lb rho for rho between max(m_u, m_v) and sqrt(2) (m_u + m_v), where m_u and m_v are
-// the larger of the x and y derivatives in texels of level 0; biased, widened by the precision's
-// derivative and LOD bits, and clamped. -infinity where the derivatives vanish.
+// Range of legal levels of detail, before the choice of magnification or minification: lb rho for
+// rho between max(m_u, m_v) and sqrt(2) (m_u + m_v), where m_u and m_v are the larger of the x and
+// y derivatives in texels of level 0; then biased, widened by the derivative and LOD bits of the
+// precision, and clamped. -infinity if the derivatives are zero.
 Interval legal_lod(const Texture& texture, const Sampler& sampler, const Fragment& fragment,
                    const Precision& precision);
 
-// Largest error of an answer of `Criterion`, in 8-bit steps.
+// Maximum error of an answer of `Criterion`, in 8-bit steps.
 inline constexpr double kResolution = 1.0 / 1024.0;
 
 class Criterion {
@@ -88,11 +88,12 @@ class Criterion {
   // Whether a legal colour lies within `tolerance` of `colour` in every channel.
   bool reachable(const Fragment& fragment, const Rgba& colour, double tolerance) const;
 
-  // The distance (largest channel) from `colour` to the nearest legal colour, or `floor` when that
-  // is larger; correct to 1/64 step.
+  // The distance (largest channel) from `colour` to the nearest legal colour, but at least `floor`;
+  // accurate to 1/64 step.
   double deviation(const Fragment& fragment, const Rgba& colour, double floor = 0.0) const;
 
-  // Questions given up (and answered "not reachable") after kMaxBoxes boxes; expected to stay 0.
+  // Number of searches that gave up after kMaxBoxes boxes and returned "not reachable"; expected:
+  // 0.
   std::int64_t undecided() const { return undecided_; }
   static constexpr int kMaxBoxes = 1 << 20;
 
@@ -103,8 +104,8 @@ class Criterion {
   mutable std::int64_t undecided_ = 0;
 };
 
-// The colour of an ideal filter: exact weights, rho = max of the two exact footprint lengths, the
-// switch to magnification at 0. One sample, no anisotropy.
+// The colour of an ideal filter: exact weights, rho = maximum of the two exact footprint lengths,
+// magnification from 0 on. One sample, no anisotropy.
 Rgba exact_colour(const Texture& texture, const Sampler& sampler, const Fragment& fragment);
 
 enum class Verdict { kHigh, kLow, kFail };
@@ -118,19 +119,18 @@ class Checker {
 
   void add(const Fragment& fragment, const Rgba& colour);
 
-  // kHigh when every colour was within tolerance at high precision, else kLow when every one was at
-  // low precision, else kFail.
+  // kHigh if every colour was within tolerance at high precision, else kLow if every one was at low
+  // precision, else kFail.
   Verdict verdict() const;
-  // Largest distance to the nearest legal colour at high precision, in 8-bit steps; at least 1/2
-  // where any fragment was added, since finer differences are rounding.
+  // Largest distance to the nearest legal colour at high precision, in 8-bit steps; at least 1/2 if
+  // a fragment was added, since smaller differences are rounding.
   double deviation() const { return high_worst_; }
-  // The same at low precision, over the fragments that high precision rejected; 0 when there are
-  // none.
+  // The same at low precision, over the fragments rejected at high precision; 0 without any.
   double low_deviation() const { return low_worst_; }
   const Fragment& worst() const { return worst_; }
   const Rgba& worst_colour() const { return worst_colour_; }
   std::int64_t fragments() const { return fragments_; }
-  std::int64_t rejected() const { return rejected_; }  // fragments that high precision rejected
+  std::int64_t rejected() const { return rejected_; }  // fragments rejected at high precision
   std::int64_t undecided() const { return high_.undecided() + low_.undecided(); }
 
  private:

@@ -72,14 +72,14 @@ double mean_square_level_error(double alpha) {
 }
 
 double largest_level_error(double alpha) {
-  // Extreme at the ends or where the derivative vanishes: tan(angle) = alpha.
+  // The extremes are at the ends or where the derivative is zero: tan(angle) = alpha.
   return std::max({std::abs(level_error(alpha, 0)), std::abs(level_error(alpha, std::atan(alpha))),
                    std::abs(level_error(alpha, std::numbers::pi / 4))});
 }
 
 double best_alpha() {
-  // f(alpha) = alpha^2 / 3 - 2 p alpha + q is smallest at 3 p, p = integral of k (sqrt(1 + k^2) -
-  // 1).
+  // f(alpha) = alpha^2 / 3 - 2 p alpha + q has its minimum at 3 p, p = integral of k (sqrt(1 + k^2)
+  // - 1).
   return 3 * mean(0, 1, [](double k) { return k * (std::sqrt(1 + k * k) - 1); });
 }
 

@@ -8,8 +8,8 @@
 namespace deburr::golden::ideal {
 namespace {
 
-// Luma around a pixel, `along` to the right of the edge's axis and `across` it downwards, whichever
-// axis that is.
+// Luma around a pixel, in the coordinates of its edge: `along` it (right; vertical edge: down) and
+// `across` it (down; vertical edge: right).
 class Surroundings {
  public:
   Surroundings(const ColourFrame& frame, int x, int y, bool horizontal)
@@ -19,14 +19,14 @@ class Surroundings {
                        : frame_.clamped(x_ + across, y_ + along);
   }
   int luma(int along, int across) const { return luma_of(pixel(along, across)); }
-  // Luma on the line between the pixel's row and the one on its `side`, filtered between pixels:
-  // steps are multiples of a half, so that this is exact.
+  // Luma on the border between the pixel's row and the row on its `side`, interpolated between
+  // pixels. Steps are multiples of a half, so this is exact.
   double on_the_edge(double along, int side) const {
     const int first = static_cast<int>(std::floor(along));
     const auto pair = [&](int at) { return (luma(at, 0) + luma(at, side)) / 2.0; };
     return std::lerp(pair(first), pair(first + 1), along - first);
   }
-  // How much rows bend from one to the next: the rows' second differences, the middle column twice.
+  // Bend across the edge: second differences of three columns, with the middle one weighted twice.
   int bend() const {
     const auto column = [&](int along) {
       return std::abs(luma(along, -1) + luma(along, 1) - 2 * luma(along, 0));
@@ -42,7 +42,7 @@ class Surroundings {
 
 struct End {
   double distance = 0;
-  double beyond = 0;  // luma where it was seen last, over that of the edge
+  double beyond = 0;  // luma at the last position, relative to that of the edge
 };
 End find_end(const Surroundings& around, int direction, int side, double edge_luma, double limit,
              std::span<const double> steps) {
@@ -56,7 +56,7 @@ End find_end(const Surroundings& around, int direction, int side, double edge_lu
   return end;
 }
 
-// How far the pixel is moved by the edge's ends.
+// Offset of the sample across the edge, from the distances to both ends of the edge.
 double offset_by_ends(const Surroundings& around, int side, int gradient,
                       std::span<const double> steps) {
   const double middle = around.luma(0, 0), edge_luma = (middle + around.luma(0, side)) / 2;
@@ -64,12 +64,12 @@ double offset_by_ends(const Surroundings& around, int side, int gradient,
   const End back = find_end(around, -1, side, edge_luma, limit, steps),
             ahead = find_end(around, 1, side, edge_luma, limit, steps);
   const End& near = back.distance < ahead.distance ? back : ahead;
-  // The other side of the edge comes in only where that side goes on beyond the end.
+  // The other side contributes only if it continues beyond the nearer end.
   if ((near.beyond < 0) == (middle < edge_luma)) return 0;
   return 0.5 - near.distance / (back.distance + ahead.distance);
 }
 
-// How far it is moved for differing from all of its neighbours.
+// Offset of the sample across the edge, from the contrast with all eight neighbours.
 double offset_by_contrast(const Surroundings& around, int range, double weight) {
   const int beside =
       around.luma(-1, 0) + around.luma(1, 0) + around.luma(0, -1) + around.luma(0, 1);

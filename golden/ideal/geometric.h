@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Geometric post-process anti-aliasing in real numbers: the paper's equations with exact fractions,
-// no rounding of positions, weights or colours.
+// Geometric post-process anti-aliasing in real numbers: the paper's equations with exact fractions;
+// positions, weights and colours are not rounded.
 //
-// Reference for the bit-exact golden's arithmetic (paper 002, equations (6) to (8), with the
-// corrections of docs/reference/geometric/algorithm.md). What the method itself cannot do it cannot
-// do either; that is measured against supersampling.
+// Reference for the arithmetic of the bit-exact golden model (paper 002, equations (6) to (8), with
+// the corrections of docs/reference/geometric/algorithm.md). It has the limits of the method
+// itself, which are measured against supersampling.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace deburr::golden::ideal {
 
 struct ScreenPoint {
-  double x = 0, y = 0;  // pixels, y downwards, centres at halves
+  double x = 0, y = 0;  // pixels, y downwards, centres at 0.5
   double depth = 0;     // near / w
 };
 struct ScreenLine {
@@ -22,47 +22,48 @@ struct ScreenLine {
   bool crease = false;
 };
 
-// A pixel that a line cuts, once a column of its longer axis, or twice where areas count.
+// A pixel crossed by a line: one per column of the major axis, or two with area coverage.
 struct CutPixel {
   int x = 0, y = 0;
   int direction = 0;    // of the neighbour: 0 up, 1 down, 2 left, 3 right
-  double distance = 0;  // dis of equation (7): along the shorter axis, down or right positive
-  double coverage = 0;  // 1/2 - |dis|, or the area that the line cuts off; above 0
+  double distance = 0;  // dis of equation (7): along the minor axis, positive down or right
+  double coverage = 0;  // 1/2 - |dis|, or the area cut off by the line; above 0
   double depth = 0;     // of the line
 };
-// The area that a line of this slope, at most 1, cuts off a unit square from whose centre it is
-// `distance` >= 0 away in the middle of it.
+// Area that a line of this slope, at most 1, cuts off a unit square. In the middle of the column
+// the line is `distance` >= 0 away from the centre of the square.
 double cut_area(double slope, double distance);
-// Pixels of the frame with a neighbour in the frame, in the order of columns. With `area` a
-// column's second pixel follows the first.
+// Pixels of the frame whose neighbour is in the frame, ordered by column. With `area`, the second
+// pixel of a column follows the first.
 std::vector<CutPixel> cut_pixels(const ScreenLine& line, int width, int height, bool area = false);
 
 using SideWeights = std::array<double, 4>;  // up, down, left, right
 using Light = std::array<double, 3>;
 
 struct GpaaOptions {
-  bool last_wins = false;           // else the largest of each direction ...
-  bool outermost = false;           // ... or the smallest of a pixel in front of its neighbour
-  bool area = false;                // else distances along the shorter axis
+  bool last_wins = false;  // otherwise the largest per direction ...
+  bool outermost = false;  // ... or the smallest, if the pixel is nearer than its neighbour
+  bool area = false;       // otherwise distances along the minor axis
   double depth_bias = 1.0 / 512.0;  // relative, against the farther of pixel and neighbour
-  double crease_depth = 1.0;        // how far that may lie behind a crease, relative
+  double crease_depth = 1.0;        // relative tolerance of that depth behind a crease
 };
 
-// Weights of all pixels after all lines, row by row. `depth` is near / w of each pixel.
+// Weights of all pixels after all lines, row by row. `depth`: near / w of each pixel.
 std::vector<SideWeights> side_weights(std::span<const ScreenLine> lines,
                                       std::span<const double> depth, int width, int height,
                                       const GpaaOptions& options = {});
-// Equation (8) for both neighbours of the heavier axis.
+// Equation (8) for both neighbours on the axis with the larger weights.
 std::vector<Light> blended(std::span<const Light> frame, std::span<const SideWeights> weights,
                            int width, int height);
 
-// Geometry buffer AA's way of writing the same down: the nearest edge of each pixel along either
-// axis, as the share of the neighbour across it; left and up are negative.
+// The representation of geometry buffer AA: the nearest edge of each pixel on either axis, as the
+// weight of the neighbour across it; negative for left and up.
 struct NearestEdges {
   double horizontal = 0, vertical = 0;
 };
 std::vector<NearestEdges> nearest_edges(std::span<const SideWeights> weights);
-// Each pixel with one neighbour, across the nearer of its two edges; the vertical one if they tie.
+// Blends each pixel with one neighbour, across the nearer of its two edges; on a tie, the vertical
+// one.
 std::vector<Light> blended(std::span<const Light> frame, std::span<const NearestEdges> edges,
                            int width);
 

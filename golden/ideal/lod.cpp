@@ -34,7 +34,7 @@ LevelOfDetail level_of_detail(const spec::texture::Parameters& parameters,
     result.sampled = std::min(result.sampled, static_cast<double>(descriptor.max_anisotropy_log2));
     if (parameters.count_cap == spec::texture::CountCap::kTexel)
       result.sampled = std::min(result.sampled, texels);
-    // What log2 and exp2 round must not make another sample.
+    // Rounding errors of log2 and exp2 must not add a sample.
     result.samples = static_cast<int>(std::ceil(std::exp2(result.sampled) - 1e-9));
   }
   const double biased = result.lb_d_max - result.sampled + descriptor.lod_bias / 256.0;
@@ -59,13 +59,13 @@ LogarithmError logarithm_error() {
   result.mean = mean(0, 1, error);
   result.mean_square = mean(0, 1, [&](double y) { return error(y) * error(y); });
   result.root_mean_square = std::sqrt(result.mean_square);
-  result.at = 1 / std::numbers::ln2 - 1;  // where the derivative 1 / ((1 + y) ln 2) - 1 vanishes
+  result.at = 1 / std::numbers::ln2 - 1;  // where the derivative 1 / ((1 + y) ln 2) - 1 is zero
   result.largest = error(result.at);
   return result;
 }
 
 double level_flip_area() {
-  // Between the curves (1 + 2 s1)(1 + k / 2) = 2 and (1 + 2 s1) sqrt(1 + k^2) = 2.
+  // The area between the curves (1 + 2 s1)(1 + k / 2) = 2 and (1 + 2 s1) sqrt(1 + k^2) = 2.
   return mean(0, 1, [](double k) { return 1 / std::sqrt(1 + k * k) - 1 / (1 + 0.5 * k); });
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-// Step of luma between two pixels; nothing is seen of what lies outside.
+// Luma step between two pixels; 0 if a pixel is outside the frame.
 double luma_step(const SmaaLuma& luma, int x, int y, int to_x, int to_y) {
   const auto outside = [&](int px, int py) {
     return px < 0 || py < 0 || px >= luma.width || py >= luma.height;
@@ -31,7 +31,7 @@ SmaaMargins margins(const SmaaLuma& luma, double threshold, int x, int y, double
 
 // ---- orthogonal areas ---------------------------------------------------------------------------
 
-// What crosses an end: the first side lies above the axis, the second below.
+// Crossing edges at an end: `first` above the axis, `second` below.
 struct Crossing {
   bool first = false, second = false;
 };
@@ -41,7 +41,7 @@ int pattern_of(Crossing start, Crossing end) {
          (end.first ? 8 : 0);
 }
 
-// The texture is indexed by square roots of the distances and filtered between its texels.
+// The texture is indexed by the square roots of the distances, with bilinear filtering.
 SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r, bool bytes) {
   const double u = std::sqrt(l), v = std::sqrt(r);
   const int i = static_cast<int>(u), j = static_cast<int>(v);
@@ -60,11 +60,11 @@ SmaaWeights fetched_area(Crossing start, Crossing end, int l, int r, bool bytes)
 
 // ---- searches -----------------------------------------------------------------------------------
 
-// An axis as its edges see it: `along` makes lines, `across` crosses them.
+// The edges of an axis: `along` forms lines, `across` crosses them.
 struct SmaaAxis {
   std::function<bool(int, int)> along, across;
   bool crossed(int x, int y) const { return across(x, y) || across(x, y - 1); }
-  // What a fetch of two pixels adds.
+  // Length that a fetch of two pixels adds.
   int length(int far, int near, int y, bool right) const {
     return smaa_search_length(
         {across(far, y - 1), across(near, y - 1), across(far, y), across(near, y)},
@@ -73,8 +73,8 @@ struct SmaaAxis {
   Crossing crossing(int x, int y) const { return {across(x, y - 1), across(x, y)}; }
 };
 
-// Pixels to the left over which the edge goes on. A fetch sees a pair of pixels, the right one
-// first, with the edges that cross the line at the left of either.
+// Number of pixels to the left along which the edge continues. A fetch reads a pair of pixels, the
+// right one first, with the edges that cross the line at the left side of each.
 int search_left(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = -1;
   for (int fetch = 0; fetch < steps; ++fetch) {
@@ -86,7 +86,7 @@ int search_left(const SmaaAxis& axis, int x, int y, int steps) {
   return distance;
 }
 
-// The same to the right, where a crossing comes before its pixel.
+// The same to the right, where a crossing precedes its pixel.
 int search_right(const SmaaAxis& axis, int x, int y, int steps) {
   int distance = 0;
   for (int fetch = 0; fetch < steps; ++fetch) {
@@ -106,7 +106,7 @@ SmaaWeights edge_weights(const SmaaAxis& axis, const SmaaSettings& settings, int
   SmaaWeights weights =
       fetched_area(axis.crossing(start, y), axis.crossing(end, y), l, r, settings.bytes);
   if (!settings.corner_keeps) return weights;
-  // The nearer end counts; both share it if neither is.
+  // The nearer end counts; on a tie each counts half.
   const double near_start = l <= r ? 1 : 0, near_end = r <= l ? 1 : 0;
   const double loss = (1 - *settings.corner_keeps) / (near_start + near_end);
   const auto kept = [&](int row) {
@@ -127,8 +127,8 @@ struct DiagonalPoint {
 
 constexpr int kSamples = 30;
 
-// Share of the samples of a pixel that lie below a line; all of them if the line is a point.
-// Samples on the line do not, but for those that rounding puts below it, if that is asked for.
+// Fraction of the samples of a pixel below a line; 1 if the line is a point. Samples on the line do
+// not count, except with `rounded`, where rounding errors decide.
 double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py, bool rounded) {
   int count = 0;
   for (int i = 0; i < kSamples; ++i) {
@@ -144,7 +144,7 @@ double samples_below(DiagonalPoint from, DiagonalPoint to, double px, double py,
   return static_cast<double>(count) / (kSamples * kSamples);
 }
 
-// The sixteen patterns in the order of publication: where each lies in the texture, and its lines.
+// The sixteen patterns in the order of the publication: position in the texture, and lines.
 struct DiagonalPattern {
   int e1, e2;
   std::vector<std::pair<DiagonalPoint, DiagonalPoint>>
@@ -196,11 +196,11 @@ DiagonalValue fetched_diagonal(int e1, int e2, int d1, int d2, bool bytes) {
   return {entry.r / 255.0, entry.g / 255.0};
 }
 
-// A search as the shader walks it: it stops behind the first pixel without both edges, or at its
-// last step.
+// A search as in the shader: it stops after the first pixel without both edges, or at its last
+// step.
 struct Walk {
   int distance = 0;
-  bool ended = true;  // by a missing edge
+  bool ended = true;  // stopped by a missing edge
   bool last_top = false;
 };
 template <class Fetch>  // Fetch(x, y) -> pair of the two edges that make a step, top second
@@ -262,7 +262,7 @@ std::optional<SmaaWeights> diagonal_weights(const SmaaEdges& edges, const SmaaSe
     }
   }
   if (weights.first == 0 && weights.second == 0) return {};
-  // Weights are kept in a texture of codes 0..1.
+  // Weights are stored in a texture of codes 0..1.
   return SmaaWeights{std::min(1.0, weights.first), std::min(1.0, weights.second)};
 }
 
@@ -280,7 +280,7 @@ SmaaBytes smaa_diagonal_bytes(int e1, int e2, int d1, int d2) {
 
 int smaa_search_length(const std::array<bool, 4>& across, const std::array<bool, 4>& along,
                        bool right) {
-  // Far above, near above, far, near; lines above this one are another one's.
+  // Order: far above, near above, far, near. Edges above are those of another line.
   const bool near_crossed = across[1] || across[3], far_crossed = across[0] || across[2];
   if (!along[3] || (right && near_crossed)) return 0;
   return along[2] && !(right ? far_crossed : near_crossed) ? 2 : 1;

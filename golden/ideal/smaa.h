@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// SMAA 1x on luma in real numbers: edges, and the weight of every edge by searches from each pixel.
+// SMAA 1x on luma in real numbers: edges, and the weights of every edge by searches from each
+// pixel.
 //
-// Oracle of golden/morphological's edges, area table, diagonals and corners
-// (tb/oracle/smaa_test.cpp). Written from the published description, not from the engine's: it
-// knows no runs, no records and no windows, each pixel looks for its own ends, two pixels a fetch.
-// Jimenez, Echevarria, Sousa and Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing,
-// 2012, and the shader published with it. By default it takes two liberties, which can be had back:
-// edges outside the frame are none, where the shader's sampler repeats the border, and areas keep
-// their fraction, where its texture has eight bits.
+// Reference for edges, area table, diagonals and corners of golden/morphological
+// (tb/oracle/smaa_test.cpp). Source: Jimenez, Echevarria, Sousa and Gutierrez, SMAA: Enhanced
+// Subpixel Morphological Antialiasing, 2012, and the shader published with it. Independent of the
+// engine: no runs and no descriptors; each pixel searches for its own ends, two pixels per fetch.
+// The defaults differ from the shader in two points that can be switched: there are no edges
+// outside the frame, where the shader's sampler clamps, and areas are not rounded to eight bits.
 #pragma once
 
 #include <algorithm>
@@ -22,32 +22,32 @@
 
 namespace deburr::golden::ideal {
 
-// Edges outside the frame: none, or those of the outermost pixels, as the shader's sampler clamps.
+// Edges outside the frame: none, or those of the nearest pixel, as the shader's sampler clamps.
 enum class SmaaBorder : std::uint8_t { kEnd, kClamp };
 
 struct SmaaSettings {
   double threshold = 0.1;
   int search_steps = 16;                      // of two pixels each
   int diagonal_steps = 8;                     // 0: no diagonals
-  std::optional<double> corner_keeps = 0.25;  // share of a weight that stays at a sharp corner
-  bool bytes = false;  // areas as the published texture holds them, smaa_area_bytes() / 255
-  std::array<int, 2> more_steps = {};  // of the search to the left (up), to the right (down)
+  std::optional<double> corner_keeps = 0.25;  // fraction of a weight that remains at a sharp corner
+  bool bytes = false;                  // areas as in the published texture, smaa_area_bytes() / 255
+  std::array<int, 2> more_steps = {};  // extra search steps: to the left (up), to the right (down)
 };
 
-// An entry of the published area texture, subsample offset 0: its first value, which is the second
-// pixel's share, and its second value. Rounded down, and on a diagonal points on the line belong
-// where double precision puts them.
+// The two values of an entry of the published area texture, subsample offset 0; r is the weight of
+// the second pixel. Truncated; on a diagonal, double precision decides for points on the line.
 struct SmaaBytes {
   int r = 0, g = 0;
 };
 SmaaBytes smaa_area_bytes(int pattern, int l, int r);
 SmaaBytes smaa_diagonal_bytes(int e1, int e2, int d1, int d2);
-// What a search adds for its last fetch, 0..2, as the published search texture has it: four edges
-// along the line and four across it, the far pair of pixels first, of each pair the row above.
+// Length that a search adds for its last fetch, 0..2, from the published search texture. Four edges
+// along the line and four across it: the far pair of pixels first, the upper row first in each
+// pair.
 int smaa_search_length(const std::array<bool, 4>& across, const std::array<bool, 4>& along,
                        bool right);
 
-// Which pixels have an edge on their left, and which above them.
+// Pixels with an edge to their left, and pixels with an edge above them.
 class SmaaEdges {
  public:
   SmaaEdges(int width, int height, SmaaBorder border = SmaaBorder::kEnd)
@@ -88,11 +88,11 @@ struct SmaaLuma {
   }
 };
 
-// One edge as it was decided: how far its step is above the threshold, and twice its step above the
-// largest one around it. An edge is where neither is below zero.
+// Margins of an edge decision: its step minus the threshold, and twice its step minus the largest
+// step around it. It is an edge if neither is negative.
 struct SmaaMargins {
   double threshold = 0, contrast = 0;
-  // Luma itself is rounded, in its last bits.
+  // Tolerance for rounding errors of luma.
   bool edge() const { return threshold > -1e-12 && contrast > -1e-12; }
 };
 SmaaMargins left_margins(const SmaaLuma& luma, double threshold, int x, int y);

@@ -13,7 +13,8 @@ struct AreaPoint {
   double x = 0, y = 0;
 };
 
-// Area between the axis and a line, over pixel `l`. Heights above the axis are the first pixel's.
+// Area between the axis and a line over pixel `l`. Heights above the axis count for the first
+// pixel.
 SmaaWeights area_under(AreaPoint from, AreaPoint to, int l) {
   const double slope = (to.y - from.y) / (to.x - from.x);
   const auto height = [&](double x) { return from.y + slope * (x - from.x); };
@@ -37,7 +38,7 @@ SmaaWeights area_under(AreaPoint from, AreaPoint to, int l) {
 SmaaWeights sum(SmaaWeights a, SmaaWeights b) { return {a.first + b.first, a.second + b.second}; }
 SmaaWeights half(SmaaWeights a) { return {a.first / 2, a.second / 2}; }
 
-// Short dips are made rounder.
+// Smooths short dips.
 SmaaWeights smoothed(SmaaWeights a, int length) {
   const auto smooth = [&](double area) {
     const double round = std::sqrt(2 * area) / 2;
@@ -56,14 +57,15 @@ SmaaWeights smaa_area(int pattern, int l, int r, double offset) {
   const auto start = [&](double height) { return area_under({0, height}, middle, l); };
   const auto end = [&](double height) { return area_under(middle, {last, height}, l); };
   const auto whole = [&](double from, double to) { return area_under({0, from}, {last, to}, l); };
-  // With an offset the line of a Z is half way between one line and the two that meet on the axis.
+  // With an offset, the line of a Z is the mean of one line and the two lines that meet on the
+  // axis.
   const auto z = [&](double from, double to) {
     return offset == 0 ? whole(from, to) : half(sum(whole(from, to), sum(start(from), end(to))));
   };
   const auto dip = [&](double height) {
     return sum(smoothed(start(height), length), smoothed(end(height), length));
   };
-  // A line that crosses once is seen from the nearer half of its run only.
+  // A line that crosses once counts only from the nearer half of its run.
   switch (pattern) {
     case 1:
       return l <= r ? start(second) : SmaaWeights{};

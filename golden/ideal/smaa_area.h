@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Areas of SMAA's orthogonal patterns in real numbers, with the subsample offsets of its temporal
-// and multisampled modes: any entry of the published table before it is rounded.
+// and multisampled modes: entries of the published table before rounding.
 //
-// docs/reference/morphological/smaa.md, "Area table". Jimenez et al., SMAA, 2012, and the program
-// published with it that makes its table.
+// docs/reference/morphological/smaa.md, "Area table". Source: Jimenez et al., SMAA, 2012, and the
+// program published with it that generates the table.
 #pragma once
 
 #include <array>
 
 namespace deburr::golden::ideal {
 
-// What each pixel of an edge takes of the other, 0..1.
+// The fraction that each pixel of an edge takes of the other, 0..1.
 struct SmaaWeights {
   double first = 0, second = 0;
 };
 
-// Patterns are S_start + 2 S_end + 4 N_start + 8 N_end. l, r: pixels to the ends.
+// pattern: S_start + 2 S_end + 4 N_start + 8 N_end. l, r: pixels to the ends.
 SmaaWeights smaa_area(int pattern, int l, int r, double offset = 0);
 
 // Offsets of the seven rows of the table.

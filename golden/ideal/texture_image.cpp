@@ -17,10 +17,10 @@ float linear_light(std::uint8_t encoded) {
   return static_cast<float>(255 * linear);
 }
 
-// One side of a level down: each target covers `size` / `target` sources, with fractional ends.
+// Downsampling of one side: each target covers `size` / `target` sources, with fractional ends.
 struct Cover {
   int first;
-  std::vector<float> weights;  // sum 1
+  std::vector<float> weights;  // the sum is 1
 };
 Cover cover(int target_index, int size, int target) {
   const double from = static_cast<double>(target_index) * size / target;

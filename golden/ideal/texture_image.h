@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A texture in real numbers for the ideal filters: values 0..255, wrap modes, exact box mip levels.
+// Texture in real numbers for the ideal filters: values 0..255, wrap modes, exact box mip levels.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ using Colour = std::array<double, 4>;  // R, G, B, A, 0..255
 
 class TextureImage {
  public:
-  // rgba: width x height x 4 bytes, row by row from t = 0. With `srgb` R, G and B are decoded to
-  // linear light (0..255) first. Throws ConfigError when the byte count does not fit.
+  // rgba: width x height x 4 bytes, row by row from t = 0. With `srgb`, R, G and B are first
+  // decoded to linear light (0..255). Throws ConfigError if the number of bytes is wrong.
   TextureImage(int width, int height, std::span<const std::uint8_t> rgba,
                spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat,
                spec::texture::Wrap wrap_t = spec::texture::Wrap::kRepeat, bool srgb = false);
@@ -31,11 +31,11 @@ class TextureImage {
   struct Level {
     int width = 0, height = 0;
     std::vector<Texel> texels;        // row by row
-    double scale_s = 1, scale_t = 1;  // texels of this level in one texel of level 0
+    double scale_s = 1, scale_t = 1;  // texels of this level per texel of level 0
   };
   const Level& level(int k) const { return levels_[static_cast<std::size_t>(k)]; }
 
-  // Index of the texel that stands for position i (any integer) on an axis of `size` texels.
+  // Index of the texel at position i (any integer) on an axis of `size` texels.
   static int wrapped(spec::texture::Wrap wrap, std::int64_t i, int size) {
     switch (wrap) {
       case spec::texture::Wrap::kRepeat: {
@@ -60,8 +60,9 @@ class TextureImage {
   std::vector<Level> levels_;
 };
 
-// Peak signal-to-noise ratio in dB over R, G and B of two equally long lists of colours, peak 255;
-// infinity when they are equal. The second list is bytes, 4 a colour. Throws ConfigError.
+// Peak signal-to-noise ratio in dB over R, G and B of two lists of colours of equal length, peak
+// 255; infinity if they are equal. The second list has 4 bytes per colour. Throws ConfigError on
+// unequal lengths.
 double psnr(std::span<const Colour> reference, std::span<const std::uint8_t> rgba);
 
 }  // namespace deburr::golden::ideal

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Area between the line of a run and its edge, pixel by pixel: the weights of the pixels beside it.
+// Area between the line of a run and its edge, pixel by pixel: the weights of the adjacent pixels.
 //
 // After LineUnit; docs/reference/morphological/algorithm.md, "Area". Trapezoids, and two triangles
-// where the line crosses the edge (Reshetov). Error against real arithmetic on the same corners:
-// 0.57 of a weight's unit for runs that are not extended, 0.8 for any, 1.07 where two triangles add
-// up in one pixel of a U (tb/oracle/morphological_area_test.cpp, every length and shape).
+// where the line crosses the edge (Reshetov). Error against real arithmetic on the same corners, in
+// units of a weight: 0.57 for runs that are not extended, 0.8 for any run, 1.07 where two triangles
+// add up in one pixel of a U (tb/oracle/morphological_area_test.cpp, every length and shape).
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace deburr::golden::morphological {
 
-// Weights of the two pixels of an edge, U0.8: what each takes of the pixel across.
+// Weights of the two pixels of an edge, U0.8: the fraction that each takes of the pixel across.
 struct EdgeWeights {
   std::uint8_t first = 0, second = 0;
   friend bool operator==(const EdgeWeights&, const EdgeWeights&) = default;
 };
 
-// The two areas of one pixel of the run, U0.8, before a side is named.
+// The two areas of a pixel of the run, U0.8, before they are assigned to sides.
 struct Areas {
   int before = 0, after = 0;
 };
@@ -47,7 +47,7 @@ constexpr Areas areas(std::int64_t t0, std::int64_t t1, std::uint32_t inverse) {
   return {triangle(q0), triangle(q1)};
 }
 
-// Weights of the edge of pixel k of the record, 0 <= k < length.
+// Weights of the edge at pixel k of the descriptor, 0 <= k < length.
 constexpr EdgeWeights weights(const spec::morphological::LineDescriptor& line, int k) {
   const Areas a = areas(height(line, k), height(line, k + 1), line.inverse);
   const auto of = [&](spec::morphological::Side side) {

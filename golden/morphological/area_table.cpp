@@ -84,9 +84,9 @@ std::size_t flat(int i, int j) {
   return static_cast<std::size_t>(place);
 }
 
-// Patterns that the merged table stores, in order.
+// Patterns stored in the merged table, in order.
 constexpr std::array<int, 8> kStored = {1, 2, 3, 4, 6, 8, 9, 12};
-// Where each pattern is read in it; -1: not at all, zero.
+// Index of each pattern in kStored; -1: not stored, zero.
 constexpr std::array<int, 16> kReadAt = {-1, 0, 1, 2, 3, -1, 4, 4, 5, 6, -1, 6, 7, 6, 4, -1};
 
 }  // namespace
@@ -187,7 +187,7 @@ EdgeWeights table_weights(int shape, int before, int after, AreaValues values) {
   const int pattern = pattern_of_shape(shape);
   const int s = roots[static_cast<std::size_t>(before)], t = roots[static_cast<std::size_t>(after)];
   const int i = s >> 8, f = s & 255, j = t >> 8, g = t & 255;
-  // The last root has no successor and needs none: its fraction is 0.
+  // The last root has no successor; its fraction is 0.
   const int next_i = std::min(i + 1, kRoots - 1), next_j = std::min(j + 1, kRoots - 1);
   const AreaEntry e00 = table.entry(pattern, i, j), e10 = table.entry(pattern, next_i, j),
                   e01 = table.entry(pattern, i, next_j), e11 = table.entry(pattern, next_i, next_j);
@@ -201,7 +201,7 @@ EdgeWeights table_weights(int shape, int before, int after, AreaValues values) {
 
 LineEnds line_ends(const spec::morphological::LineDescriptor& line) {
   constexpr std::int64_t kHalf = std::int64_t{1} << 23;
-  // How far above the line's lower end the record begins, in steps, S5.12.
+  // Height of the descriptor's start above the lower end of the line, in steps, S5.12.
   const std::int64_t begin = (height(line, 0) + kHalf + 2048) >> 12;
   const auto pixels = [&](std::int64_t steps) { return (steps * line.inverse + kHalf) >> 24; };
   const auto limited = [](std::int64_t position) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// SMAA's area table: the weights of a pixel by the distances to the two ends of its run and the
-// pattern that its crossing edges make.
+// SMAA's area table: weights of a pixel by its distances to both ends of the run and the pattern of
+// the crossing edges.
 //
-// After LineUnit, in place of area.h; docs/reference/morphological/smaa.md, "Areas from tables"
-// and "Area table". Jimenez et al., SMAA,
-// 2012; the merged layout is paper 003's, the minimal one ours. The golden reads the full one; that
-// the others decode to the same entries is a test's business
-// (tb/unit/golden/morphological/area_table_test.cpp).
+// Replaces area.h after LineUnit; docs/reference/morphological/smaa.md, "Areas from tables" and
+// "Area table". Source: Jimenez et al., SMAA, 2012; merged layout: paper 003; minimal layout: this
+// project. The golden model reads the full layout; tb/unit/golden/morphological/area_table_test.cpp
+// shows that the others decode to the same entries.
 #pragma once
 
 #include <array>
@@ -19,28 +18,28 @@
 
 namespace deburr::golden::morphological {
 
-// One value for each pair of roots, U0.9; entry (i, j) is that of the distances i^2 and j^2.
+// One value per pair of roots, U0.9; entry (i, j) is for the distances i^2 and j^2.
 using AreaTile = std::array<std::array<std::uint8_t, spec::morphological::kTableRoots>,
                             spec::morphological::kTableRoots>;
-// The nearer half of a line that crosses the edge once: T of the number formats.
+// The nearer half of a line that crosses the edge once: T of the page.
 AreaTile half_tile(
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
-// Both halves of a line that dips into one side, smoothed: U of the number formats.
+// Both halves of a line that dips into one side, smoothed: U of the page.
 AreaTile dip_tile(spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
-// One entry of a tile of the published table.
+// An entry of a tile of the published table.
 struct AreaEntry {
   std::uint8_t second = 0, first = 0;  // U0.9
   friend bool operator==(const AreaEntry&, const AreaEntry&) = default;
 };
 
-// Pattern of the published table: S_start + 2 S_end + 4 N_start + 8 N_end, of an index of
+// Pattern number of the published table, S_start + 2 S_end + 4 N_start + 8 N_end, from an index of
 // kRunShapes.
 constexpr int pattern_of_shape(int shape) {
   return (shape >> 1 & 1) | (shape >> 3 & 1) << 1 | (shape & 1) << 2 | (shape >> 2 & 1) << 3;
 }
 
-// The three layouts: what they store, and the entry of a pattern that each decodes to.
+// The three layouts. entry() decodes the entry of a pattern from the stored tiles.
 class FullAreaTable {
  public:
   explicit FullAreaTable(
@@ -79,28 +78,28 @@ class MinimalAreaTable {
   AreaTile half_, dip_;
 };
 
-// S(d), U4.8: the root by which a tile is read.
+// S(d), U4.8: the index into a tile.
 int table_root(int distance);
-// Weights of a pixel `before` pixels from the start and `after` from the end of a run of this
+// Weights of a pixel with `before` pixels to the start and `after` to the end of a run of this
 // shape, both 0..kTableDistances - 1.
 EdgeWeights table_weights(
     int shape, int before, int after,
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
-// Where a line leaves the strip of one step, rounded to pixels from the record's start; of an end
-// that is endless, a place beyond every limit.
+// a and b: where the line leaves the range of one step, rounded to pixels from the start of the
+// descriptor. An endless end is beyond every search limit.
 struct LineEnds {
   int first = 0, last = 0;
 };
 LineEnds line_ends(const spec::morphological::LineDescriptor& line);
 
-// What the searches of pixel k of the record see that end after `search_steps` (N).
+// Searches of pixel k of a descriptor, limited by `search_steps` (N).
 enum class SearchEnd : std::uint8_t { kWithin, kAtLimit, kBeyond };
 struct TableAddress {
   int shape = 0;  // without the code of an end beyond its limit
   int before = 0, after = 0;
   SearchEnd start = SearchEnd::kWithin, end = SearchEnd::kWithin;
-  // Far bits of a record, without those of an end beyond its limit.
+  // Far bits of a descriptor, without those of an end beyond its limit.
   int far_seen(int far) const {
     return (start == SearchEnd::kBeyond ? 0 : far & 3) | (end == SearchEnd::kBeyond ? 0 : far & 12);
   }

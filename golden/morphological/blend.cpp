@@ -13,7 +13,7 @@ namespace deburr::golden::morphological {
 
 namespace {
 
-// What is decided if not both axes have weights.
+// Decides unless both axes have weights.
 std::optional<Decision> decide_without_choice(const PixelWeights& s) {
   const bool vertical_pair = (s.up | s.down) != 0;
   const bool horizontal_pair = (s.left | s.right) != 0;

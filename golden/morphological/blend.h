@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The last block: decides the axis of a pixel and mixes it with the neighbours of that axis.
+// Last block: selects the axis of a pixel and blends it with the neighbours on that axis.
 //
 // docs/reference/morphological/algorithm.md, "Blender" and "Blend";
-// docs/reference/morphological/smaa.md, "Blend" and "Strongest". The axis is decided
-// here and nowhere else: by the longer line (paper 000's comparison of D sums, taken after the
-// extension) or by the stronger weight (SMAA).
+// docs/reference/morphological/smaa.md, "Blend" and "Strongest". The axis is that of the longer
+// line (paper 000's comparison of D sums, after the extension) or of the larger weight (SMAA).
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,14 @@
 
 namespace deburr::golden::morphological {
 
-// What the four edges around a pixel offer it.
+// Weights of a pixel from the four edges around it.
 struct PixelWeights {
   int up = 0, down = 0, left = 0, right = 0;  // U0.8 weights of the neighbours
-  int span_horizontal = 0;                    // longest line that gives up or down
-  int span_vertical = 0;                      // longest line that gives left or right
+  int span_horizontal = 0;                    // longest line with a weight for up or down
+  int span_vertical = 0;                      // longest line with a weight for left or right
 };
 
-// Which rule decided.
+// The rule that decided.
 enum class Decision : std::uint8_t {
   kNone,               // no weights
   kOnlyUpDown,         // rule 1
@@ -29,34 +28,34 @@ enum class Decision : std::uint8_t {
   kLongerLeftRight,    //
   kStrongerUpDown,     // rule 3
   kStrongerLeftRight,  //
-  kTie                 // rule 3 with equality: up and down
+  kTie                 // rule 3 at equality: up and down
 };
 Decision decide_by_length(const PixelWeights& weights);
-// The largest weight decides; spans do not count, and with one pair that pair has it.
+// The axis of the largest weight; spans do not count. With one pair only, that pair is chosen.
 Decision decide_by_strength(const PixelWeights& weights);
 constexpr bool is_horizontal(Decision d) {
   return d == Decision::kOnlyLeftRight || d == Decision::kLongerLeftRight ||
          d == Decision::kStrongerLeftRight;
 }
 
-// The two weights of the chosen axis; `edges` stays 0.
+// The two weights of the chosen axis; `edges` remains 0.
 spec::morphological::BlendProbe probe_of(const PixelWeights& weights, Decision decision);
 
-// What is taken of the two neighbours, U0.12, first + second <= 4096.
+// Weights of the two neighbours, U0.12, first + second <= 4096.
 struct Weights {
   int first = 0, second = 0;
   friend bool operator==(const Weights&, const Weights&) = default;
 };
-// The weights as they are.
+// The weights unchanged, as U0.12.
 Weights unmixed(const spec::morphological::BlendProbe& probe);
-// R(sum of two weights), U0.20, 0..510; of 0: 0.
+// R(sum of two weights), U0.20; sum 0..510. Returns 0 for a sum of 0.
 std::uint32_t mix_reciprocal(int sum);
-// Each of the two weights in proportion to its square; one that is alone stays.
+// Each of the two weights in proportion to its square; a single weight is unchanged.
 Weights mixed_by_squares(const spec::morphological::BlendProbe& probe);
 
-// One channel code: v = w1 (n1 - c) + w2 (n2 - c), its magnitude rounded.
+// Blends one channel code: v = w1 (n1 - c) + w2 (n2 - c), with |v| rounded.
 int blend_channel(bool linear_light, int c, int n1, int n2, Weights weights);
-// Alpha passes.
+// Alpha passes unchanged.
 spec::morphological::Rgba8 blend(bool linear_light, const spec::morphological::Rgba8& pixel,
                                  const spec::morphological::Rgba8& first,
                                  const spec::morphological::Rgba8& second, Weights weights);

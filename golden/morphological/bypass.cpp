@@ -18,7 +18,7 @@ constexpr std::array<Place, 5> kPlaces = {
     {{0, 0, "own"}, {0, -1, "up"}, {-1, 0, "left"}, {1, 0, "right"}, {0, 1, "down"}}};
 constexpr std::array<std::string_view, 4> kBorderNames = {"top", "left", "right", "bottom"};
 
-// Of kPlaces.
+// Indices into kPlaces.
 constexpr std::size_t first_neighbour(bool horizontal) { return horizontal ? 2 : 1; }
 constexpr std::size_t second_neighbour(bool horizontal) { return horizontal ? 3 : 4; }
 

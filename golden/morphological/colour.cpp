@@ -21,8 +21,8 @@ using Byte = std::uint8_t;
 Byte difference(Byte a, Byte b) { return static_cast<Byte>(std::max(a, b) - std::min(a, b)); }
 Byte largest(Byte a, Byte b) { return std::max(a, b); }
 
-// A row of pixels by channel, so that its loops are loops over bytes; 255 in `open` where a pixel
-// may have edges.
+// A row of pixels by channel, so that the loops vectorise. `open` is 255 where a pixel may have
+// edges.
 struct ColourRow {
   std::array<std::vector<Byte>, 3> channel;
   std::vector<Byte> open;
@@ -42,7 +42,7 @@ struct ColourRow {
   }
 };
 
-// Steps of pixels p[x] and q[x], in codes.
+// Steps between pixels p[x] and q[x], in codes.
 void steps(const ColourRow& p, std::size_t p0, const ColourRow& q, std::size_t count,
            Byte* result) {
   const Byte *pr = p.channel[0].data() + p0, *pg = p.channel[1].data() + p0,
@@ -56,7 +56,7 @@ void steps(const ColourRow& p, std::size_t p0, const ColourRow& q, std::size_t c
   }
 }
 
-// Steps of three rows around the one in hand. at(x) of a row may be asked from -1 to width.
+// Steps of the current row, the row above and the row below. at(x) of a row: x from -1 to width.
 class ByteSteps {
  public:
   ByteSteps(const ImageView& image, bool masked)
@@ -65,7 +65,7 @@ class ByteSteps {
       for (auto& row : *rows) row.assign(static_cast<std::size_t>(image.width) + 2, 0);
     fill(0);
   }
-  // To row y; called for y = 0, 1, 2, ... in turn.
+  // Moves to row y; call with y = 0, 1, 2, ... in order.
   void advance_to(int y) {
     y_ = y;
     fill(y + 1);
@@ -80,7 +80,7 @@ class ByteSteps {
   void fill(int y) {
     auto& across = across_[slot(y)];
     auto& down = down_[slot(y)];
-    if (y >= image_.height) {  // of which nobody asks for steps across
+    if (y >= image_.height) {  // its steps across are never read
       std::fill(down.begin(), down.end(), Byte{0});
       return;
     }
@@ -98,14 +98,14 @@ class ByteSteps {
   Rows across_, down_;
 };
 
-// Flags of a row: own[x] is an edge if it is at least `least` and above half of around(x), or equal
-// to it.
+// Edge flags of a row: own[x] is at least `least`, and above half of around(x), or equal to half
+// with `or_equal`.
 template <class Around>
 void decide(const Byte* own, int width, Byte least, bool or_equal, const Around& around,
             Byte* flags) {
   const Byte odd = or_equal ? 1 : 0;
   for (std::ptrdiff_t x = 0; x < width; ++x) {
-    // 2 c > m is c >= (m >> 1) + 1, 2 c >= m is c >= (m + 1) >> 1; neither sum leaves a byte.
+    // 2 c > m is c >= (m >> 1) + 1; 2 c >= m is c >= (m + 1) >> 1. Neither sum exceeds a byte.
     const Byte m = around(x);
     const Byte half = static_cast<Byte>((m >> 1) + (odd != 0 ? (m & 1) : 1));
     flags[x] = static_cast<Byte>((own[x] >= least) & (own[x] >= half));
@@ -118,7 +118,7 @@ EdgePlanes colour_edges(const spec::morphological::Parameters& p, const ImageVie
   const int width = image.width;
   EdgePlanes edges{BitPlane(width, image.height), BitPlane(width, image.height)};
   std::vector<Byte> flags(static_cast<std::size_t>(edges.left.words()) * 64);
-  // The least step in codes with 65536 c >= T; no step of a byte may have one.
+  // The smallest step in codes with 65536 c >= T. Above 255 no step is an edge.
   const int least_step = (p.threshold + 65535) >> 16;
   if (least_step > 255) return edges;
   const Byte least = static_cast<Byte>(least_step);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Edges by colour: left and top edge bits from the largest step of R, G and B.
+// Edges from colour: left and top edge bits from the largest step of R, G and B.
 //
-// In place of luma.h where source = colour, with the local contrast of edges.h said once more for
-// steps of a byte, whole rows at a time; docs/reference/morphological/algorithm.md,
-// "Edges". Ours.
+// Replaces luma.h and edges.h with source = colour; local contrast as in edges.h, for steps of one
+// byte and whole rows at a time. docs/reference/morphological/learned_weights.md, "Options".
+// Source: this project.
 #pragma once
 
 #include "golden/morphological/planes.h"

@@ -21,10 +21,10 @@ void check_frame(const spec::morphological::Parameters& parameters, int width, i
   const std::string size = std::to_string(width) + " x " + std::to_string(height);
   if (width < 1 || height < 1 || width > spec::morphological::kMaxFrameSize ||
       height > spec::morphological::kMaxFrameSize) {
-    throw spec::ConfigError("a frame of " + size + " pixels; 1..8192 each way are possible");
+    throw spec::ConfigError("a frame of " + size + " pixels; width and height must be 1..8192");
   }
   if (width > parameters.line_pixels) {
-    throw spec::ConfigError("a frame of " + size + " pixels does not fit line buffers of " +
+    throw spec::ConfigError("a frame of " + size + " pixels is wider than the line buffers of " +
                             std::to_string(parameters.line_pixels) + " pixels; raise line_pixels");
   }
 }

@@ -18,7 +18,7 @@ std::uint32_t scaled_from_binary32(std::uint32_t pattern, std::uint32_t full_sca
   if (exponent == 0xFF && fraction != 0) return 0;  // NaN
   if (negative) return 0;
   if (exponent >= 127) return full_scale;
-  // v = mantissa 2^-shift; below 2^-37 even full_scale v rounds to 0.
+  // v = mantissa 2^-shift. Below 2^-37, full_scale v rounds to 0.
   const std::uint64_t mantissa = fraction | (exponent != 0 ? 1u << 23 : 0);
   const std::uint32_t shift = 150 - (exponent != 0 ? exponent : 1);
   if (shift > 60) return 0;

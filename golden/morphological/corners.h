@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Corner rounding: less weight where a crossing edge goes on for a second pixel, since a corner is
-// then sharp because it was drawn so.
+// Corner rounding: reduces weights where a crossing edge continues for a second pixel, since such a
+// corner is sharp in the scene.
 //
-// After area.h or area_table.h; docs/reference/morphological/smaa.md, "Corners". SMAA, section 4.3.
+// After area.h or area_table.h; docs/reference/morphological/smaa.md, "Corners". Source: SMAA,
+// section 4.3.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +12,8 @@
 
 namespace deburr::golden::morphological {
 
-// Weights of a pixel `before` pixels from the start and `after` from the end of its run, whose ends
-// have these far bits; `stays` is corner_rounding, 256 keeps all.
+// Weights of a pixel with `before` pixels to the start and `after` to the end of its run. `far`:
+// far bits of both ends; `stays`: corner_rounding, 256 keeps the whole weight.
 constexpr EdgeWeights rounded_at_corners(const EdgeWeights& weights, int far, int stays, int before,
                                          int after) {
   const auto rounded = [&](int weight, int side) {

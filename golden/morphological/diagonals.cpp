@@ -15,7 +15,7 @@ using spec::morphological::Border;
 struct Point {
   int x, y;
 };
-// The line runs from `from` to `to` + (n, n).
+// From `from` to `to` + (n, n).
 struct Line {
   Point from, to;
 };
@@ -28,7 +28,7 @@ constexpr Point k00{0, 0}, k10{1, 0}, k11{1, 1};
 constexpr Lines one(Line a) { return {1, {a, a}}; }
 constexpr Lines two(Line a, Line b) { return {2, {a, b}}; }
 
-// By 4 e1 + e2.
+// Indexed by 4 e1 + e2.
 constexpr std::array<Lines, 16> kLines = {{
     two({k11, k11}, {k10, k10}),  // 0, 0
     two({k00, k11}, {k10, k11}),  // 0, 1
@@ -48,11 +48,11 @@ constexpr std::array<Lines, 16> kLines = {{
     two({k11, k11}, {k10, k10}),  // 3, 3
 }};
 
-constexpr int kSamples = 30;  // each way
+constexpr int kSamples = 30;  // per axis
 constexpr std::uint64_t kAll = std::uint64_t{kSamples} * kSamples;
 
-// Samples of pixel (x, y) strictly below the line, in coordinates 58 times as large: samples lie at
-// whole numbers then, and so do the middles of lines.
+// Samples of pixel (x, y) strictly below the line, one bit each. Coordinates are scaled by 58, so
+// that samples and the middles of lines are integers.
 std::uint64_t samples_below(Point p1, Point p2, int x, int y) {
   if (p1.x == p2.x && p1.y == p2.y) return kAll;
   const int a = p2.y - p1.y, b = p1.x - p2.x;
@@ -66,8 +66,8 @@ std::uint64_t samples_below(Point p1, Point p2, int x, int y) {
   return count;
 }
 
-// The same as the published program counts them, where double precision decides for samples on the
-// line. The sign of a sum of two numbers is that of their comparison, which nothing can fuse.
+// The same as in the published program, where double precision decides for samples on the line.
+// Comparing the two products gives the sign of their sum and cannot be fused by the compiler.
 std::uint64_t samples_counted_below(Point p1, Point p2, int x, int y) {
   if (p1.x == p2.x && p1.y == p2.y) return kAll;
   const double a = p2.y - p1.y, b = p1.x - p2.x;
@@ -83,7 +83,7 @@ std::uint64_t samples_counted_below(Point p1, Point p2, int x, int y) {
   return count;
 }
 
-// The areas of one pixel between its lines, to the nearest: three quarters of it at most.
+// The areas of a pixel between its lines, rounded to nearest; at most 3/4 of the pixel.
 DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
   const int n = d1 + d2 + 1;
   const std::uint64_t all = kAll * lines.size();
@@ -99,7 +99,7 @@ DiagonalAreas exact_areas(std::span<const Line> lines, int d1, int d2) {
   return {area(above), area(below)};
 }
 
-// Of the published bytes.
+// From the bytes of the published table.
 DiagonalAreas published_areas(std::span<const Line> lines, int d1, int d2) {
   const int n = d1 + d2 + 1;
   double above = 0, below = 0;
@@ -118,7 +118,7 @@ DiagonalAreas published_areas(std::span<const Line> lines, int d1, int d2) {
   return {area(above), area(below)};
 }
 
-// Distance of an end and whether it is open: `good(i)` says that step i follows the diagonal.
+// Distance to an end, and whether it is open. `good(i)`: step i follows the diagonal.
 struct Search {
   int distance;
   bool open;

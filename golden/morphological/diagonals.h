@@ -2,9 +2,8 @@
 // Diagonal patterns: edges that step by one pixel and one row, and the weights of the line along
 // them.
 //
-// Beside the runs, whose weights they replace; docs/reference/morphological/smaa.md, "Diagonals"
-// and "Diagonal table". Jimenez et al., SMAA, 2012,
-// section 4.2.
+// Replaces the weights of runs; docs/reference/morphological/smaa.md, "Diagonals" and "Diagonal
+// table". Source: Jimenez et al., SMAA, 2012, section 4.2.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@
 
 namespace deburr::golden::morphological {
 
-// The two areas of a pixel d1 and d2 pixels from the ends of a diagonal, U0.8.
+// The two areas of a pixel with d1 and d2 pixels to the ends of the diagonal, U0.8.
 struct DiagonalAreas {
   std::uint8_t a = 0, b = 0;
   friend bool operator==(const DiagonalAreas&, const DiagonalAreas&) = default;
@@ -41,14 +40,14 @@ class DiagonalTable {
 const DiagonalTable& diagonal_table(
     spec::morphological::AreaValues values = spec::morphological::AreaValues::kExact);
 
-// One direction as it was found at a pixel. It counts if its ends are more than two pixels apart.
+// A diagonal found at a pixel. It counts if its ends are more than two pixels apart.
 struct DiagonalEnds {
   int d1 = 0, d2 = 0;  // pixels to the ends
-  int e1 = 0, e2 = 0;  // their crossing codes, 0 of an end that is open
+  int e1 = 0, e2 = 0;  // crossing codes; 0 for an open end
   bool open1 = false, open2 = false;
   bool counts() const { return d1 + d2 > 2; }
 };
-// At the top edge of (x, y), following at most `steps` pixels each way.
+// Searches from the top edge of (x, y), at most `steps` pixels in each direction.
 DiagonalEnds rising_diagonal(
     const EdgePlanes& edges, int steps, int x, int y,
     spec::morphological::Border border = spec::morphological::Border::kEnd);
@@ -56,7 +55,7 @@ DiagonalEnds falling_diagonal(
     const EdgePlanes& edges, int steps, int x, int y,
     spec::morphological::Border border = spec::morphological::Border::kEnd);
 
-// Weights of a top edge from its diagonals, not limited; both 0 where it has none.
+// Weights of a top edge from its diagonals, not limited; both 0 without a diagonal.
 struct DiagonalWeights {
   int first = 0, second = 0;
   int span = 0;

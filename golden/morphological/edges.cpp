@@ -17,14 +17,14 @@ using Parameters = spec::morphological::Parameters;
 
 std::int32_t step(const PixelPair& pair) { return std::abs(pair.luma_p - pair.luma_q); }
 
-// The rules of the table "Raw edges", one each, so that the common one becomes a plain loop.
+// One type per rule of the table "Raw edges", so that the common one becomes a plain loop.
 struct FixedRule {
   std::int32_t limit;  // U8.16
   explicit FixedRule(const Parameters& p) : limit(p.threshold) {}
   bool operator()(const PixelPair& pair) const { return step(pair) >= limit; }
 };
 
-// Twice the luma that alpha multiplies, so that a mean needs no rounding.
+// Twice the luma that is multiplied by alpha, so that a mean is not rounded.
 template <spec::morphological::DynamicLuma luma>
 std::int32_t twice_reference(const PixelPair& pair) {
   using spec::morphological::DynamicLuma;
@@ -64,7 +64,7 @@ struct PredicatedRule {
   bool operator()(const PixelPair& pair) const { return step(pair) >= (depth(pair) ? on : off); }
 };
 
-// Calls use(rule) with the rule that the parameters name.
+// Calls use(rule) with the rule selected by the parameters.
 template <class Use>
 decltype(auto) with_rule(const Parameters& p, Use&& use) {
   switch (p.edge_source) {
@@ -96,7 +96,8 @@ struct Row {
   const std::uint32_t* depth;
 };
 
-// Bits of the pairs (p[x], q[x]), x in 0..width-1, into `bits`. `flags` holds whole words.
+// Writes the edge bits of pairs (p[x], q[x]), x = 0..width-1, to `bits`. `flags`: size is a
+// multiple of 64.
 template <class Rule>
 void raw_row(const Rule& rule, Row p, Row q, int width, std::uint8_t* flags, std::uint64_t* bits) {
   for (int x = 0; x < width; ++x) {
@@ -116,7 +117,7 @@ class StepRows {
     }
     fill(0);
   }
-  // To row y; called for y = 0, 1, 2, ... in turn.
+  // Moves to row y; call with y = 0, 1, 2, ... in order.
   void advance_to(int y) {
     y_ = y;
     fill(y + 1);
@@ -163,13 +164,13 @@ class StepRows {
   Rows across_, down_;
 };
 
-// Largest of eq (2)'s steps around pixel x of the row, for its left and its top edge alike.
+// The largest step of eq (2) around pixel x, for its left and its top edge.
 std::int32_t contrast_of_pixel(const StepRows& c, int x) {
   return std::max({c.down(0, x), c.down(1, x), c.across(0, x), c.across(0, x + 1), c.down(-1, x),
                    c.across(0, x - 1)});
 }
 
-// Largest step around the left edge of pixel x in the symmetric form.
+// The largest step around the left edge of pixel x, symmetric form.
 std::int32_t contrast_left(const StepRows& c, int x) {
   const std::int32_t beside_p = std::max(c.down(0, x), c.down(1, x));
   const std::int32_t beside_q = std::max(c.down(0, x - 1), c.down(1, x - 1));
@@ -183,7 +184,7 @@ std::int32_t contrast_top(const StepRows& c, int x) {
   return std::max({c.down(0, x), c.down(1, x), c.down(-1, x), std::min(beside_p, beside_q)});
 }
 
-// Keeps those of the bits for which keep(x) holds.
+// Clears the bits for which keep(x) is false.
 template <class Keep>
 void filter(std::uint64_t* bits, int words, Keep&& keep) {
   for (int i = 0; i < words; ++i) {
@@ -198,7 +199,7 @@ void apply_local_contrast(spec::morphological::LocalContrast mode, const LumaPla
                           const BitPlane& mask, EdgePlanes& edges) {
   using spec::morphological::LocalContrast;
   StepRows c(luma, mask);
-  // A bit stays if keeps(its own step, the largest around it).
+  // Keeps a bit if keeps(step of the edge, largest step around it).
   const auto apply = [&](const auto& around_left, const auto& around_top, const auto& keeps) {
     for (int y = 0; y < luma.height; ++y) {
       c.advance_to(y);
@@ -234,7 +235,7 @@ void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, 
   };
   for (int y = 0; y < luma.height; ++y) {
     const Row own = row(y);
-    // Pairs (x + 1, x) give the left bits of x + 1, moved to their place a bit up.
+    // Pairs (x + 1, x) give the left bits of x + 1, so the result is shifted by one bit.
     std::fill(flags.begin(), flags.end(), std::uint8_t{0});
     std::uint64_t* left = edges.left.row(y);
     raw_row(rule, Row{own.luma + 1, own.depth + 1}, own, luma.width - 1, flags.data(), left);
@@ -256,7 +257,7 @@ BitPlane marked(const ImageView& image) {
   return result;
 }
 
-// No edge touches a pixel of the mask.
+// Clears the edges of masked pixels.
 void clear_beside(const BitPlane& mask, EdgePlanes& edges) {
   for (int y = 0; y < mask.height(); ++y) {
     std::uint64_t carry = 0;

@@ -46,8 +46,8 @@ WeightIndices indices(const SeenEnd& near, const SeenEnd& far, int length_class)
           static_cast<std::uint16_t>((far.appearance * 8 + far.distance) * 4 + length_class)};
 }
 
-// Those of whole runs. Parts of long ones and the edges between them name no others: an end out of
-// sight is as one without a crossing that is far away.
+// Only whole runs are tried. Heads, tails and gaps name no other entries: an unseen end equals an
+// end without a crossing that is far away.
 ReachableEntries find_reachable() {
   ReachableEntries result;
   LineDescriptor descriptor;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Weights of edges whose phase no staircase tells: what the ends of a run look like, and three
-// small tables over it.
+// Learned weights: for edges whose run does not show where the line is. Each end of the run is
+// classified, and three small tables give the weight.
 //
-// After the predictor, in place of line.h and area.h;
-// docs/reference/morphological/learned_weights.md, "Descriptors" and "Indices". Ours. Every entry
-// that a record can name is listed by reachable_entries().
+// Replaces line.h and area.h after the predictor; docs/reference/morphological/learned_weights.md,
+// "Descriptors" and "Indices". Source: this project. reachable_entries() lists every entry that a
+// descriptor can name.
 #pragma once
 
 #include <algorithm>
@@ -30,20 +30,20 @@ struct WeightTables {
   std::array<std::int8_t, 640> of_far = spec::morphological::kWeightsOfFar;       // C
 };
 
-// a, b and c of one weight.
+// a, b and c of a weight.
 struct WeightIndices {
   std::uint16_t codes = 0, near = 0, far = 0;
   friend bool operator==(const WeightIndices&, const WeightIndices&) = default;
 };
 
-// The class 0..8 of the crossing at an end of a run of `room` = reach - L more pixels in sight.
+// Class 0..8 of the crossing at an end. `room`: range - L, the pixels up to the search range.
 int crossing_class(const AxisEdges& edges, const spec::morphological::RunDescriptor& run,
                    bool at_end, int room);
 
-// Of an edge that no record covers, for both its pixels.
+// For both pixels of an edge in the gap between head and tail.
 inline constexpr WeightIndices kGapIndices = {63, 31, 31};
 
-// The ends of one learned record as the pixels of one side see them.
+// The ends of a learned descriptor, seen from one side.
 class LearnedEnds {
  public:
   LearnedEnds(const spec::morphological::LineDescriptor& descriptor, spec::morphological::Side own);
@@ -64,8 +64,8 @@ inline int learned_weight(const WeightTables& tables, const WeightIndices& i) {
   return spec::morphological::kWeightOfSum[entry];
 }
 
-// Which entries of the tables frames named so far, as bins `A/<index>`, `B/<index>`, `C/<index>`
-// of those that can be, and `class/<axis>/<start or end>/<class>`.
+// Coverage of the table entries, bins `A/<index>`, `B/<index>`, `C/<index>` of the reachable ones,
+// and of the classes, `class/<axis>/<start or end>/<class>`.
 class LearnedCoverage {
  public:
   void count_descriptor(const spec::morphological::LineDescriptor& descriptor);
@@ -83,7 +83,7 @@ class LearnedCoverage {
   std::array<std::array<std::array<std::uint64_t, 9>, 2>, 2> classes_{};
 };
 
-// Flags of the entries that some record can name.
+// Flags of the entries that a descriptor can name.
 struct ReachableEntries {
   std::array<bool, 1024> of_codes{};
   std::array<bool, 640> of_near{}, of_far{};

@@ -51,7 +51,7 @@ void chord(const Prediction& p, spec::morphological::LineDescriptor& line) {
   line.inverse = inverse_slope(distance, spec::morphological::kChordInverseSlope[n]);
 }
 
-// One end of an L as long as the reach, of which the record holds only the outer half.
+// One end of an L as long as the search range; the descriptor covers its outer half.
 void end_of_long_run(const spec::morphological::RunDescriptor& run, int search_range,
                      spec::morphological::LineDescriptor& line) {
   line.scale = 2;

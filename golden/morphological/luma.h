@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Luma of a pixel, exact: U8.16 from codes. First block; docs/reference/morphological/algorithm.md.
+// Luma of a pixel from codes, exact, U8.16. First block; docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <cstdint>

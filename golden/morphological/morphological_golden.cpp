@@ -28,7 +28,7 @@ bool from_table(const spec::morphological::Parameters& parameters) {
          parameters.area != spec::morphological::AreaSource::kLearned;
 }
 
-// A record whose weights come from the ROMs.
+// A descriptor whose weights come from the ROMs.
 spec::morphological::LineDescriptor without_line(const AxisEdges& edges,
                                                  const spec::morphological::RunDescriptor& run,
                                                  int search_range) {
@@ -117,15 +117,14 @@ const std::vector<spec::morphological::Rgba8>& MorphologicalGolden::process(
   return pixels_;
 }
 
-// Everything behind the edges.
+// All blocks after edge detection.
 void MorphologicalGolden::smooth(const ImageView& image) {
   work_ = {};
   runs_.clear();
   const std::size_t pixels =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   work_.pixels = pixels;
-  // Every pixel is written below: a copy of as many makes them in a fifth of the time of clearing
-  // them.
+  // Every pixel is written below. Copying any pixels allocates five times faster than clearing.
   if (pixels_.size() != pixels) pixels_.assign(image.pixels.data(), image.pixels.data() + pixels);
   if (everything_) {
     probes_.assign(pixels, {});
@@ -228,7 +227,7 @@ void MorphologicalGolden::weight_learned(AxisWeights& axis,
     axis.weights.push_back({look_up(first.of_pixel(k)), look_up(second.of_pixel(k)), 0});
 }
 
-// Edges between the head and the tail of a long run, one at least.
+// At least one edge between the head and the tail of a long run.
 void MorphologicalGolden::weight_gap(AxisWeights& axis, int edges) {
   Weight weight;
   if (parameters_.area == spec::morphological::AreaSource::kLearned) {
@@ -255,7 +254,7 @@ void MorphologicalGolden::weight(AxisWeights& axis,
     }
     return;
   }
-  // Of a long run the other end lies as far away as the reach.
+  // The other end of a long run counts as one search range away.
   using spec::morphological::RunPart;
   const int rest = search_range(parameters_, line.run.axis) - line.run.length;
   const int start = line.run.part == RunPart::kTail ? rest : 0,
@@ -264,7 +263,7 @@ void MorphologicalGolden::weight(AxisWeights& axis,
     put(rounded(weights(line, k), line.run.far, k + start, end - 1 - k));
 }
 
-// Of every record, with sides or without.
+// Called for every descriptor, with or without sides.
 void MorphologicalGolden::count_searches(const spec::morphological::LineDescriptor& line,
                                          int extent) {
   if (!from_table(parameters_)) return;
@@ -330,7 +329,7 @@ void MorphologicalGolden::process_diagonals() {
   }
 }
 
-// Vertical records were found column by column.
+// Vertical descriptors were found column by column.
 void MorphologicalGolden::put_runs_in_order(std::size_t first_vertical) {
   std::stable_sort(runs_.begin() + static_cast<std::ptrdiff_t>(first_vertical), runs_.end(),
                    [](const PredictedRun& a, const PredictedRun& b) {
@@ -347,7 +346,7 @@ PixelWeights MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// The text guard and the rule `leave`, for a pixel that has a weight.
+// Applies the text guard and the rule `leave` to a pixel with a weight.
 spec::morphological::BlendProbe MorphologicalGolden::remaining_probe(
     const ImageView& image, int x, int y, const spec::morphological::BlendProbe& probe) {
   const Marks marks = marks_of(parameters_.bypass, image, x, y);
@@ -359,7 +358,7 @@ spec::morphological::BlendProbe MorphologicalGolden::remaining_probe(
   return remaining(parameters_.bypass, marks, probe);
 }
 
-// Only pixels beside an edge can change colour; they are visited a word of bits at a time.
+// Only pixels next to an edge can change; they are found one word of bits at a time.
 void MorphologicalGolden::blend_row(const ImageView& image, int y) {
   const auto row_start = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
   std::copy_n(image.row(y), image.width, row_start);
@@ -403,7 +402,7 @@ void MorphologicalGolden::blend_pixel(const ImageView& image, int x, int y) {
   if (everything_) coverage_.count_pixel(decision);
   ++(left ? work_.bypassed_pixels : work_.blended_pixels);
   if (left) return;
-  // A neighbour without a weight may lie outside the frame; the pixel itself stands in for it.
+  // A neighbour without a weight may lie outside the frame; the pixel is used in its place.
   const spec::morphological::Rgba8& pixel = image.at(x, y);
   const int dx = probe.horizontal ? 1 : 0, dy = probe.horizontal ? 0 : 1;
   const spec::morphological::Rgba8& first = probe.first != 0 ? image.at(x - dx, y - dy) : pixel;
@@ -423,7 +422,7 @@ void MorphologicalGolden::set_read_errors(LinePredicate error, std::uint32_t pix
   pixel_base_ = pixel_base;
 }
 
-// The frame as pass two sees it: lines that could not be read are zeros.
+// The frame as read back in the second pass: lines with read errors are zeros.
 ImageView MorphologicalGolden::as_read_back(const ImageView& image) {
   if (!error_ || parameters_.storage != spec::morphological::Storage::kMemory) return image;
   constexpr int kPixels =

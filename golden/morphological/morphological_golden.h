@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Bit-exact reference of the whole morphological engine: a frame in, the smoothed frame out, with
+// Bit-exact reference of the morphological engine. Input: a frame. Outputs: the smoothed frame,
 // every intermediate result and the predicted memory traffic.
 //
 // No time, no SystemC, integers only (docs/reference/morphological/algorithm.md,
-// docs/reference/morphological/smaa.md; papers 000, 001
-// and 003). The blocks are pure functions: luma.h or colour.h, edges.h, runs.h, predictor.h,
-// line.h, area.h or area_table.h or learned_weights.h, corners.h, diagonals.h, blend.h, bypass.h,
-// text_guard.h, traffic.h; conversion of other images to codes: convert.h. MorphologicalGolden
-// strings them together over a frame. Edges are found for all pixels, row by row; after that only
-// edges and the pixels beside them cost time.
+// docs/reference/morphological/smaa.md; papers 000, 001 and 003). The blocks are pure functions:
+// luma.h or colour.h, edges.h, runs.h, predictor.h, line.h, area.h or area_table.h or
+// learned_weights.h, corners.h, diagonals.h, blend.h, bypass.h, text_guard.h, traffic.h; conversion
+// of images to codes: convert.h. MorphologicalGolden runs them over a frame. Edges are detected for
+// all pixels; later blocks only visit edges and the pixels next to them.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +29,8 @@
 
 namespace deburr::golden::morphological {
 
-// One record and what the predictor made of it. Positions count from line.run.start, before any
-// extension; the outermost corners lie at far_left <= 0 and far_right >= 1.
+// A descriptor and its prediction. Positions count from line.run.start; the outermost corners are
+// at far_left <= 0 and far_right >= 1.
 struct PredictedRun {
   spec::morphological::LineDescriptor line;
   std::int16_t far_left = 0, far_right = 0;
@@ -43,43 +42,44 @@ struct PredictedRun {
 
 class MorphologicalGolden {
  public:
-  // kPixels: pixels, edges and work only; the fastest. kEverything: taps, decisions, runs and
-  // coverage too.
+  // kPixels: pixels, edges and work counters only; the fastest. kEverything: also probes,
+  // decisions, runs and coverage.
   enum class Detail { kPixels, kEverything };
 
   // Throws ConfigError (spec/morphological/check_build.h).
   explicit MorphologicalGolden(const spec::morphological::Parameters& parameters,
                                Detail detail = Detail::kEverything);
 
-  // The output frame, row by row without gaps; valid until the next call. Depth has the size of the
-  // image; without one every depth is 0. Throws ConfigError for a frame the engine does not take.
+  // Returns the output frame, row by row without padding; valid until the next call. Depth has the
+  // size of the image; without depth every depth is 0. Throws ConfigError for a frame that the
+  // engine rejects.
   const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
                                                          const DepthView& depth = {});
-  // The same with edges that someone else found, of the image's size; those in column 0 (left) and
-  // row 0 (top) must be 0.
+  // Uses the given edges instead of edge detection. They have the size of the image; column 0
+  // (left) and row 0 (top) must be 0.
   const std::vector<spec::morphological::Rgba8>& process(const ImageView& image,
                                                          const EdgePlanes& edges);
 
-  // ---- of the last frame; index y * width + x -----------------------------------------------
+  // ---- Results of the last frame; index y * width + x ----------------------------------------
   int width() const { return edges_.left.width(); }
   int height() const { return edges_.left.height(); }
   const std::vector<spec::morphological::Rgba8>& pixels() const { return pixels_; }
   const EdgePlanes& edges() const { return edges_; }
-  // Weights of the top and of the left edge of a pixel, as the blender reads them.
+  // Weights of the top and of the left edge of a pixel, as read by the blender.
   EdgeWeights top_weights(int x, int y) const { return horizontal_.at(x, y).of_edge(); }
   EdgeWeights left_weights(int x, int y) const { return vertical_.at(y, x).of_edge(); }
-  // Counters of this frame alone; hardware adds up until its counters are cleared.
+  // Counters of this frame only; the hardware accumulates them until its counters are cleared.
   const spec::morphological::Work& work() const { return work_; }
-  // With kEverything, else empty. Taps are the engine's, edge bits included.
+  // Empty without kEverything. Probes are those of the engine, including edge bits.
   const std::vector<spec::morphological::BlendProbe>& probes() const { return probes_; }
   const std::vector<Decision>& decisions() const { return decisions_; }
-  // Every record in canonical order: horizontal by (row, start), then vertical by (start row,
+  // Every descriptor in canonical order: horizontal by (row, start), then vertical by (start row,
   // column).
   const std::vector<PredictedRun>& runs() const { return runs_; }
-  // Line accesses of storage = memory: all writes, then all reads. Empty with line buffers.
+  // Line accesses with storage = memory: all writes, then all reads. Empty with line buffers.
   std::vector<spec::morphological::FrameAccess> traffic(std::uint32_t pixel_base = 0) const;
 
-  // ---- of all frames ------------------------------------------------------------------------
+  // ---- Results of all frames -----------------------------------------------------------------
   const RunCoverage& coverage() const { return coverage_; }
   const SmaaCoverage& smaa_coverage() const { return smaa_coverage_; }
   const BypassCoverage& bypass_coverage() const { return bypass_coverage_; }
@@ -93,32 +93,32 @@ class MorphologicalGolden {
     guard_coverage_ = {};
   }
 
-  // storage = memory: line addresses whose reads memory answers with an error; their pixels read as
-  // zero wherever the blender uses them. Edges come from the stream and are not touched.
+  // storage = memory: line addresses whose reads get an error response; their pixels read as zero
+  // in the blender. Edges come from the stream and are not affected.
   using LinePredicate = std::function<bool(std::uint32_t address)>;
   void set_read_errors(LinePredicate error, std::uint32_t pixel_base = 0);
   std::uint64_t memory_errors() const { return memory_errors_; }  // of the last frame
 
-  // From the next frame on, as if written to the registers.
+  // Takes effect with the next frame, like a register write.
   void set_weight_tables(const WeightTables& tables) { tables_ = tables; }
 
   const spec::morphological::Parameters& parameters() const { return parameters_; }
 
  private:
-  struct Weight {  // of one edge
+  struct Weight {  // of an edge
     std::uint8_t first = 0, second = 0;
     std::uint16_t span = 0;
     EdgeWeights of_edge() const { return {first, second}; }
   };
-  // Weights of all edges of one axis, in the order of the bits of `edges.along`: nothing is stored
-  // for pixels without an edge.
+  // Weights of all edges of an axis, in the order of the bits of `edges.along`; pixels without an
+  // edge have no entry.
   struct AxisWeights {
     AxisEdges edges;
     std::vector<Weight> weights;
-    std::vector<std::uint32_t> edges_before;  // each word of edges.along
+    std::vector<std::uint32_t> edges_before;  // for each word of edges.along
     void count_edges();
     std::size_t index(int position, int line) const;  // of the weight of an edge
-    Weight at(int position, int line) const;          // zero where there is no edge
+    Weight at(int position, int line) const;          // zero without an edge
   };
   void smooth(const ImageView& image);
   void process_axis(AxisWeights& axis);
@@ -142,7 +142,7 @@ class MorphologicalGolden {
   spec::morphological::Parameters parameters_;
   bool everything_;
   EdgePlanes edges_;
-  TextGuard guard_;  // with text_guard
+  TextGuard guard_;  // with text_guard only
   AxisWeights horizontal_, vertical_;
   std::vector<spec::morphological::Rgba8> pixels_, read_back_;
   std::vector<spec::morphological::BlendProbe> probes_;

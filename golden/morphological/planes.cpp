@@ -25,7 +25,7 @@ void transpose(std::array<std::uint64_t, 64>& block) {
 
 }  // namespace
 
-// Product moves flag i of eight to bit 56 + i.
+// The product moves flag i of eight to bit 56 + i.
 std::uint64_t packed_flags(const std::uint8_t* flags) {
   std::uint64_t word = 0;
   for (std::ptrdiff_t i = 0; i < 8; ++i) {

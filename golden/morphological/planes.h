@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the blocks of the morphological golden hand to each other: views of images, planes of values
-// and of bits, and the two edge planes seen along either axis.
+// Data between the blocks of the morphological golden model: views of images, planes of values and
+// bits, and the edge planes seen along either axis.
 //
-// Coordinates: x to the right, y downwards, top row first. A bit plane reads 0 outside the frame,
-// as docs/reference/morphological/algorithm.md says of edges. Rows of bits are words of 64, so that
-// runs are found a word at a time.
+// Coordinates: x to the right, y downwards, top row first. A bit plane reads as 0 outside the frame
+// (docs/reference/morphological/algorithm.md). Rows of bits are 64-bit words, so that runs are
+// found word by word.
 #pragma once
 
 #include <algorithm>
@@ -18,12 +18,12 @@
 
 namespace deburr::golden::morphological {
 
-// A frame owned by someone else. Pixel (x, y) is pixels[y * stride + x].
+// A frame that is not owned. Pixel (x, y) is pixels[y * stride + x].
 template <class Pixel>
 struct ViewOf {
   std::span<const Pixel> pixels;
   int width = 0, height = 0;
-  std::size_t stride = 0;  // pixels from row to row, at least width
+  std::size_t stride = 0;  // pixels per row, at least width
 
   ViewOf() = default;
   ViewOf(std::span<const Pixel> p, int w, int h) : ViewOf(p, w, h, static_cast<std::size_t>(w)) {}
@@ -36,7 +36,7 @@ struct ViewOf {
 using ImageView = ViewOf<spec::morphological::Rgba8>;
 using DepthView = ViewOf<std::uint32_t>;  // U24, grows towards the eye
 
-// One value a pixel, rows without gaps.
+// One value per pixel, rows without padding.
 template <class Value>
 struct PlaneOf {
   int width = 0, height = 0;
@@ -60,7 +60,7 @@ class BitPlane {
  public:
   BitPlane() = default;
   BitPlane(int width, int height) { resize(width, height); }
-  void resize(int width, int height);  // all bits 0 afterwards
+  void resize(int width, int height);  // clears all bits
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -71,14 +71,14 @@ class BitPlane {
     }
     return (row(y)[x >> 6] >> (x & 63) & 1) != 0;
   }
-  // With Border::kClamp outside the frame the bit of the nearest pixel.
+  // Border::kClamp: pixels outside the frame have the bit of the nearest pixel.
   bool at(spec::morphological::Border border, int x, int y) const {
     if (border == spec::morphological::Border::kEnd) return at(x, y);
     return at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1));
   }
   void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
 
-  // Bit x % 64 of word x / 64 is pixel x. At least one bit beyond the last pixel exists and is 0.
+  // Bit x % 64 of word x / 64 is pixel x. At least one bit after the last pixel exists; it is 0.
   int words() const { return words_; }
   std::uint64_t* row(int y) { return bits_.data() + static_cast<std::ptrdiff_t>(y) * words_; }
   const std::uint64_t* row(int y) const {
@@ -94,7 +94,7 @@ class BitPlane {
   std::vector<std::uint64_t> bits_;
 };
 
-// 64 flags of 0 or 1 as bits, the first one lowest.
+// Packs 64 flags of 0 or 1 into bits, the first one lowest.
 std::uint64_t packed_flags(const std::uint8_t* flags);
 
 // left(x, y): edge between (x - 1, y) and (x, y). top(x, y): between (x, y - 1) and (x, y).
@@ -103,12 +103,12 @@ struct EdgePlanes {
   friend bool operator==(const EdgePlanes&, const EdgePlanes&) = default;
 };
 
-// The edges as the horizontal run sees them: `along` makes runs, `across` crosses them. Transposed
-// planes give the vertical runs; then a position is a row and a line a column.
+// The edges of horizontal runs: `along` forms runs, `across` crosses them. Vertical runs use the
+// transposed planes, where a position is a row and a line is a column.
 struct AxisEdges {
   spec::morphological::Axis axis = spec::morphological::Axis::kHorizontal;
   BitPlane along, across;
-  spec::morphological::Border border = spec::morphological::Border::kEnd;  // of the ends of runs
+  spec::morphological::Border border = spec::morphological::Border::kEnd;  // for the ends of runs
 
   static AxisEdges horizontal(const EdgePlanes& edges, spec::morphological::Border border =
                                                            spec::morphological::Border::kEnd) {
@@ -120,21 +120,21 @@ struct AxisEdges {
             border};
   }
 
-  // The two crossings at a lattice corner: bit 0 first side (N), bit 1 second side (S).
+  // The crossings at a lattice corner: bit 0 first side (N), bit 1 second side (S).
   int crossings(int position, int line) const {
     return (across.at(position, line - 1) ? 1 : 0) | (across.at(position, line) ? 2 : 0);
   }
-  // The same of the end of a run, which may lie on the border.
+  // The same at an end of a run, which may be on the border.
   int end_crossings(int position, int line) const {
     return (across.at(border, position, line - 1) ? 1 : 0) |
            (across.at(border, position, line) ? 2 : 0);
   }
-  // Those a pixel further out, on either side of them: do they go on?
+  // The edges one pixel further on either side: whether the crossings continue.
   int far_crossings(int position, int line) const {
     return (across.at(border, position, line - 2) ? 1 : 0) |
            (across.at(border, position, line + 1) ? 2 : 0);
   }
-  // The whole code of a corner: N, S, W, E in bits 0 to 3.
+  // The complete code of a corner: N, S, W, E in bits 0 to 3.
   int corner(int position, int line) const {
     return crossings(position, line) | (along.at(position - 1, line) ? 4 : 0) |
            (along.at(position, line) ? 8 : 0);

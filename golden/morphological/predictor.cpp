@@ -11,7 +11,7 @@
 namespace deburr::golden::morphological {
 namespace {
 
-// The candidates of a trial, best first.
+// Candidate steps of a trial, best first.
 struct Candidates {
   std::array<int, 3> step{};
   int count = 0;
@@ -22,11 +22,11 @@ struct Candidates {
 
 Candidates candidates(int length, int other) {
   if (other != 0) return {{length, other}, 2};
-  if (length == 1) return {{1, 2}, 2};  // a step of 0 is none
+  if (length == 1) return {{1, 2}, 2};  // a step of 0 is not a candidate
   return {{length, length - 1, length + 1}, 3};
 }
 
-// The run under extension: where it lies and what a continuation must look like.
+// The run being extended: its location and the code that a continuation must have.
 class Trials {
  public:
   Trials(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
@@ -41,7 +41,7 @@ class Trials {
         end_code_(edges.corner(run.start + run.length, run.line)),
         direction_((end_code_ & 1) != 0 ? -1 : 1) {}
 
-  // Step number k from the right corner at x; 0 if no candidate hits.
+  // Step k from the right corner at x; 0 if no candidate hits.
   int right(int k, int x, const Candidates& steps) const {
     const int row = line_ + direction_ * (k + 1);
     for (const int s : steps) {
@@ -52,7 +52,7 @@ class Trials {
     }
     return 0;
   }
-  // The mirror image, from the left corner at x.
+  // Mirrored: from the left corner at x.
   int left(int k, int x, const Candidates& steps) const {
     const int row = line_ - direction_ * (k + 1);
     for (const int s : steps) {
@@ -64,8 +64,8 @@ class Trials {
     return 0;
   }
 
-  // The largest candidate of the next step lies beyond the reach: had the trial none, the window
-  // ended and not the line.
+  // Whether the largest candidate of the next step exceeds the search range. If a trial then finds
+  // nothing, the search range ended, not the line.
   bool out_of_search_range_right(int x, int largest) const { return x + largest > search_range_; }
   bool out_of_search_range_left(int x, int largest) const {
     return x - largest < length_ - search_range_;
@@ -85,7 +85,7 @@ class Trials {
   int search_range_, line_, origin_, length_, start_code_, end_code_, direction_;
 };
 
-// A side of the run while it grows.
+// One side of the run during its extension.
 struct Growth {
   Extension& side;
   int length;
@@ -105,7 +105,7 @@ struct Growth {
   }
 };
 
-// The paper, corrected: each side by itself.
+// The paper's extension, corrected: each side independently.
 void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
   const auto extend = [&](Extension& side, auto&& trial, auto&& out_of_search_range, int sign) {
     Growth growth{side, length};
@@ -132,8 +132,8 @@ void extend_alone(const Trials& trials, int n, int length, Prediction& p) {
       [&](int x, int largest) { return trials.out_of_search_range_left(x, largest); }, -1);
 }
 
-// Ours: both sides in lockstep with one L', as far as one line explains every corner. The numbers
-// are those of the contract.
+// This project's extension: both sides in lockstep with one L', while one line explains every
+// corner. Numbers are the steps of the page.
 void extend_together(const Trials& trials, int n, int length, Prediction& p) {
   ConsistentSet corners(length);
   Growth right{p.right, length}, left{p.left, length};
@@ -177,7 +177,7 @@ void extend_together(const Trials& trials, int n, int length, Prediction& p) {
   close_both(SideEnd::kSteps);
 }
 
-// Gives back the steps of a side that its end makes doubtful; `inner` is its corner of the run.
+// Drops the steps that the end of a side makes doubtful; `inner` is its corner of the run.
 void trim(Extension& side, int inner) {
   switch (side.why) {
     case SideEnd::kNoHit:

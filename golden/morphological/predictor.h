@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How far a run continues as a digital line: tries its step again on the neighbouring rows.
+// Extends a run as a digital line: repeats its step on the neighbouring rows.
 //
-// Between RunExtractor and LineUnit; docs/reference/morphological/algorithm.md, "Extension". Paper
-// 000, section 2.2, corrected (docs/measurements/morphological_quality.md, "What the paper
-// prints, and what is built"); the lockstep and the trim are ours. Positions count from the start
-// of the run; integers only.
+// Between RunExtractor and LineUnit; docs/reference/morphological/algorithm.md, "Extension".
+// Source: paper 000, section 2.2, corrected (docs/measurements/morphological_quality.md, "What the
+// paper prints, and what is built"); lockstep and trim are from this project. Positions count from
+// the start of the run; integers only.
 #pragma once
 
 #include <array>
@@ -17,27 +17,27 @@
 
 namespace deburr::golden::morphological {
 
-// What a side found, before it was trimmed: the first step that differs from L names it.
+// Result of a side before the trim: the first step that differs from L.
 enum class Outcome : std::uint8_t {
-  kUntried,  // not a clean Z within the reach, or no predictor
-  kNone,     // tried, no step taken
+  kUntried,  // not a clean Z within the search range, or no predictor
+  kNone,     // tried; no step taken
   kExact,    // every step is L
   kEarly,    // L' = L - 1
   kLate      // L' = L + 1
 };
-// Why a side ended.
+// Why the extension of a side ended.
 enum class SideEnd : std::uint8_t {
   kUntried,
-  kSteps,         // all N steps taken, or tried
+  kSteps,         // all N steps taken or tried
   kNoHit,         // no candidate hits: the line is lost
-  kReach,         // no candidate hits, and the largest lies beyond the reach
-  kInconsistent,  // safe: no line fits all corners with the one hit (or both)
-  kCurve          // safe: both sides hit, with different steps that are not L
+  kReach,         // no candidate hits, and the largest exceeds the search range
+  kInconsistent,  // safe: no line fits all corners with this hit, or with both hits
+  kCurve          // safe: both sides hit, with different steps other than L
 };
 
 struct Extension {
   int steps = 0;  // kept
-  int end = 0;    // position of the outermost corner: L or 0 if no step was taken
+  int end = 0;    // position of the outermost corner: L or 0 without steps
   std::array<std::int16_t, spec::morphological::kMaxSteps>
       corner{};  // positions of the corners taken
   Outcome outcome = Outcome::kUntried;
@@ -50,11 +50,11 @@ struct Extension {
 struct Prediction {
   Extension left, right;
   int probes = 0;      // corners tested
-  int iterations = 0;  // values of k for which a trial was made
+  int iterations = 0;  // number of values of k with a trial
 };
 
-// Corners (i, X) that one digital line must have produced: the pixels a step that the pairs i < j
-// allow lie strictly between max (X_j - X_i - 1) / (j - i) and min (X_j - X_i + 1) / (j - i).
+// Corners (i, X) that one digital line can have produced: its pixels per step lie strictly between
+// max (X_j - X_i - 1) / (j - i) and min (X_j - X_i + 1) / (j - i) over the pairs i < j.
 class ConsistentSet {
  public:
   struct Corner {
@@ -63,7 +63,7 @@ class ConsistentSet {
   explicit ConsistentSet(int length);  // {(0, 0), (1, length)}
   void add(Corner corner);
   bool consistent() const { return bounds_.low < bounds_.high; }
-  // Whether the set would be, with one corner or two more.
+  // Whether the set stays consistent with one or two more corners.
   bool consistent_with(Corner corner) const;
   bool consistent_with(Corner a, Corner b) const;
 
@@ -85,8 +85,8 @@ class ConsistentSet {
   Bounds bounds_;
 };
 
-// Extends `run` (of edges.axis). Without extension (see Outcome::kUntried) both ends are the run's
-// own.
+// Extends `run` along edges.axis. Without an extension (Outcome::kUntried) both ends are those of
+// the run.
 Prediction predict(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
                    const spec::morphological::RunDescriptor& run);
 

@@ -46,7 +46,7 @@ std::string slash(std::initializer_list<std::string_view> parts) {
   return name;
 }
 
-// A side of `length_bin` pixels that was tried.
+// Counts a side that was tried, of a run in this length bin.
 template <class Table, class Ends>
 void count_side(const Extension& side, std::size_t length_bin, Table& outcomes, Ends& ends) {
   if (side.outcome == Outcome::kUntried) return;

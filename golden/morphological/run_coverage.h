@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of the morphological engine: which situations the frames so far contained.
+// Functional coverage of the morphological engine: the situations that occurred in the frames so
+// far.
 //
-// Counted by the golden, which knows every run and every decision. Small named bins:
-//   shape/<axis>/<shape>/<length>             whole runs
-//   long-end/<axis>/<crossing>                ends of runs beyond the reach
+// The golden model counts, since it knows every run and every decision. Bins:
+//   shape/<axis>/<shape>/<length>      whole runs
+//   long-end/<axis>/<crossing>         ends of runs longer than the search range
 //   prediction/<axis>/<side>/<outcome>/<length>
-//                                             none, exact (all steps L), early (L - 1), late (L +
-//                                             1)
-//   prediction-end/<axis>/<why>               what stopped a side
-//   border/<axis>/<border>                    runs that touch the frame's border
-//   decision/<rule>                           of the blender
-// Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp); a run of 17 pixels
-// with extensions needs a reach of 34.
+//                                      none, exact (all steps L), early (L - 1), late (L + 1)
+//   prediction-end/<axis>/<why>        why the extension of a side ended
+//   border/<axis>/<border>             runs that touch the border of the frame
+//   decision/<rule>                    decisions of the blender
+// Every bin is reachable (tb/unit/golden/morphological/coverage_test.cpp); a run of 17 pixels with
+// extensions needs a search range of 34.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 namespace deburr::golden::morphological {
 namespace {
 
-// Which ends go on beyond the frame: bit 0 the start, bit 1 the end.
+// Ends that continue outside the frame: bit 0 the start, bit 1 the end.
 int endless_ends(const AxisEdges& edges, int line, int first, int end) {
   if (edges.border != spec::morphological::Border::kClamp) return 0;
   const bool end_crosses = edges.end_crossings(end, line) != 0;

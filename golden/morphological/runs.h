@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Runs of edges along an axis, maximal or cut at crossing edges, as records with the shape that
-// their ends give them.
+// Runs of edges along an axis, maximal or cut at crossing edges, as descriptors with the shape
+// given by their ends.
 //
 // Third block; docs/reference/morphological/algorithm.md, "Runs" and "Long runs";
-// docs/reference/morphological/smaa.md, "Runs that end at crossings". Written for horizontal runs:
-// AxisEdges shows vertical ones the same way. Reshetov's L, U and Z patterns (paper 000, section
-// 2); SMAA's searches.
+// docs/reference/morphological/smaa.md, "Runs that end at crossings". Written for horizontal runs;
+// AxisEdges shows vertical ones the same way. Source: Reshetov's L, U and Z patterns (paper 000,
+// section 2); SMAA's searches.
 #pragma once
 
 #include <bit>
@@ -23,7 +23,7 @@ template <class Sink>
 void for_each_run(const BitPlane& along, int line, Sink&& sink) {
   const std::uint64_t* row = along.row(line);
   int i = 0;
-  std::uint64_t rest = row[0];  // not yet looked at
+  std::uint64_t rest = row[0];  // not yet searched
   for (;;) {
     while (rest == 0) {
       if (++i == along.words()) return;
@@ -31,7 +31,7 @@ void for_each_run(const BitPlane& along, int line, Sink&& sink) {
     }
     const int first_bit = std::countr_zero(rest);
     const int first = 64 * i + first_bit;
-    // The last word ends in a 0, so a run that fills a word goes on in an existing one.
+    // The last word ends in a 0, so a run that fills a word continues in an existing one.
     int end_bit = first_bit + std::countr_one(rest >> first_bit);
     while (end_bit == 64) {
       rest = row[++i];
@@ -62,10 +62,11 @@ void for_each_run(const AxisEdges& edges, spec::morphological::Ends ends, int li
   });
 }
 
-// Codes of a run's ends as the index of kRunShapes.
+// The index into kRunShapes from the codes of both ends.
 int run_shape(const AxisEdges& edges, int line, int first, int end);
 
-// The records of one run, start first: one, or the head and the tail of a run beyond the reach.
+// The descriptors of a run, start first: one, or head and tail of a run longer than the search
+// range.
 struct RunParts {
   spec::morphological::RunDescriptor descriptor[2];
   int count = 0;
@@ -75,7 +76,7 @@ struct RunParts {
 RunParts descriptors_of(const spec::morphological::Parameters& parameters, const AxisEdges& edges,
                         int line, int first, int end);
 
-// Every record of the axis, by line, then by start.
+// Every descriptor of the axis, by line, then by start.
 std::vector<spec::morphological::RunDescriptor> find_runs(
     const spec::morphological::Parameters& parameters, const AxisEdges& edges);
 

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 4> kEndless = {"start", "end", "both", "r
 constexpr std::array<std::string_view, 4> kCorners = {"start", "middle", "end", "cut"};
 constexpr std::array<std::string_view, 2> kRegimes = {"floor", "alpha"};
 
-// From here on the last root of a tile is read.
+// From this distance on the last root of a tile is read.
 constexpr int kLastRoot = 14 * 14;
 
 template <std::size_t n>

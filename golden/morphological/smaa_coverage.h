@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of SMAA's blocks: which situations the frames so far contained.
+// Functional coverage of SMAA's blocks: the situations that occurred in the frames so far.
 //
-// Beside RunCoverage, for frames with a table, diagonals or a dynamic threshold:
-//   table/<axis>/<shape>/<distance>           pixels, by the shape that their searches leave and by
-//                                             the longer of their distances
-//   table-entry/<tile>/<first|last>           distances 0, and beyond the last root but one
-//   search/<axis>/<end>/<at|beyond>           the limit
-//   endless/<axis>/<start|end|both|repeated>  records with border = clamp; repeated: one pixel
-//   whose
-//                                             crossings the border repeats
-//   corner/<axis>/<start|middle|end|cut>      pixels of records with a far bit, by the nearer end;
-//                                             cut: the limit hides all of its far bits
-//   diagonal/<direction>/<e1>-<e2>            directions that count
-//   diagonal-ends/<direction>/<which>         that are open
+// In addition to RunCoverage, for frames with a table, diagonals or a dynamic threshold:
+//   table/<axis>/<shape>/<distance>          pixels, by the shape after the search limit and the
+//                                            longer of the two distances
+//   table-entry/<tile>/<first|last>          distances 0, and beyond the last root but one
+//   search/<axis>/<end>/<at|beyond>          searches at or beyond the limit
+//   endless/<axis>/<start|end|both|repeated> descriptors with border = clamp; repeated: one pixel
+//                                            whose crossings the border repeats
+//   corner/<axis>/<start|middle|end|cut>     pixels of descriptors with a far bit, by the nearer
+//                                            end; cut: the limit hides all far bits
+//   diagonal/<direction>/<e1>-<e2>           directions that count
+//   diagonal-ends/<direction>/<which>        open ends
 //   diagonal-length/<direction>/<pixels>
-//   diagonal-beyond/<direction>               that follow repeated edges beyond the frame
-//   threshold/fixed                           edges of a fixed T
-//   threshold/<luma>/<floor|alpha>            edges of a dynamic one, by what decided it
-// Every bin can be reached (tb/unit/golden/morphological/coverage_test.cpp).
+//   diagonal-beyond/<direction>              follow repeated edges outside the frame
+//   threshold/fixed                          edges with a fixed threshold
+//   threshold/<luma>/<floor|alpha>           edges with a dynamic threshold, by what decided
+// Every bin is reachable (tb/unit/golden/morphological/coverage_test.cpp).
 #pragma once
 
 #include <array>
@@ -38,7 +37,7 @@ class SmaaCoverage {
   void count_pixel(spec::morphological::Axis axis, const TableAddress& address);
   // `extent`: pixels of the frame along the run.
   void count_descriptor(const spec::morphological::RunDescriptor& run, int extent);
-  // Of a record with far bits.
+  // For a descriptor with far bits.
   void count_corner(spec::morphological::Axis axis, const TableAddress& address, int far);
   void count_diagonal(bool rising, const DiagonalEnds& ends, bool beyond_frame);
   void count_threshold(spec::morphological::DynamicLuma luma, bool floor) {

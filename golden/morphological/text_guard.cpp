@@ -16,7 +16,7 @@ constexpr int kHashBits = 6, kHashes = 1 << kHashBits;
 int folded(int code) { return code % kHashes ^ code / kHashes; }
 int rotated(int bits, int left) { return (bits << left | bits >> (kHashBits - left)) % kHashes; }
 
-// A line of the plane, a row or a column.
+// A row or a column of the plane.
 template <class Value>
 struct PlaneLine {
   Value* first;
@@ -35,7 +35,7 @@ void for_each_column(PlaneOf<Value>& plane, Visit&& visit) {
     visit(x, PlaneLine<Value>{plane.row(0) + x, plane.stride(), plane.height});
 }
 
-// 1 where the value lies in a run of equal ones that is a stroke.
+// Sets strokes[i] to 1 if value i is in a run of equal values that is a stroke, else to 0.
 void mark_strokes(const PlaneLine<std::uint8_t>& colours, const PlaneLine<std::uint8_t>& strokes) {
   for (int first = 0, end = 0; first < colours.length; first = end) {
     while (end < colours.length && colours[end] == colours[first]) ++end;
@@ -43,7 +43,7 @@ void mark_strokes(const PlaneLine<std::uint8_t>& colours, const PlaneLine<std::u
   }
 }
 
-// Each value becomes that of all within reach of it.
+// Joins each value with all values within kGuardSearchRange of it.
 template <class Value, class Join>
 void spread(const PlaneLine<Value>& line, Join&& join) {
   std::vector<Value> old(static_cast<std::size_t>(line.length));

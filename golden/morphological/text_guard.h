@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Which pixels the text guard leaves as they are, and which situations of this the frames so far
-// contained.
+// Pixels that the text guard bypasses, and functional coverage of it.
 //
 // docs/reference/morphological/algorithm.md, "Text guard". A set of colours is a word of 64 bits,
-// one for each hash, so that the colours of a window are an OR. Bins, of all pixels of frames with
-// the guard:
-//   text/guarded                 all conditions hold
-//   text/one-colour              the window has one colour
-//   text/more-colours            the window has three or more, and all else holds
-//   text/few-in-rows             all holds but the number of strokes in rows
-//   text/few-in-columns          all holds but the number of strokes in columns
-//   text/few                     all holds but the sum of both
-//   text/just/<which>            guarded with the least number in rows, in columns, of both; not
-//                                guarded for one fewer
-//   text/kept/<which>            guarded with a weight: by the guard alone, by `leave` as well
-//   text-border/<border>         guarded on the frame's border
-// Every bin can be reached (tb/unit/golden/morphological/text_guard_test.cpp).
+// one bit per hash, so the colours of a window are combined by OR. Bins count all pixels of frames
+// with the guard:
+//   text/guarded              all conditions hold
+//   text/one-colour           the window has one colour
+//   text/more-colours         the window has three or more colours; all else holds
+//   text/few-in-rows          all holds except the number of strokes in rows
+//   text/few-in-columns       all holds except the number of strokes in columns
+//   text/few                  all holds except the sum of both
+//   text/just/<which>         guarded with the smallest number in rows, in columns, of both; or not
+//                             guarded, with one fewer
+//   text/kept/<which>         guarded with a weight: by the guard only, or by `leave` as well
+//   text-border/<border>      guarded on the border of the frame
+// Every bin is reachable (tb/unit/golden/morphological/text_guard_test.cpp).
 #pragma once
 
 #include <array>
@@ -29,15 +28,15 @@
 
 namespace deburr::golden::morphological {
 
-// Six bits.
+// Returns six bits.
 int colour_hash(const spec::morphological::Rgba8& pixel);
 
-inline constexpr int kGuardSearchRange = 5;  // pixels from the middle of a window to its sides
+inline constexpr int kGuardSearchRange = 5;  // pixels from the centre of a window to its sides
 inline constexpr int kMostStroke = 3;        // pixels
-inline constexpr int kLeastStrokes = 3;      // pixels of a window in strokes, each way
-inline constexpr int kLeastOfBoth = 24;      // the sum of both ways
+inline constexpr int kLeastStrokes = 3;      // pixels of a window in strokes, per axis
+inline constexpr int kLeastOfBoth = 24;      // sum of both axes
 
-// What decides about a pixel, of its window.
+// The properties of a pixel's window that decide.
 struct GuardedPixel {
   std::uint8_t colours = 0;
   std::uint8_t row_strokes = 0;     // h
@@ -55,7 +54,7 @@ struct GuardedPixel {
 
 class TextGuard {
  public:
-  TextGuard() = default;  // of no frame
+  TextGuard() = default;  // without a frame
   explicit TextGuard(const ImageView& image);
   const GuardedPixel& at(int x, int y) const { return pixels_.at(x, y); }
 
@@ -66,7 +65,7 @@ class TextGuard {
 class GuardCoverage {
  public:
   void count_frame(const TextGuard& guard, int width, int height);
-  // A guarded pixel that has a weight; `left`: `leave` leaves it, too.
+  // Counts a guarded pixel with a weight; `left`: `leave` bypasses it as well.
   void count_kept(bool left) { ++kept_[left ? 1 : 0]; }
   // Every bin, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;

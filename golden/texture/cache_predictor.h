@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Predicts which cache lines a sequence of bilinear requests fetches, and in which order.
 //
-// Beside the filter arithmetic of the texture golden: colours do not depend on it, memory traffic
-// does. Holds tags only. docs/reference/texture/formats.md, "Cache and traffic".
+// Stores tags only: memory traffic depends on the cache, colours do not.
+// docs/reference/texture/formats.md, "Cache and traffic".
 #pragma once
 
 #include <array>
@@ -16,23 +16,23 @@ namespace deburr::golden::texture {
 
 class CachePredictor {
  public:
-  // Throws ConfigError for what cannot be built (spec/texture/check_build.h).
+  // Throws ConfigError if the cache cannot be built (spec/texture/check_build.h).
   explicit CachePredictor(const spec::texture::Parameters& parameters);
 
-  // Looks a line up and makes it present. True: it was present; false: one fill of the whole line.
+  // Looks up a line and allocates it on a miss. Returns true on a hit; false: one fill of the line.
   bool lookup(std::uint32_t line) {
-    // The line looked up last is present and the most recent of its set: nothing would change.
+    // The previous line is present and the most recent one of its set: nothing would change.
     if (any_ && line == last_) return true;
     any_ = true;
     last_ = line;
     return lookup_in_set(line);
   }
 
-  // The lines of one bilinear request, given in the order of its texels 00, 10, 01, 11: each
-  // distinct one is looked up once, in the order of first use; fill(line) is called for each miss.
+  // Looks up the lines of a bilinear request, given in the order of its texels 00, 10, 01, 11: each
+  // distinct line once, in the order of first use. Calls fill(line) for each miss.
   template <class Fill>
   void request(const std::array<std::uint32_t, 4>& lines, Fill&& fill) {
-    if (lines[1] == lines[0] && lines[2] == lines[0] && lines[3] == lines[0]) {  // as most do
+    if (lines[1] == lines[0] && lines[2] == lines[0] && lines[3] == lines[0]) {  // the common case
       if (!lookup(lines[0])) fill(lines[0]);
       return;
     }
@@ -44,8 +44,8 @@ class CachePredictor {
   }
 
   bool present(std::uint32_t line) const;
-  void invalidate();  // forgets every line; the random sequence goes on
-  void reset();       // as new
+  void invalidate();  // clears all lines, but not the random sequence
+  void reset();       // as after construction
   std::uint32_t line_of(std::uint32_t address) const { return address >> line_shift_; }
   std::uint32_t line_bytes() const { return 1u << line_shift_; }
   std::uint32_t sets() const { return set_mask_ + 1; }
@@ -55,7 +55,7 @@ class CachePredictor {
   struct Way {
     std::uint32_t line = 0;
     bool valid = false;
-    std::uint64_t time = 0;  // of the last use (lru) or of the fill (fifo, random)
+    std::uint64_t time = 0;  // last use (lru) or fill (fifo, random)
   };
   bool lookup_in_set(std::uint32_t line);
   std::uint32_t victim(std::span<const Way> set);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// From bytes of a texel to the colour of a fragment: unpack, bilinear, level lerp, kernel sum.
+// Computes the colour of a fragment from the bytes of its texels: unpack, bilinear, level lerp,
+// kernel sum.
 //
-// Last part of the texture golden (paper 004, section 2.3 and equation 4). Pure functions of
-// integers, a channel at a time; docs/reference/texture/formats.md, table. Inline since they are
+// Last part of the texture golden model (paper 004, section 2.3 and equation 4). Pure functions of
+// integers, one channel at a time; docs/reference/texture/formats.md, table. Inline, since they are
 // the inner loop.
 #pragma once
 
@@ -16,7 +17,7 @@ namespace deburr::golden::texture {
 
 using Texel = std::array<std::uint32_t, 4>;  // R, G, B, A in U8.4
 
-// A texel from its bytes, read little-endian into one word (low 8, 16 or 32 bits used).
+// Decodes a texel from its bytes in one little-endian word (low 8, 16 or 32 bits used).
 inline Texel decode_texel(spec::texture::Format format, std::uint32_t word) {
   const auto five = [](std::uint32_t v) { return (v << 3 | v >> 2) << 4; };
   const auto six = [](std::uint32_t v) { return (v << 2 | v >> 4) << 4; };
@@ -39,12 +40,12 @@ inline Texel decode_texel(spec::texture::Format format, std::uint32_t word) {
   return {};
 }
 
-// Two channels, 32 bits each.
+// Two channels of 32 bits each.
 using Lanes = std::uint64_t;
 inline constexpr Lanes kOneInBothLanes = 0x1'0000'0001;
 
-// Four channels of one texel or filtered value: R in the low half of rb, B in its high half; G and
-// A.
+// Four channels of a texel or a filtered value: R in the low half of rb, B in its high half; the
+// same for G and A.
 struct Channels {
   Lanes rb = 0, ga = 0;
   friend bool operator==(const Channels&, const Channels&) = default;
@@ -59,7 +60,7 @@ inline Texel to_texel(const Channels& channels) {
           static_cast<std::uint32_t>(channels.ga >> 32)};
 }
 
-// decode_texel() for the inner loop.
+// As decode_texel(), for the inner loop.
 inline Channels decode_channels(spec::texture::Format format, std::uint32_t word) {
   if (format == spec::texture::Format::kRgba8) {  // each byte to its half, then << 4
     constexpr Lanes kByteInBothLanes = 255 * kOneInBothLanes;
@@ -77,16 +78,16 @@ inline Lanes horizontal_lerp(Lanes a, Lanes b, std::uint32_t f_u) {
   return a * (256 - f_u) + b * f_u;
 }
 
-// The same for two rows: U8.12 and U0.8 to U8.12, rounded.
+// Between two rows: U8.12 and U0.8 to U8.12, rounded.
 inline std::uint32_t vertical_lerp(std::uint32_t top, std::uint32_t bottom, std::uint32_t f_v) {
   return (top * (256 - f_v) + bottom * f_v + 128) >> 8;
 }
 inline Lanes vertical_lerp(Lanes top, Lanes bottom, std::uint32_t f_v) {
-  constexpr Lanes kKept = 0xFFFFFF * kOneInBothLanes;  // what the upper half drops falls in between
+  constexpr Lanes kKept = 0xFFFFFF * kOneInBothLanes;  // drops bits shifted out of the upper half
   return (top * (256 - f_v) + bottom * f_v + 128 * kOneInBothLanes) >> 8 & kKept;
 }
 
-// The same for two levels: U8.12 and U0.8 to U8.12, rounded. f = 0 gives `level` unchanged.
+// Between two levels: U8.12 and U0.8 to U8.12, rounded. f = 0 returns `level` unchanged.
 inline std::uint32_t level_lerp(std::uint32_t level, std::uint32_t next_level, std::uint32_t f) {
   return (level * (256 - f) + next_level * f + 128) >> 8;
 }
@@ -94,12 +95,12 @@ inline Lanes level_lerp(Lanes level, Lanes next_level, std::uint32_t f) {
   return vertical_lerp(level, next_level, f);
 }
 
-// Sum of kernel weight x level result, U8.20, rounded to 8 bits.
+// Rounds the sum of kernel weight x level result, U8.20, to 8 bits.
 inline std::uint8_t round_result(std::uint32_t accumulator) {
   return static_cast<std::uint8_t>((accumulator + (1u << 19)) >> 20);
 }
 
-// The same of linear light, as an sRGB code.
+// Converts a sum in linear light, U8.20, to an sRGB code.
 inline std::uint8_t encode_result(std::uint32_t accumulator) {
   return spec::texture::kLinearToSrgb[(accumulator + (1u << 15)) >> 16];
 }

@@ -13,14 +13,14 @@ namespace deburr::golden::texture {
 
 namespace {
 
-// A root and what is left of its square: x = root^2 + rest, 0 <= rest <= 2 root.
+// A root and its remainder: x = root^2 + rest, 0 <= rest <= 2 root.
 struct Root {
   std::uint64_t root, rest;
 };
 
-// Of a number of which the upper half has the given root and whose lower half is `high` and `low`,
-// of `bits` bits each: a division by twice the root gives the lower half of the root, or one more
-// where the root fills its bits from the top (Zimmermann, "Karatsuba Square Root", 1999).
+// Extends the root of the upper half of a number by its lower half, `high` and `low`, of `bits`
+// bits each. The number must be normalised; then division by twice the root gives the lower half
+// of the root, or one too many (Zimmermann, "Karatsuba Square Root", 1999).
 constexpr Root lengthened(Root upper, int bits, std::uint64_t high, std::uint64_t low) {
   const std::uint64_t dividend = upper.rest << bits | high;
   const std::uint64_t digits = dividend / (2 * upper.root);
@@ -46,7 +46,7 @@ constexpr std::array<std::uint8_t, 256> kRootsOfBytes = [] {
 
 std::uint32_t integer_square_root(std::uint64_t x) {
   if (x == 0) return 0;
-  const int shift = std::countl_zero(x) & ~1;  // by an even count, so that the root moves by half
+  const int shift = std::countl_zero(x) & ~1;  // even, so that the root shifts by half of it
   const std::uint64_t n = x << shift;
   const auto bits = [n](int from, int count) {
     return n >> from & ((std::uint64_t{1} << count) - 1);
@@ -99,7 +99,7 @@ std::int64_t rounded_in_coordinates(std::int64_t d) {
   return d < 0 ? -((-d + kHalf) >> kAxisFractionBits) : (d + kHalf) >> kAxisFractionBits;
 }
 
-// |P_x x P_y| of components cut to 8 fraction bits.
+// P_x x P_y| of components truncated to 8 fraction bits.
 std::uint64_t area(const Step& p_x, const Step& p_y) {
   const auto cut = [](std::int64_t p) { return p < 0 ? -(-p >> 8) : p >> 8; };
   const std::int64_t product = cut(p_x.s) * cut(p_y.t) - cut(p_x.t) * cut(p_y.s);
@@ -131,8 +131,8 @@ struct Longest {
   std::uint64_t measure = 0;
 };
 
-// The candidate with the largest measure, of equals the first. kStep directions lie from
-// one to the next: constants, since that leaves little of the products.
+// The candidate with the largest measure; on a tie, the first. kStep is the distance of two
+// directions in the table: a constant, so that most products fold.
 template <std::size_t kStep, class Measure>
 Longest longest_candidate(const Step& p_x, const Step& p_y, Measure&& measure) {
   Longest result;
@@ -171,7 +171,7 @@ Longest longest_candidate(spec::texture::Axes axes, const Step& p_x, const Step&
 Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
                     const Step& p_y) {
   Footprint result;
-  if (rule == spec::texture::FootprintRule::kExact) {  // the longest root is of the largest square
+  if (rule == spec::texture::FootprintRule::kExact) {  // the largest square has the largest root
     const Longest longest =
         longest_candidate(axes, p_x, p_y, [](const Magnitudes& u) { return square_of_length(u); });
     result.major = longest.k;
@@ -194,7 +194,7 @@ Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule,
 
 namespace {
 
-// What the rule of four segments adds to n + y, U0.12.
+// The correction that the four-segment rule adds to n + y, U0.12.
 std::uint32_t segment_correction(std::uint32_t y) {
   const std::uint32_t r = y & 1023;
   switch (y >> 10) {
@@ -209,7 +209,7 @@ std::uint32_t segment_correction(std::uint32_t y) {
   }
 }
 
-// lb(1 + y), U1.12, between the entries of the table.
+// lb(1 + y), U1.12, interpolated between the entries of the table.
 std::uint32_t interpolated_log2(std::uint32_t y) {
   const std::uint32_t i = y >> 6;
   const std::uint32_t low = spec::texture::kLog2Table[i], high = spec::texture::kLog2Table[i + 1];

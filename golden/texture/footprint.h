@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How large is a pixel in texels, and which way is it long: derivatives, candidate axes, footprint
-// sides, binary logarithm.
+// Size and orientation of a pixel in the texture: derivatives, candidate axes, footprint sides,
+// binary logarithm.
 //
-// First blocks of the texture golden (paper 004, sections 1.2 and 1.4; more than two axes are the
-// project's own). Pure functions of integers; formats and rounding:
+// First blocks of the texture golden model (paper 004, sections 1.2 and 1.4; more than two axes are
+// an extension of this project). Pure functions of integers; formats and rounding:
 // docs/reference/texture/formats.md, "Axes", "Footprint" and "Logarithm". Error against exact
 // arithmetic: tb/unit/golden/texture/footprint_test.cpp and log2_test.cpp.
 #pragma once
@@ -15,14 +15,14 @@
 
 namespace deburr::golden::texture {
 
-// A step over the texture, or a difference of two: in texels S15.16 (P) or in coordinates (D).
+// A difference of two positions in the texture: in texels, S15.16 (P), or in coordinates (D).
 struct Step {
   std::int64_t s = 0, t = 0;
   friend bool operator==(const Step&, const Step&) = default;
 };
 
-// difference x size. `texels` is S15.16, at most 2^31 - 1 either way; `saturated` says that more
-// was wanted.
+// difference x size in texels, S15.16, limited to a magnitude of 2^31 - 1; `saturated` if the limit
+// was exceeded.
 struct Derivative {
   std::int32_t texels = 0;
   bool saturated = false;
@@ -30,7 +30,7 @@ struct Derivative {
 };
 
 // difference: S8.24, coordinate of one lane minus that of its neighbour; size: width or height of
-// level 0. The 24 fraction bits of the magnitude are rounded to 16.
+// level 0. The magnitude is rounded from 24 to 16 fraction bits.
 inline Derivative derivative_in_texels(std::int64_t difference, std::uint32_t size) {
   constexpr std::uint64_t kLargest = 0x7FFFFFFF;
   const auto magnitude = static_cast<std::uint64_t>(difference < 0 ? -difference : difference);
@@ -39,15 +39,15 @@ inline Derivative derivative_in_texels(std::int64_t difference, std::uint32_t si
   return {difference < 0 ? -kept : kept, texels > kLargest};
 }
 
-// Length of the vector (s, t), both U15.16 and >= 0, by one of the rules; U16.16. Equations 5,
-// 10, 11.
+// Length of the vector (s, t), both U15.16 and >= 0, by one of the rules; U16.16. Equations 5, 10,
+// 11.
 std::uint32_t footprint_side(spec::texture::FootprintRule rule, std::uint32_t s, std::uint32_t t);
 
-// K, the number of directions tried.
+// K, the number of candidate directions.
 inline int candidates(spec::texture::Axes axes) { return 2 << static_cast<int>(axes); }
 
 // Candidate k of K: the step at k 180 / K degrees between the steps along the pixel row and the
-// pixel column. In texels: magnitudes of its components, U15.16. In coordinates: S8.24 to S9.24.
+// pixel column. In texels: magnitudes of the components, U15.16. In coordinates: S8.24 to S9.24.
 struct Magnitudes {
   std::uint32_t s = 0, t = 0;
   friend bool operator==(const Magnitudes&, const Magnitudes&) = default;
@@ -55,26 +55,25 @@ struct Magnitudes {
 Magnitudes candidate_in_texels(spec::texture::Axes axes, int k, const Step& p_x, const Step& p_y);
 Step candidate_in_coordinates(spec::texture::Axes axes, int k, const Step& d_x, const Step& d_y);
 
-// The axes of the pixel's ellipse as far as K directions show them; lengths in texels of level 0,
-// U16.16.
+// Axes of the pixel's ellipse, approximated by K directions; lengths in texels of level 0, U16.16.
 struct Footprint {
-  int major = 0;            // candidate; of equally long ones the first
-  std::uint32_t d_max = 0;  // its length
-  // What tells the minor axis. Of two axes: the length of the other; of more: the area of the
+  int major = 0;            // index of the longest candidate; on a tie, the first
+  std::uint32_t d_max = 0;  // length of the major axis
+  // Determines the minor axis. Two axes: the length of the other one, d_min. More: the area of the
   // pixel's parallelogram, U31.16, which is d_max times the minor axis.
   std::uint32_t d_min = 0;
   std::uint64_t area = 0;
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 
-// Equation 1 with the sides of `rule`; p_x and p_y are the steps along row and column in texels.
+// Equation 1 with the sides of `rule`; p_x, p_y: steps along row and column in texels.
 Footprint footprint(spec::texture::Axes axes, spec::texture::FootprintRule rule, const Step& p_x,
                     const Step& p_y);
 
-// lb d for d with 16 fraction bits, below 2^47; S5.12. d = 0 counts as 2^-16. Equation 13.
+// lb d, S5.12, for d with 16 fraction bits, below 2^47. d = 0 counts as 2^-16. Equation 13.
 std::int32_t log2_fixed(spec::texture::Log2Rule rule, std::uint64_t d);
 
-// Logarithms of the major and of the minor axis, S5.12 and S6.12.
+// Logarithms of the major and the minor axis, S5.12 and S6.12.
 struct AxisLogarithms {
   std::int32_t d_max = 0, d_min = 0;
 };

@@ -8,17 +8,17 @@
 namespace deburr::golden::texture {
 namespace {
 
-constexpr std::int32_t kOneLevel = 1 << 12;  // one level, in the 12 fraction bits of l
+constexpr std::int32_t kOneLevel = 1 << 12;  // in the 12 fraction bits of l
 
 std::int32_t whole_levels_up(std::int32_t x) { return (x + kOneLevel - 1) >> 12 << 12; }
 
-// E, how much of L is taken as samples.
+// E: the part of the anisotropy L that is covered by samples.
 std::int32_t sampled_part(const spec::texture::Parameters& parameters,
                           const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
                           std::int32_t anisotropy) {
   if (lb_d_max <= 0) return 0;
   std::int32_t wanted = anisotropy;
-  std::int32_t texels = lb_d_max;  // what `count_cap = texel` leaves
+  std::int32_t texels = lb_d_max;  // limit of count_cap = texel
   switch (parameters.count) {
     case spec::texture::CountRule::kFloor:
       wanted = anisotropy >> 12 << 12;

@@ -8,7 +8,7 @@ namespace {
 
 struct TileGrid {
   std::uint32_t tile_width, tile_height;  // texels
-  int lb_columns, lb_rows;                // of the grid, rounded up to powers of two
+  int lb_columns, lb_rows;                // of the grid, rounded up to a power of two
 };
 
 int ceil_log2(std::uint32_t x) { return static_cast<int>(std::bit_width(x - 1)); }
@@ -24,8 +24,8 @@ TileGrid tile_grid(const spec::texture::Descriptor& descriptor, int level) {
           ceil_log2((height + tile_height - 1) / tile_height)};
 }
 
-// Bits of column and row interleaved, column in the even places; what the longer axis has more of
-// stands above them.
+// Interleaves the bits of column and row, column bits in the even positions; the extra bits of the
+// longer axis are above them.
 std::uint32_t morton_index(std::uint32_t column, std::uint32_t row, const TileGrid& grid) {
   const int common = std::min(grid.lb_columns, grid.lb_rows);
   std::uint32_t index = 0;
@@ -60,7 +60,8 @@ std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int lev
   return base + tile * spec::texture::kTileBytes + inside * bytes;
 }
 
-// Both layouts allow the sum: a tile's number interleaves the bits of its column and its row.
+// The sum is possible in both layouts: a tile number interleaves the bits of its column and its
+// row.
 LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int level) {
   LevelAddresses addresses;
   const std::uint32_t base = texel_address(descriptor, level, 0, 0);
@@ -93,7 +94,7 @@ const char* descriptor_fault(const spec::texture::Descriptor& descriptor) {
   }
   const std::uint32_t longest = std::max(descriptor.width, descriptor.height);
   if (descriptor.levels == 0) return "no level";
-  if (descriptor.levels > std::bit_width(longest)) return "more levels than the size has";
+  if (descriptor.levels > std::bit_width(longest)) return "more levels than the size allows";
   if (!known(descriptor.format, spec::texture::kFormatNames)) return "unknown format";
   if (!known(descriptor.layout, spec::texture::kLayoutNames)) return "unknown layout";
   if (!known(descriptor.wrap_s, spec::texture::kWrapNames) ||
@@ -106,7 +107,7 @@ const char* descriptor_fault(const spec::texture::Descriptor& descriptor) {
   }
   if (descriptor.max_anisotropy_log2 > 4) return "N_max is over 16";
   for (std::size_t level = 0; level < descriptor.levels; ++level) {
-    if (descriptor.base[level] % 64 != 0) return "the base of a level is no multiple of 64";
+    if (descriptor.base[level] % 64 != 0) return "the base of a level is not a multiple of 64";
   }
   return nullptr;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where the samples of a fragment lie, what they weigh, and which texels each one touches.
+// Positions and weights of the samples of a fragment, and the texels that each sample reads.
 //
 // Between level selection and memory (paper 004, section 1.1 step 3 and section 2.2; equation 4).
-// Pure functions of integers, one for each line of docs/reference/texture/formats.md, "Sample
-// walker" and "Addresses". Inline since they are the inner loop.
+// Pure functions of integers, one per line of docs/reference/texture/formats.md, "Sample walker"
+// and "Addresses". Inline, since they are the inner loop.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 
 namespace deburr::golden::texture {
 
-// (x + half of the last kept place) >> drop, for every sign of x; drop >= 1.
+// (x + half of the last kept bit) >> drop for any sign of x; drop >= 1.
 inline std::int64_t round_shift(std::int64_t x, int drop) {
   return (x + (std::int64_t{1} << (drop - 1))) >> drop;
 }
 
-// The length over which N samples are spread, U2.6 of the major axis: a tent of few samples has no
-// shape that a longer one would suit.
+// Length over which N samples are spread, U2.6 of the major axis. A tent of fewer than 4 samples
+// has the weights of a box, so its length is limited to 64.
 inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t spread) {
   const bool shapeless = kernel == spec::texture::Kernel::kTent && n < 4;
   return shapeless ? std::min(spread, 64) : spread;
 }
 
-// Half the distance of two of N samples, exact: what sample_offset() has in every sample alike.
+// Half the distance between two of N samples, exact: the common part of sample_offset().
 inline std::int64_t half_distance(int n, std::int32_t spread, std::int64_t axis) {
   return spread * axis * spec::texture::kReciprocal[static_cast<std::size_t>(n)];
 }
@@ -37,24 +37,25 @@ inline std::int64_t offset_at(int i, int n, std::int64_t half_distance) {
   return round_shift((2 * i + 1 - n) * half_distance, 23);
 }
 
-// Offset of sample i of N from the pixel centre, S9.24, along one coordinate of the major axis.
-// axis: S9.24 of that coordinate; spread: U2.6, as spread_of() gives it.
+// Offset of sample i of N from the pixel centre along one coordinate of the major axis, S9.24.
+// axis: S9.24 of that coordinate; spread: U2.6, from spread_of().
 inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_t axis) {
   return offset_at(i, n, half_distance(n, spread, axis));
 }
 
-// Weight of sample i of N, U1.8; they sum to 256.
+// Weight of sample i of N, U1.8; the weights sum to 256.
 inline std::uint32_t sample_weight(spec::texture::Kernel kernel, int i, int n) {
   return spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)]
                                       [static_cast<std::size_t>(n)][static_cast<std::size_t>(i)];
 }
 
-// Side of mip level k of a side of level 0: max(1, size >> k).
+// Side of mip level k: max(1, size >> k), where size is that of level 0.
 inline std::int32_t level_size(std::uint32_t size, int level) {
   return std::max(1, static_cast<std::int32_t>(size >> level));
 }
 
-// The wrap mode applied to a sample coordinate S9.24: U0.24, or S9.24 unchanged for clamp_to_edge.
+// Applies the wrap mode to a sample coordinate S9.24. Returns U0.24; clamp_to_edge: S9.24
+// unchanged.
 inline std::int64_t wrap_coordinate(spec::texture::Wrap wrap, std::int64_t p) {
   constexpr std::int64_t kOne = spec::texture::kCoordinateOne;
   switch (wrap) {
@@ -70,14 +71,14 @@ inline std::int64_t wrap_coordinate(spec::texture::Wrap wrap, std::int64_t p) {
   return p;
 }
 
-// The one or two neighbouring texels of a sample on one axis.
+// The one or two texels next to a sample on one axis.
 struct TexelPosition {
   std::int32_t i0 = 0, i1 = 0;  // 0..size - 1
   std::uint32_t fraction = 0;   // U0.8, weight of i1
   friend bool operator==(const TexelPosition&, const TexelPosition&) = default;
 };
 
-// A texel index one step or far outside 0..size - 1 brought into range.
+// Brings any texel index into the range 0..size - 1.
 inline std::int32_t texel_in_range(spec::texture::Wrap wrap, std::int64_t i, std::int32_t size) {
   if (wrap == spec::texture::Wrap::kRepeat) {
     if (i < 0) return size - 1;
@@ -86,7 +87,7 @@ inline std::int32_t texel_in_range(spec::texture::Wrap wrap, std::int64_t i, std
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
-// The two texels around a coordinate on a side of `size` texels, after wrap_coordinate().
+// The two texels around a coordinate on a side of `size` texels; `wrapped`: from wrap_coordinate().
 inline TexelPosition linear_texels(spec::texture::Wrap wrap, std::int64_t wrapped,
                                    std::int32_t size) {
   const std::int64_t half_texel = spec::texture::kCoordinateOne / 2;
@@ -94,14 +95,14 @@ inline TexelPosition linear_texels(spec::texture::Wrap wrap, std::int64_t wrappe
                                      spec::texture::kCoordinateFractionBits - 8);  // S.8
   const std::int64_t i0 = u >> 8;
   const auto fraction = static_cast<std::uint32_t>(u & 255);
-  if (i0 >= 0 && i0 + 1 < size) {  // nearly always
+  if (i0 >= 0 && i0 + 1 < size) {  // the common case
     const auto inside = static_cast<std::int32_t>(i0);
     return {inside, inside + 1, fraction};
   }
   return {texel_in_range(wrap, i0, size), texel_in_range(wrap, i0 + 1, size), fraction};
 }
 
-// The texel that holds it.
+// The texel that contains the coordinate.
 inline TexelPosition nearest_texel(spec::texture::Wrap wrap, std::int64_t wrapped,
                                    std::int32_t size) {
   const std::int64_t i = (wrapped * size) >> spec::texture::kCoordinateFractionBits;
@@ -109,7 +110,7 @@ inline TexelPosition nearest_texel(spec::texture::Wrap wrap, std::int64_t wrappe
   return {in_range, in_range, 0};
 }
 
-// The same of a sample coordinate S9.24.
+// Takes a sample coordinate S9.24.
 inline TexelPosition linear_position(spec::texture::Wrap wrap, std::int64_t p, std::int32_t size) {
   return linear_texels(wrap, wrap_coordinate(wrap, p), size);
 }
@@ -117,20 +118,20 @@ inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, 
   return nearest_texel(wrap, wrap_coordinate(wrap, p), size);
 }
 
-// Byte address of texel (x, y) of a level, modulo 2^32. 0 <= x < level_size(width, level), y alike.
+// Byte address of texel (x, y), modulo 2^32. 0 <= x < level_size(width, level), the same for y.
 std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int level, std::int32_t x,
                             std::int32_t y);
 
-// The same for a whole level: the address of texel (x, y) is column[x] + row[y], modulo 2^32.
+// Addresses of a whole level: that of texel (x, y) is column[x] + row[y], modulo 2^32.
 struct LevelAddresses {
-  std::vector<std::uint32_t> column, row;  // row holds the base
+  std::vector<std::uint32_t> column, row;  // row includes the base
 };
 LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int level);
 
-// Bytes from base[level] to the end of the level, padding of rows and of tile grids included.
+// Bytes from base[level] to the end of the level, with the padding of rows and tile grids.
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level);
 
-// Why the unit rejects the descriptor, or nullptr when it is valid.
+// The reason why the unit rejects the descriptor, or nullptr if it is valid.
 const char* descriptor_fault(const spec::texture::Descriptor& descriptor);
 inline bool valid(const spec::texture::Descriptor& descriptor) {
   return descriptor_fault(descriptor) == nullptr;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Bit-exact reference of the whole texture unit: quads in, colours and predicted memory traffic
-// out.
+// Bit-exact reference of the texture unit: quads in, colours and predicted memory traffic out.
 //
 // No time, no SystemC, integers only (docs/reference/texture/index.md,
-// docs/reference/texture/formats.md; paper 004). The blocks it is made of are pure functions in
-// footprint.h, level_of_detail.h, sampling.h, filter.h; TextureGolden strings them together over
-// whole quads, with the tables that make it fast.
+// docs/reference/texture/formats.md; paper 004). Its blocks are pure functions in footprint.h,
+// level_of_detail.h, sampling.h and filter.h; TextureGolden runs them over quads, with address
+// tables for speed.
 #pragma once
 
 #include <array>
@@ -26,35 +25,35 @@
 
 namespace deburr::golden::texture {
 
-// Everything that is decided about a fragment before its first texel is read.
+// All decisions about a fragment before its first texel is read.
 struct FragmentAnalysis {
-  bool valid = false;      // the descriptor is; otherwise nothing below is meant
+  bool valid = false;      // the descriptor is valid; otherwise the members below are unused
   bool saturated = false;  // a derivative is beyond U15.16 texels
   Step d_x, d_y;           // row and column difference of the coordinates, S8.24
   Step p_x, p_y;           // the same in texels of level 0, S15.16
   Footprint footprint;
-  Step axis;  // the major one in coordinates, S9.24
+  Step axis;  // major axis in coordinates, S9.24
   LevelOfDetail lod;
 };
 
-// What was done so far, by the names of the status registers. line_fills and memory_errors stay 0
-// while the cache is not predicted.
+// Work so far, named like the status registers. line_fills and memory_errors stay 0 with
+// Traffic::kIgnore.
 struct TextureWork {
   std::uint64_t fragments = 0;          // colours delivered
-  std::uint64_t invalid_fragments = 0;  // of them: invalid descriptor, colour zero
+  std::uint64_t invalid_fragments = 0;  // those with an invalid descriptor, colour zero
   std::uint64_t clamped = 0;            // fragments with Quad::clamped set
   std::uint64_t saturated = 0;          // fragments with a saturated derivative
   std::uint64_t magnified = 0;          // fragments with l <= 0
   std::uint64_t samples = 0;            // sum of N
   std::uint64_t bilinears = 0;          // requests to the cache: samples x (1 or 2)
   std::uint64_t line_fills = 0;
-  std::uint64_t memory_errors = 0;             // line fills answered with an error
+  std::uint64_t memory_errors = 0;             // line fills with an error response
   std::array<std::uint64_t, 17> by_samples{};  // valid fragments with N = i
   std::array<std::uint64_t, spec::texture::kMaxLevels> by_level{};  // bilinear requests to level i
   friend bool operator==(const TextureWork&, const TextureWork&) = default;
 };
 
-// The colours of one quad, covered lanes ascending.
+// The colours of a quad, covered lanes in ascending order.
 struct QuadColours {
   std::array<spec::texture::Colour, 4> colours{};
   int count = 0;
@@ -62,24 +61,24 @@ struct QuadColours {
   const spec::texture::Colour* end() const { return colours.data() + count; }
 };
 
-// A request to the cache as one sample of a fragment makes it, for who follows a pixel.
+// A request of a sample to the cache, for inspection of a pixel.
 struct BilinearRequest {
   int sample = 0, level = 0;
-  std::int64_t s = 0, t = 0;                 // of the sample, not wrapped, S9.24
-  std::array<std::uint32_t, 4> addresses{};  // of texels 00, 10, 01, 11, bytes
-  std::vector<std::uint32_t> misses;         // numbers of the lines that it fills, in order
+  std::int64_t s = 0, t = 0;                 // of the sample, before wrapping, S9.24
+  std::array<std::uint32_t, 4> addresses{};  // byte addresses of texels 00, 10, 01, 11
+  std::vector<std::uint32_t> misses;         // line numbers that it fills, in order
 };
 
 class TextureGolden {
  public:
   enum class Traffic { kPredict, kIgnore };  // kIgnore: no fills and no memory errors; faster
 
-  // `memory` is not copied: it must outlive this object, and may change between quads only where no
-  // predicted line is present. Throws ConfigError for what cannot be built.
+  // `memory` is not copied: it must outlive this object, and may only change between quads where no
+  // predicted line is present. Throws ConfigError if the unit cannot be built.
   TextureGolden(const spec::texture::Parameters& parameters, std::span<const std::uint8_t> memory,
                 Traffic traffic = Traffic::kPredict);
 
-  // handle 0..15 (ConfigError otherwise). An invalid descriptor is taken: its fragments become
+  // handle: 0..15, otherwise ConfigError. An invalid descriptor is accepted; its fragments become
   // zero.
   void set_texture(int handle, const spec::texture::Descriptor& descriptor);
   const spec::texture::Descriptor& texture(int handle) const;
@@ -91,42 +90,42 @@ class TextureGolden {
     for (const spec::texture::Colour& colour : process(quad)) sink(colour);
   }
 
-  // The same; appends the requests that `lane` makes to `requests`.
+  // Also appends the requests of `lane` to `requests`.
   QuadColours process(const spec::texture::Quad& quad, int lane,
                       std::vector<BilinearRequest>& requests);
 
-  // What process() decides for one lane, covered or not; changes nothing.
+  // The decisions of process() for a lane, covered or not; changes nothing.
   FragmentAnalysis analyse(const spec::texture::Quad& quad, int lane) const;
 
   const TextureWork& work() const { return work_; }
-  void clear_work() { work_ = {}; }  // the counters, as CONTROL's clear bit does
+  void clear_work() { work_ = {}; }  // counters, as by the clear bit of CONTROL
 
-  // Called with the line number of each fill, in order. Without a sink fills are only counted.
+  // Called with the line number of each fill, in order. Without a sink, fills are only counted.
   using FillSink = std::function<void(std::uint32_t line)>;
   void set_fill_sink(FillSink sink) { fill_sink_ = std::move(sink); }
-  // Keeps every fill in fills(): 4 bytes a fill.
+  // Stores every fill in fills(): 4 bytes per fill.
   void record_fills(bool on) { record_fills_ = on; }
   const std::vector<std::uint32_t>& fills() const { return fills_; }
   void clear_fills() { fills_.clear(); }
 
-  // Lines that memory answers with an error: their bytes read as zero and each fill is counted.
-  // Lines that reach past the end of `memory` always do.
+  // Lines with an error response: their bytes read as zero, and each fill is counted. Lines that
+  // extend past the end of `memory` always have one.
   using LinePredicate = std::function<bool(std::uint32_t line)>;
   void set_error_lines(LinePredicate error);
-  // The same by byte ranges [first, last).
+  // As byte ranges [first, last).
   void set_error_ranges(std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges);
 
-  void invalidate_cache() { cache_.invalidate(); }  // CONTROL's invalidate bit
-  void reset();                                     // cache, counters, fills; textures stay
+  void invalidate_cache() { cache_.invalidate(); }  // the invalidate bit of CONTROL
+  void reset();  // clears cache, counters and fills; keeps textures
   const CachePredictor& cache() const { return cache_; }
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
   struct LevelTable : LevelAddresses {
     std::int32_t width = 0, height = 0;
-    bool plain = false;  // wholly in memory, no line of it can fail
+    bool plain = false;  // completely in memory; none of its lines has errors
   };
-  // What the lanes of a quad share: a difference each of two rows and of two columns.
+  // Differences that the lanes of a quad have in common: one per row and one per column.
   struct Difference {
     Step d, p;
     bool saturated = false;
@@ -141,8 +140,7 @@ class TextureGolden {
   };
   static Differences differences(const Texture& texture, const spec::texture::Quad& quad);
   FragmentAnalysis analyse(const Texture& texture, const Differences& differences, int lane) const;
-  // A tap sees what is done on the way: lane, sample, request, fill. That of a plain run is empty,
-  // and costs nothing.
+  // A Tap observes lanes, samples, requests and fills. NoTap is empty and costs nothing.
   struct NoTap;
   struct RequestTap;
   template <class Tap>
@@ -151,7 +149,7 @@ class TextureGolden {
   std::array<std::uint8_t, 4> filter_fragment(const Texture& texture,
                                               const FragmentAnalysis& fragment, std::int32_t s,
                                               std::int32_t t, Tap& tap);
-  // U8.12. s and t are wrapped.
+  // Returns U8.12. s and t are wrapped.
   template <class Tap>
   Channels bilinear(const Texture& texture, int level, bool linear, std::int64_t s, std::int64_t t,
                     Tap& tap);

@@ -25,7 +25,7 @@ FramePixels frame_pixels(const py::handle& given) {
   const py::ssize_t height = array.shape(0), width = array.shape(1);
   golden::c::require(width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide,
                      "a frame of " + std::to_string(width) + " x " + std::to_string(height) +
-                         " pixels; 1..8192 each way are possible");
+                         " pixels; width and height must be 1..8192");
   // Rows may have gaps; what lies otherwise is copied.
   const bool in_rows = array.strides(2) == 1 && array.strides(1) == 4 &&
                        array.strides(0) >= 4 * width && array.strides(0) % 4 == 0;

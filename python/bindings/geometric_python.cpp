@@ -61,7 +61,7 @@ std::vector<Record> records(const py::object& given, const char* name, const cha
   const std::string wanted = std::string("an array of ") + dtype + " of (n,)";
   const py::array array = checked_list<Record>(given, name, wanted);
   golden::c::require(static_cast<std::size_t>(array.size()) <= most,
-                     std::to_string(array.size()) + " " + name + "; at most 2^24 are possible");
+                     std::to_string(array.size()) + " " + name + "; the limit is 2^24");
   const auto all = elements<Record>(array);
   return {all.begin(), all.end()};
 }

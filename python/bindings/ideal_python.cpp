@@ -178,7 +178,7 @@ py::array coverage_plane(const Shape& shape, int width, int height,
                          double (*coverage)(const Shape&, double, double)) {
   require(width >= 1 && height >= 1 && width <= 8192 && height <= 8192,
           "a frame of " + std::to_string(width) + " x " + std::to_string(height) +
-              " pixels; 1..8192 each way are possible");
+              " pixels; width and height must be 1..8192");
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine can be built with.
+// Rules between the build parameters of the geometric engine.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What golden and hardware compare on the way through the geometric engine. Formats:
-// docs/reference/geometric/algorithm.md.
+// Packets inside the geometric engine that are compared between golden model and RTL model.
+// Formats: docs/reference/geometric/algorithm.md.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ using Weights = std::array<std::uint8_t, 4>;  // U0.8, 0..128, by Direction
 
 enum class Axis : std::uint8_t { kHorizontal, kVertical };  // major axis of a line
 
-// A line as it goes to the walkers. `position` is the minor coordinate at the centre of column
-// `first`, half a unit of 2^-16 added; `depth` is there too. Columns run along the major axis.
+// A line for the walkers. `position`: minor coordinate at the centre of column `first`, plus half a
+// unit of 2^-16; `depth`: depth there. Columns run along the major axis.
 struct LineRecord {
   Axis axis = Axis::kHorizontal;
-  bool tie_forward = false;     // a line through a pixel's centre blends it down or right
-  bool crease = false;          // the class of its edge
+  bool tie_forward = false;     // a line through the centre of a pixel blends it down or right
+  bool crease = false;          // its edge is of class crease
   std::uint16_t first = 0;      // column
   std::uint16_t count = 0;      // columns, 1..8192
   std::int64_t position = 0;    // S15.24 pixels
-  std::int32_t slope = 0;       // S1.24 pixels a column
+  std::int32_t slope = 0;       // S1.24 pixels per column
   std::int64_t depth = 0;       // S25.12
-  std::int64_t depth_step = 0;  // S25.12 a column
+  std::int64_t depth_step = 0;  // S25.12 per column
   friend bool operator==(const LineRecord&, const LineRecord&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -45,14 +45,14 @@ struct LineRecord {
   }
 };
 
-// A pixel that a line would blend with a neighbour. With coverage = area the second pixel of a
+// A pixel and the neighbour that a line blends it with. With coverage = area the second pixel of a
 // column follows the first.
 struct Candidate {
   std::uint16_t x = 0, y = 0;
   Direction direction = Direction::kUp;
   std::uint8_t coverage = 0;  // U0.8, 1..128
   std::uint32_t depth = 0;    // of the line, U24
-  bool passed = false;        // the depth test
+  bool passed = false;        // passed the depth test
   friend bool operator==(const Candidate&, const Candidate&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -69,7 +69,7 @@ struct Candidate {
 struct BlockRecord {
   std::uint16_t x = 0, y = 0;  // in blocks
   std::array<Weights, kBlockPixels> weights{};
-  std::array<Rgba8, kBlockPixels> pixels{};  // zero where `blended` has no bit
+  std::array<Rgba8, kBlockPixels> pixels{};  // zero for pixels without a bit in `blended`
   std::uint16_t blended = 0;                 // bit i: pixel i
   friend bool operator==(const BlockRecord&, const BlockRecord&) = default;
   template <class Self, class Visit>
@@ -82,7 +82,7 @@ struct BlockRecord {
   }
 };
 
-// One line access of memory. Reads and writes of a region are compared apart, each in order.
+// A line access to memory. Reads and writes of a region are compared separately, each in order.
 struct MemoryAccess {
   std::uint32_t address = 0;  // bytes, multiple of kLineBytes
   bool write = false;
@@ -102,7 +102,7 @@ enum class Region : std::uint8_t {
 inline constexpr std::array<std::string_view, 9> kRegionNames = {
     "faces", "edges", "vertices", "depth", "weights", "colour", "copy", "pairs", "coarse"};
 
-// Work of one frame: golden and hardware count the same.
+// Work of a frame; golden model and RTL model count the same.
 struct Work {
   std::uint64_t edges = 0;
   std::uint64_t boundary_edges = 0;
@@ -111,21 +111,21 @@ struct Work {
   std::uint64_t crease_edges = 0;
   std::uint64_t flat_edges = 0;
   std::uint64_t invalid_edges = 0;
-  std::uint64_t kept_edges = 0;        // the sum of the next four
+  std::uint64_t kept_edges = 0;        // sum of the next four
   std::uint64_t outside_edges = 0;     // a vertex is not usable
-  std::uint64_t degenerate_edges = 0;  // both ends in one place
-  std::uint64_t empty_edges = 0;       // no column of the frame
+  std::uint64_t degenerate_edges = 0;  // both ends at the same position
+  std::uint64_t empty_edges = 0;       // no column in the frame
   std::uint64_t lines = 0;             // set up and walked
   std::uint64_t columns = 0;           // walked
-  std::uint64_t groups = 0;            // cycles of the walkers; goes with their number
-  std::uint64_t candidates = 0;        // pixels of the frame with a neighbour and a coverage
-  std::uint64_t passed = 0;            // of these the depth test
+  std::uint64_t groups = 0;            // cycles of the walkers; depends on their number
+  std::uint64_t candidates = 0;        // pixels with a neighbour in the frame and coverage > 0
+  std::uint64_t passed = 0;            // candidates that passed the depth test
   std::uint64_t blocks = 0;            // touched
   std::uint64_t blended_pixels = 0;
   friend bool operator==(const Work&, const Work&) = default;
 };
 
-// All counts of a Work, and the registers that show them.
+// All counts of Work, and their registers.
 struct WorkCount {
   std::uint64_t Work::*count;
   std::uint32_t offset;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Parameters, presets and limits of the geometric engine: rules, which change pixels, and build
-// choices, which change cycles, traffic and cost. Meaning: docs/reference/geometric/index.md;
-// formats and rounding, to the bit: docs/reference/geometric/algorithm.md; cycles:
-// docs/reference/geometric/hardware.md.
+// Parameters, presets and limits of the geometric engine: the configuration, which changes pixels,
+// and build parameters, which change cycles, traffic and cost. Meaning:
+// docs/reference/geometric/index.md; formats and rounding, to the bit:
+// docs/reference/geometric/algorithm.md; cycles: docs/reference/geometric/hardware.md.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ inline constexpr std::array<std::string_view, 2> kLayoutNames = {"raster", "tile
 enum class RecordsLayout : std::uint8_t { kJoined, kSplit };
 inline constexpr std::array<std::string_view, 2> kRecordsNames = {"joined", "split"};
 
-// Edges, walkers or pixels a clock.
+// Edges, walkers or pixels per cycle.
 enum class Lanes : std::uint8_t { kOne, kTwo, kFour };
 inline constexpr std::array<std::string_view, 3> kLanesNames = {"1", "2", "4"};
 inline constexpr std::array<std::uint8_t, 3> kLaneCount = {1, 2, 4};
@@ -55,45 +55,46 @@ inline constexpr std::array<std::string_view, 7> kCacheLinesNames = {"16",  "32"
 inline constexpr std::array<std::uint16_t, 7> kCacheLineCount = {16, 32, 64, 128, 256, 512, 1024};
 inline constexpr std::array<std::uint8_t, 7> kCacheLineBits = {4, 5, 6, 7, 8, 9, 10};
 
-// Lines of coarse depth on the chip; none: no coarse test.
+// On-chip lines of coarse depth; none: no coarse depth test.
 enum class CoarseLines : std::uint8_t { kNone, k4, k8, k16, k32, k64 };
 inline constexpr std::array<std::string_view, 6> kCoarseLinesNames = {"none", "4",  "8",
                                                                       "16",   "32", "64"};
 inline constexpr std::array<std::uint8_t, 6> kCoarseLineCount = {0, 4, 8, 16, 32, 64};
 
 // ---- limits
-inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
+inline constexpr int kMaxFrameSize = 8192;  // pixels per axis
 inline constexpr std::uint32_t kMaxEdges = 1u << 24;
 inline constexpr std::uint32_t kMaxVertices = 1u << 24;
 inline constexpr std::uint32_t kMaxFaces = 1u << 20;
-// Vertices that the engine draws from lie in [-kGuardBand, kGuardBand) both ways, S14.8.
+// Usable vertices have x and y in [-kGuardBand, kGuardBand), S14.8.
 inline constexpr int kGuardBandPixels = 1 << 14;
 inline constexpr std::int32_t kGuardBand = kGuardBandPixels << 8;
 
 // ---- formats
 inline constexpr int kSubpixelBits = 8;        // of positions
-inline constexpr int kDepthBits = 24;          // of depths; near / w, grows towards the eye
-inline constexpr int kLengthBits = 23;         // of the extent of a line, U15.8
+inline constexpr int kDepthBits = 24;          // near / w, grows towards the eye
+inline constexpr int kLengthBits = 23;         // extent of a line, U15.8
 inline constexpr int kReciprocalBits = 26;     // fraction bits of a reciprocal, U1.26
 inline constexpr int kSlopeBits = 24;          // fraction bits of slope and position
 inline constexpr int kDistanceBits = 16;       // fraction bits of the distance to a line
 inline constexpr int kDepthStepBits = 12;      // fraction bits of a depth along a line
-inline constexpr int kMaxWeight = 128;         // U0.8: a half, the largest share of a neighbour
-inline constexpr int kAreaSlopes = 32;         // slopes of the table of areas, 1/32 each
-inline constexpr int kAreaDistances = 64;      // distances of it, 1/64 pixel each
-inline constexpr int kBlockSize = 4;           // pixels of a block, each way
-inline constexpr int kBlockPixels = 16;        // of a block, and of a line of memory
-inline constexpr int kTileSize = 8;            // pixels of a tile, each way
-inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits share a word
-inline constexpr int kMaxReciprocalBits = 11;  // of the table's lengths
-inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may order eight lines of depth
-// Places, where they are not sized from the latency of memory.
+inline constexpr int kMaxWeight = 128;         // U0.8: 1/2, the largest weight of a neighbour
+inline constexpr int kAreaSlopes = 32;         // slopes of the area table, 1/32 each
+inline constexpr int kAreaDistances = 64;      // distances of the area table, 1/64 pixel each
+inline constexpr int kBlockSize = 4;           // pixels per side of a block
+inline constexpr int kBlockPixels = 16;        // pixels of a block, and of a line of memory
+inline constexpr int kTileSize = 8;            // pixels per side of a tile
+inline constexpr int kBlocksInWord = 128;      // blocks of a row whose touched bits are in one word
+inline constexpr int kMaxReciprocalBits = 11;  // length bits of the reciprocal table
+inline constexpr int kMinFills = 8, kMaxFills = 256;  // a group may request eight lines of depth
+// Limits of entries that are not derived from the memory latency.
 inline constexpr std::int32_t kMinResolveLines = 16, kMaxResolveLines = 512;
 inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
-// Lines that are kept on the chip, where any are: docs/reference/geometric/memory.md.
+// Limits of lines kept on the chip: docs/reference/geometric/memory.md.
 inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
 
-// Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
+// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
+// `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Select select = Select::kEdges;
@@ -108,8 +109,8 @@ struct Configuration {
   bool mark = false;
 };
 
-// Build choices: what changes cycles, traffic and cost, and no pixel. Runs that differ in these
-// alone share one golden picture. `layout` and `frame_copy` are registers all the same.
+// Build parameters: change cycles, traffic and cost, but no pixels. Runs that only differ in these
+// have the same golden picture. `layout` and `frame_copy` are registers nevertheless.
 struct Build {
   Layout layout = Layout::kTiled;
   bool frame_copy = false;
@@ -126,11 +127,11 @@ struct Build {
   Lanes walkers = Lanes::kFour;
   CacheLines depth_lines = CacheLines::k128;
   CacheLines weight_blocks = CacheLines::k128;
-  std::int32_t fills = 0;  // 0: sized from the latency of memory
+  std::int32_t fills = 0;  // 0: derived from the memory latency
   std::int32_t latency_fifo = 128;
   Lanes resolve_lanes = Lanes::kTwo;
-  std::int32_t resolve_lines = 0;  // 0: as fills
-  std::int32_t copy_lines = 0;     // 0: as fills
+  std::int32_t resolve_lines = 0;  // 0: like fills
+  std::int32_t copy_lines = 0;     // 0: like fills
   RecordsLayout records = RecordsLayout::kJoined;
   std::int32_t colour_lines = 0;
   std::int32_t write_buffer = 0;
@@ -234,7 +235,7 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Build&>(p), v);
 }
 
-// What a preset sets; every other parameter keeps its default.
+// The parameters that a preset sets; all others keep their defaults.
 struct PresetRow {
   Preset preset;
   Select select;
@@ -254,7 +255,7 @@ inline constexpr std::array<PresetRow, 3> kPresets = {{
      Combine::kOutermost, false},
 }};
 
-// Calls set(name, member, value) for all of it (spec/presets.h).
+// Calls set(name, member, value) for each of them (spec/presets.h).
 template <class Set>
 constexpr void for_each_of(Preset preset, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
@@ -267,7 +268,7 @@ constexpr void for_each_of(Preset preset, Set&& set) {
   set("frame_copy", &Build::frame_copy, row.frame_copy);
 }
 
-// The defaults with the rules of a preset. ConfigError for a preset that there is not.
+// The defaults with the values of a preset. Throws ConfigError for an unknown preset.
 constexpr Parameters preset_parameters(Preset preset) {
   Parameters p;
   p.preset = preset;

@@ -11,7 +11,7 @@
 
 namespace deburr::spec::geometric {
 
-// Why the last start was rejected: the first that holds. Nothing is read or written then.
+// Reason why the last START was rejected: the first that holds. Nothing is read or written then.
 enum class Rejection : std::uint8_t {
   kNone,
   kDisabled,      // enable is 0 in the same write
@@ -72,7 +72,7 @@ inline constexpr std::uint32_t kOtherPairBase = 0xA0;
 inline constexpr std::uint32_t kCoarseBase = 0xA4;
 inline constexpr std::uint32_t kIdValue = 0xDEB00005;
 
-// Fields, from the lowest bit on. Codes are those of the enumerations of spec/geometric/.
+// Fields, lowest bit first. Codes are those of the enumerations in spec/geometric/.
 namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
@@ -147,7 +147,7 @@ inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBu
 inline constexpr std::uint32_t kStatusInvalidEdge = status::kInvalidEdge.mask();
 }  // namespace reg
 
-// Writes while a frame is under way are ignored, but those to CONTROL and STATUS.
+// During a frame, writes are ignored, except to CONTROL and STATUS.
 inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
@@ -212,7 +212,7 @@ inline constexpr std::array<RegisterInfo, 42> kRegisters = {{
 }};
 static_assert(fields_are_in_order(kRegisters));
 
-// CONFIG of a build after a reset.
+// CONFIG after a reset.
 constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace configuration = reg::configuration;
@@ -226,7 +226,7 @@ constexpr std::uint32_t configuration_word(const Parameters& p) {
          configuration::kCoverage.in(code(p.coverage)) | configuration::kCull.in(code(p.cull)) |
          configuration::kCreaseDepth.in(code(p.crease_depth));
 }
-// What a reset loads from the parameters.
+// Registers whose reset values come from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
   return {{{reg::kConfiguration, configuration_word(p)}}};
 }

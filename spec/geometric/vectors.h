@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Test vectors of the geometric engine's contract: data that golden and hardware are held to, and
-// that the tables of docs/reference/geometric/vectors.md and algorithm.md
-// are made from. What the frames hold, and what is hashed: docs/reference/geometric/vectors.md.
+// Test vectors of the geometric engine: golden model and RTL model must both produce them. The
+// tables of docs/reference/geometric/vectors.md and algorithm.md are made from them; contents of
+// frames and hashes: docs/reference/geometric/vectors.md.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace deburr::spec::geometric {
 
 // ---- frames -------------------------------------------------------------------------------------
 
-// Where the regions lie, in the order of Region.
+// Base addresses of the regions, in the order of Region.
 inline constexpr std::array<std::uint32_t, 9> kVectorBases = {
     0x30000, 0x10000, 0x20000, 0x40000, 0x60000, 0x50000, 0x70000, 0x80000, 0x90000};
 
@@ -23,7 +23,7 @@ struct FrameHashes {
   std::uint64_t pixels = 0, weights = 0, traffic = 0;
 };
 
-// Lines of memory; colours are read from the copy with frame_copy.
+// Lines of memory; with frame_copy colours are read from the copy.
 struct FrameLines {
   std::uint64_t vertex_reads = 0, depth_reads = 0, weight_reads = 0, weight_writes = 0,
                 colour_reads = 0, colour_writes = 0;
@@ -66,14 +66,14 @@ struct FrameResult {
   }
 };
 
-// The contract's frames: of random edges, of special cases, and of random edges with depths that
-// differ from tile to tile.
+// Frames with random edges, with special cases, and with random edges and depths that differ from
+// tile to tile.
 enum class DrawnFrame : std::uint8_t { kRandom, kSpecial, kTiles };
 
 struct FrameVector {
   char name;
   Preset preset;
-  // Beside the preset, by the names and values of describe(): "walkers=1 mark=true".
+  // In addition to the preset, by the names and values of describe(): "walkers=1 mark=true".
   std::string_view settings;
   FrameResult result;
   DrawnFrame frame = DrawnFrame::kRandom;
@@ -204,7 +204,7 @@ inline constexpr std::array<FrameVector, 5> kSpecialFrameVectors = {{
      DrawnFrame::kSpecial},
 }};
 
-// Of less traffic: docs/reference/geometric/memory.md.
+// Options for less traffic: docs/reference/geometric/memory.md.
 inline constexpr std::array<FrameVector, 7> kTrafficFrameVectors = {{
     {'t',
      Preset::kDeburr,
@@ -282,7 +282,7 @@ struct LineResult {
 
 struct LineVector {
   LineEnd a, b;  // in either order
-  Axis axis;     // major
+  Axis axis;     // major axis
   LineResult result;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine can be built with. See docs/reference/morphological/index.md,
-// "Configuration errors".
+// Rules between the build parameters of the morphological engine. See
+// docs/reference/morphological/index.md, "Configuration errors".
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace deburr::spec::morphological {
 
-// Of a line of memory.
+// Pixels per line of memory.
 inline constexpr std::int32_t kLinePixels = kFrameLineBytes / kFramePixelBytes;
 
 inline constexpr std::array<BuildRule<Parameters>, 10> kBuildRules = {{

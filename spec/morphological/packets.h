@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packets of the morphological engine: pixels in and out, and what golden and hardware compare on
-// the way. Formats: docs/reference/morphological/algorithm.md.
+// Packets of the morphological engine: input and output pixels, and packets that are compared
+// between golden model and RTL model. Formats: docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>
@@ -15,13 +15,14 @@ namespace deburr::spec::morphological {
 
 using Rgba8 = std::array<std::uint8_t, 4>;  // R, G, B, A codes, U0.8 unorm
 
-// A clock's worth of pixels of one row, raster order, lane 0 leftmost. Rows begin a new beat.
+// The pixels of one cycle, all of one row, in raster order, lane 0 leftmost. A row starts a new
+// beat.
 struct PixelBeat {
   std::array<Rgba8, kMaxLanes> pixel{};
-  std::array<std::uint32_t, kMaxLanes> depth{};  // U24, grows towards the eye; 0 if there is none
-  std::uint8_t count = 0;                        // valid lanes, 1..lanes; fewer only at a row's end
-  bool start_of_frame = false;                   // first beat of the frame
-  bool end_of_row = false;                       // last beat of a row
+  std::array<std::uint32_t, kMaxLanes> depth{};  // U24, grows towards the eye; 0 without depth
+  std::uint8_t count = 0;       // valid lanes, 1..lanes; fewer only at the end of a row
+  bool start_of_frame = false;  // first beat of the frame
+  bool end_of_row = false;      // last beat of a row
   friend bool operator==(const PixelBeat&, const PixelBeat&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -33,9 +34,9 @@ struct PixelBeat {
   }
 };
 
-// How a pixel was blended, for checks and pictures: first = weight of the upper (left) neighbour,
-// second = of the lower (right) one, U0.8, before blend = strongest mixes them; both 0 where the
-// pixel passed unchanged.
+// Probe of the blend decision, for checks and pictures. first: weight of the upper (left)
+// neighbour; second: of the lower (right) one; U0.8, before blend = strongest mixes them. Both are
+// 0 if the pixel passed unchanged.
 struct BlendProbe {
   bool horizontal = false;  // the neighbours are left and right
   std::uint8_t first = 0, second = 0;
@@ -68,23 +69,23 @@ struct BlendedBeat {
 };
 
 enum class Axis : std::uint8_t { kHorizontal, kVertical };  // direction of the run
-// A run longer than the reach gives two records, one for each end.
+// A run longer than the search range gives two descriptors, one for each end.
 enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 
-// A closed run. Horizontal: `line` is the row of the top edges, positions are columns. Vertical:
-// `line` is the column of the left edges, positions are rows. Corners are `start` and
-// `start + length`; of a head (tail) only the first (second) is a corner of the run.
-// `far` says which crossings go on for a second pixel (docs/reference/morphological/smaa.md,
-// "Corners"): bit 0 on the first side and bit 1 on the second at the start, bits 2 and 3 at the
-// end; 0 without round_corners.
-// `endless` says which ends lie beyond the frame with border = clamp (smaa.md, "Border"): bit 0 the
-// start, bit 1 the end; such an end has no crossings.
+// A run descriptor. Horizontal: `line` is the row of the top edges, positions are columns.
+// Vertical: `line` is the column of the left edges, positions are rows. Its corners are `start` and
+// `start + length`; for a head (tail) only the first (second) one is a corner of the run.
+// `far`: crossings that continue for a second pixel (docs/reference/morphological/smaa.md,
+// "Corners"): bits 0 and 1 for the first and second side at the start, bits 2 and 3 at the end;
+// 0 without round_corners.
+// `endless`: ends beyond the frame with border = clamp (smaa.md, "Border"): bit 0 start, bit 1 end;
+// such an end has no crossings.
 struct RunDescriptor {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;
   std::uint16_t line = 0;
   std::uint16_t start = 0;
-  std::uint16_t length = 0;  // pixels covered by this record
+  std::uint16_t length = 0;  // pixels covered by this descriptor
   std::uint8_t shape = 0;    // index of kRunShapes
   std::uint8_t far = 0;
   std::uint8_t endless = 0;
@@ -102,20 +103,20 @@ struct RunDescriptor {
   }
 };
 
-// The line through a run. t(X) = (scale * X - offset) * slope + shift * 2^23, U/S x.24, X counted
-// from the record's start; t < 0 belongs to `before`, t > 0 to `after`.
+// The line through a run. t(X) = (scale * X - offset) * slope + shift * 2^23, U/S x.24, X relative
+// to the start of the descriptor; t < 0 belongs to `before`, t > 0 to `after`.
 struct LineDescriptor {
   RunDescriptor run{};
-  bool learned = false;  // its weights come from the ROMs; then it has no line and no sides
-  std::uint8_t start_class = 0, end_class = 0;  // of its crossings, 0..8; 0 if not learned
+  bool learned = false;                         // weights come from the ROMs; no line and no sides
+  std::uint8_t start_class = 0, end_class = 0;  // classes of the crossings, 0..8; 0 unless learned
   Side before = Side::kNone, after = Side::kNone;
   std::uint8_t left_steps = 0, right_steps = 0;  // extensions kept: up or left, down or right
   std::int32_t scale = 2;
   std::int32_t offset = 0;
   std::int32_t shift = 0;     // right_steps - left_steps
   std::uint32_t slope = 0;    // U0.24
-  std::uint32_t inverse = 0;  // U12.12, pixels a step
-  std::uint16_t span = 0;     // pixels between the two outermost corners: decides between axes
+  std::uint32_t inverse = 0;  // U12.12, pixels per step
+  std::uint16_t span = 0;     // pixels between the two outermost corners; decides between axes
   friend bool operator==(const LineDescriptor&, const LineDescriptor&) = default;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -136,33 +137,32 @@ struct LineDescriptor {
   }
 };
 
-// One line access of storage = memory.
+// A line access with storage = memory.
 struct FrameAccess {
   std::uint32_t address = 0;  // bytes, multiple of kFrameLineBytes
   bool write = false;
   friend bool operator==(const FrameAccess&, const FrameAccess&) = default;
 };
 
-// Work of one frame: golden and hardware count the same.
+// Work of a frame; golden model and RTL model count the same.
 struct Work {
   std::uint64_t pixels = 0;
   std::uint64_t edge_pixels = 0;      // pixels with a left or a top edge
   std::uint64_t horizontal_runs = 0;  // maximal runs, each counted once
   std::uint64_t vertical_runs = 0;
-  std::uint64_t long_runs = 0;  // of both axes, longer than the reach
+  std::uint64_t long_runs = 0;  // of both axes, longer than the search range
   std::uint64_t z_runs = 0;     // clean Z, not long
   std::uint64_t extended_runs = 0;
   std::uint64_t steps = 0;            // extensions kept
   std::uint64_t probes = 0;           // corners tested
-  std::uint64_t divides = 0;          // records that have a line and a side
-  std::uint64_t blended_pixels = 0;   // pixels with a weight of a neighbour
-  std::uint64_t diagonal_pixels = 0;  // pixels whose top edge took its weights from a diagonal
-  std::uint64_t bypassed_pixels =
-      0;  // would have taken a weight, took none by `leave` or `text_guard`
+  std::uint64_t divides = 0;          // descriptors with a line and a side
+  std::uint64_t blended_pixels = 0;   // pixels with a weight > 0
+  std::uint64_t diagonal_pixels = 0;  // pixels whose top edge has the weights of a diagonal
+  std::uint64_t bypassed_pixels = 0;  // a weight > 0 was dropped by `leave` or `text_guard`
   friend bool operator==(const Work&, const Work&) = default;
 };
 
-// All counts of a Work, and the registers that show them.
+// All counts of Work, and their registers.
 struct WorkCount {
   std::uint64_t Work::*count;
   std::uint32_t offset;

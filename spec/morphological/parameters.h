@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parameters and presets of the morphological engine: rules, which change pixels, and build
-// choices, which change cycles and cost. Meaning: docs/reference/morphological/index.md and
-// docs/reference/morphological/smaa.md; formats and rounding, to the bit:
+// Parameters and presets of the morphological engine: the configuration, which changes pixels, and
+// build parameters, which change cycles and cost. Meaning: docs/reference/morphological/index.md
+// and docs/reference/morphological/smaa.md; formats and rounding, to the bit:
 // docs/reference/morphological/algorithm.md.
 #pragma once
 
@@ -18,7 +18,7 @@ enum class Preset : std::uint8_t { kMlaa, kMlaaSlope, kSmaa, kSmaaDynamic, kDebu
 inline constexpr std::array<std::string_view, 6> kPresetNames = {
     "mlaa", "mlaa-slope", "smaa", "smaa-dynamic", "deburr-line", "deburr"};
 
-// Of the two SMAA presets; a row of kQualities.
+// For the two SMAA presets; a row of kQualities.
 enum class Quality : std::uint8_t { kLow, kMedium, kHigh, kUltra };
 inline constexpr std::array<std::string_view, 4> kQualityNames = {"low", "medium", "high", "ultra"};
 
@@ -42,7 +42,7 @@ enum class LocalContrast : std::uint8_t { kOff, kPaper, kSymmetric, kSmaa };
 inline constexpr std::array<std::string_view, 4> kLocalContrastNames = {"off", "paper", "symmetric",
                                                                         "smaa"};
 
-// Where a run ends: at a gap, or at a crossing edge inside it too.
+// Where a run ends: at a gap only, or also at a crossing edge.
 enum class Ends : std::uint8_t { kGaps, kCrossings };
 inline constexpr std::array<std::string_view, 2> kEndsNames = {"gaps", "crossings"};
 
@@ -53,8 +53,9 @@ inline constexpr std::array<std::string_view, 2> kBorderNames = {"end", "clamp"}
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
-// The three tables are layouts of one: they give the same pixels. Learned: the line of a clean Z
-// that was extended or is long, ROMs elsewhere (docs/reference/morphological/learned_weights.md).
+// The three tables are layouts of the same table and give the same pixels. Learned: from the line
+// for a clean Z that was extended or is long, from ROMs otherwise
+// (docs/reference/morphological/learned_weights.md).
 enum class AreaSource : std::uint8_t {
   kAnalytic,
   kTableFull,
@@ -65,16 +66,16 @@ enum class AreaSource : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> kAreaSourceNames = {
     "analytic", "table_full", "table_merged", "table_minimal", "learned"};
 
-// Entries of the tables of runs and of diagonals: areas to the nearest, or the published bytes.
+// Entries of the tables of runs and diagonals: rounded areas, or the published bytes.
 enum class AreaValues : std::uint8_t { kExact, kPublished };
 inline constexpr std::array<std::string_view, 2> kAreaValuesNames = {"exact", "published"};
 
 enum class BlendRule : std::uint8_t { kLongest, kStrongest };
 inline constexpr std::array<std::string_view, 2> kBlendRuleNames = {"longest", "strongest"};
 
-// Whose pixels are left as they are: none, marked ones, or those beside a marked one too; or marked
-// ones, and others take half of what they would take of a marked one; or marked ones, which make no
-// edge (a mask). A pixel is marked if bit 0 of its alpha is 0.
+// Bypassed pixels. none; marked: marked pixels; beside: also their four neighbours; half: marked
+// pixels, and their neighbours take half the weight of a marked pixel; masked: marked pixels, which
+// also have no edges. A pixel is marked if bit 0 of its alpha is 0.
 enum class Bypass : std::uint8_t { kNone, kMarked, kBeside, kHalf, kMasked };
 inline constexpr std::array<std::string_view, 5> kBypassNames = {"none", "marked", "beside", "half",
                                                                  "masked"};
@@ -82,46 +83,46 @@ inline constexpr std::array<std::string_view, 5> kBypassNames = {"none", "marked
 enum class Storage : std::uint8_t { kLineBuffers, kMemory };
 inline constexpr std::array<std::string_view, 2> kStorageNames = {"line_buffers", "memory"};
 
-inline constexpr int kMaxFrameSize = 8192;  // pixels, each way
+inline constexpr int kMaxFrameSize = 8192;  // pixels per axis
 inline constexpr int kMaxSteps = 16;        // N
 inline constexpr int kMaxCorners = 2 * kMaxSteps + 2;
-inline constexpr int kMaxSearchSteps = 112;     // N of SMAA: distances stay within kTableDistances
+inline constexpr int kMaxSearchSteps = 112;     // N of SMAA; keeps distances below kTableDistances
 inline constexpr int kMaxDiagonalSteps = 16;    // M
-inline constexpr int kMaxCornerRounding = 256;  // 1/256: all of the weight stays
-inline constexpr int kFrameLineBytes = 64;      // memory line of storage = memory
+inline constexpr int kMaxCornerRounding = 256;  // 1/256; keeps the whole weight
+inline constexpr int kFrameLineBytes = 64;      // line of memory with storage = memory
 inline constexpr int kFramePixelBytes = 4;      // R, G, B, A
 inline constexpr int kRecipFractionBits = 24;   // of LineDescriptor::slope
 inline constexpr int kInverseFractionBits = 12;
-inline constexpr int kMaxWeight = 128;  // U0.8: a half, the largest weight that a run gives
-// Of a diagonal with blend = strongest, which normalises weights.
+inline constexpr int kMaxWeight = 128;  // U0.8: 1/2, the largest weight of a run
+// With blend = strongest, which normalises weights.
 inline constexpr int kMaxDiagonalWeight = 255;
-inline constexpr int kMixFractionBits = 4;       // more than U0.8 that strongest's weights have
+inline constexpr int kMixFractionBits = 4;       // fraction bits of strongest in addition to U0.8
 inline constexpr int kThresholdBits = 24;        // U8.16 codes; alpha U0.24
-inline constexpr std::int32_t kOneCode = 65536;  // of a threshold
-// No step reaches it, not even one of 255 codes.
+inline constexpr std::int32_t kOneCode = 65536;  // one code in a threshold
+// Larger than any step, even one of 255 codes.
 inline constexpr std::int32_t kMaxThreshold = (1 << kThresholdBits) - 1;
-inline constexpr int kLongZ = 16;  // pixels of a clean Z that keeps its line with area = learned
-inline constexpr int kRowLag = 5;  // rows of delay beyond the reach
+inline constexpr int kLongZ = 16;  // pixels; with area = learned such a clean Z keeps its line
+inline constexpr int kRowLag = 5;  // rows of delay in addition to the search range
 inline constexpr int kLeastDividerLatency = 14;
 
-// Cycles from a slot being taken by a block to it being taken by the next one; of the Blender, to
-// its output beat being pushed.
+// Cycles from one block accepting a slot to the next one accepting it; Blender: to the push of its
+// output beat.
 inline constexpr int kSequencerLatency = 1;
 inline constexpr int kLumaLatency = 2;
 inline constexpr int kEdgeLatency = 4;
 inline constexpr int kExtractorLatency = 2;
 inline constexpr int kAreaLatency = 9;
-inline constexpr int kPixelStoreLatency = 2;  // beside the AreaUnit
+inline constexpr int kPixelStoreLatency = 2;  // in parallel to AreaUnit
 inline constexpr int kBlenderLatency = 5;
 // From a slot to its output beat.
 inline constexpr int kPipelineLatency = kSequencerLatency + kLumaLatency + kEdgeLatency +
                                         kExtractorLatency + kAreaLatency + kBlenderLatency;
 
-// Weights of luma, U0.16; they sum to exactly 65536.
+// Luma weights, U0.16; their sum is exactly 65536.
 inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
 
-// Rules: what changes pixels. Golden and hardware obey them.
-// The defaults are the preset `deburr`.
+// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
+// `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Quality quality = Quality::kHigh;
@@ -157,10 +158,10 @@ struct Configuration {
   std::int32_t search_columns = 256;
 };
 
-// What a frame sets that the geometric engine has smoothed before, beside any preset with a fixed
-// threshold: edges of luma, but only where depth has one, and none of what was blended. The preset
-// is the one that nothing else was named for: learned weights were not learned for what geometry
-// has left over.
+// Configuration of a frame that the geometric engine has smoothed before, on top of a preset with a
+// fixed threshold: luma edges, but only at depth edges, and none of blended pixels. `preset`
+// applies if no preset was given; learned weights were not trained on what the geometric engine
+// leaves over.
 struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
@@ -169,8 +170,8 @@ struct FollowingRules {
   Bypass bypass = Bypass::kMasked;
 };
 
-// Build choices: what changes cycles and cost, and no pixel. Runs that differ in these alone weight
-// one golden picture.
+// Build parameters: change cycles and cost, but no pixels. Runs that only differ in these have the
+// same golden picture.
 struct Build {
   Lanes lanes = Lanes::kOne;
   std::int32_t line_pixels = kMaxFrameSize;
@@ -303,11 +304,11 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Build&>(p), v);
 }
 
-// What a quality of the SMAA presets sets, before the preset's own row; diagonal_steps and
-// corner_rounding keep their defaults where they are not used.
+// The parameters that a quality of the SMAA presets sets, before the preset's own row. Unused
+// diagonal_steps and corner_rounding keep their defaults.
 struct QualityRow {
   Quality quality;
-  std::int32_t threshold;  // U8.16, of `smaa` only
+  std::int32_t threshold;  // U8.16, only of `smaa`
   std::int32_t search_steps;
   bool diagonals;
   std::int32_t diagonal_steps;
@@ -322,13 +323,13 @@ inline constexpr std::array<QualityRow, 4> kQualities = {{
     {Quality::kUltra, 835584, 32, true, 16, true, 64, 258},
 }};
 
-// What a preset sets; every other parameter keeps its default.
+// The parameters that a preset sets; all others keep their defaults.
 struct PresetRow {
   Preset preset;
   EdgeSource edge_source;
   ThresholdMode threshold_mode;
   DynamicLuma dynamic_luma;
-  std::int32_t threshold;  // U8.16; 0: that of the quality
+  std::int32_t threshold;  // U8.16; 0: from the quality
   LocalContrast local_contrast;
   Predictor predictor;
   std::int32_t steps;
@@ -339,7 +340,7 @@ struct PresetRow {
   Ends ends;
   Border border;
   BlendRule blend;
-  bool has_qualities;  // a row of kQualities goes before
+  bool has_qualities;  // apply a row of kQualities first
 };
 inline constexpr std::array<PresetRow, 6> kPresets = {{
     {Preset::kMlaa, EdgeSource::kLuma, ThresholdMode::kFixed, DynamicLuma::kMax, 1671270,
@@ -366,12 +367,12 @@ constexpr bool has_qualities(Preset preset) {
   return row_of(kPresets, &PresetRow::preset, preset).has_qualities;
 }
 
-// Calls set(name, member, value) for all that a preset sets, and its quality before it
+// Calls set(name, member, value) for each parameter of a preset, after those of its quality
 // (spec/presets.h).
 template <class Set>
 constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
-  // No other preset uses what a quality alone turns on.
+  // No other preset uses the blocks that only a quality enables.
   bool diagonals = false, round_corners = false;
   std::int32_t threshold = row.threshold;
   if (row.has_qualities) {
@@ -402,8 +403,8 @@ constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
   set("blend", &Configuration::blend, row.blend);
 }
 
-// The defaults with the rules of a preset and of its quality. ConfigError for one that there is
-// not.
+// The defaults with the values of a preset and of its quality. Throws ConfigError if either is
+// unknown.
 constexpr Parameters preset_parameters(Preset preset, Quality quality = Quality::kHigh) {
   Parameters p;
   p.preset = preset;

@@ -45,7 +45,7 @@ inline constexpr std::uint32_t kWeightsData = 0x84;
 inline constexpr std::uint32_t kWeightsSum = 0x88;
 inline constexpr std::uint32_t kIdValue = 0xDEB00105;
 
-// Fields, from the lowest bit on. Codes are those of the enumerations of spec/morphological/.
+// Fields, lowest bit first. Codes are those of the enumerations in spec/morphological/.
 namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
@@ -161,7 +161,7 @@ inline constexpr std::uint32_t kStatusMemoryError = status::kMemoryError.mask();
 inline constexpr std::uint32_t kStatusWrittenWhileBusy = status::kWrittenWhileBusy.mask();
 }  // namespace reg
 
-// Writes while a frame is inside are ignored, but those to CONTROL and STATUS.
+// During a frame, writes are ignored, except to CONTROL and STATUS.
 inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
@@ -217,7 +217,7 @@ inline constexpr std::array<RegisterInfo, 32> kRegisters = {{
 }};
 static_assert(fields_are_in_order(kRegisters));
 
-// CONFIG and SMAA of a build after a reset.
+// CONFIG and SMAA after a reset.
 constexpr std::uint32_t configuration_word(const Parameters& p) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace configuration = reg::configuration;
@@ -244,7 +244,7 @@ constexpr std::uint32_t smaa_word(const Parameters& p) {
          reg::smaa::kDiagonalSteps.in(code(p.diagonal_steps)) |
          reg::smaa::kCornerRounding.in(code(p.corner_rounding));
 }
-// What a reset loads from the parameters.
+// Registers whose reset values come from the parameters.
 constexpr std::array<LoadedRegister, 8> loaded_registers(const Parameters& p) {
   const auto word = [](std::int64_t value) { return static_cast<std::uint32_t>(value); };
   return {{{reg::kConfiguration, configuration_word(p)},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sixteen ways in which a run of edges can end. Meaning:
-// docs/reference/morphological/algorithm.md.
+// The sixteen shapes of a run of edges. Meaning: docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>
@@ -9,19 +8,19 @@
 
 namespace deburr::spec::morphological {
 
-// Which pixel of the pair beside the edge the line enters.
+// The pixel of an edge that the line enters.
 enum class Side : std::uint8_t {
   kNone,
   kFirst,
   kSecond
 };  // first: upper (left); second: lower (right)
 
-// Code of an end: bit 0 the crossing edge on the first side (north, west), bit 1 on the second
-// (south, east). Index of the table: code of the start corner + 4 * code of the end corner.
+// Code of an end: bit 0 for a crossing edge on the first side (north, west), bit 1 for one on the
+// second side (south, east). Index of the table: code of the start + 4 * code of the end.
 struct RunShape {
   std::string_view name;
   Side before, after;
-  bool clean_z;  // may be extended
+  bool clean_z;  // the run may be extended
 };
 inline constexpr std::array<RunShape, 16> kRunShapes = {{
     {"none-none", Side::kNone, Side::kNone, false},

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ROM contents of the morphological engine: transfer tables of the linear-light blender and the two
-// reciprocal tables of the line unit. Data only; formulas, formats and a test of every entry are in
-// docs/reference/morphological/algorithm.md. Cost: 3072 + 32768 + 2 * 34 * 27 bits of ROM.
+// reciprocal tables of the line unit. Data only; formulas and formats are in
+// docs/reference/morphological/algorithm.md, and every entry is tested.
+// Cost: 3072 + 32768 + 2 * 34 * 27 bits of ROM.
 #pragma once
 
 #include <array>
@@ -9,15 +10,15 @@
 
 namespace deburr::spec::morphological {
 
-// Sizes of SMAA's tables, whose entries both models compute from the formulas of
+// Sizes of SMAA's tables. Both models compute the entries from the formulas of
 // docs/reference/morphological/smaa.md.
-inline constexpr int kTableRoots = 16;         // entries each way of a tile, at squares 0..15
-inline constexpr int kTableDistances = 225;    // distances that the last tile entry reaches: 0..224
-inline constexpr int kDiagonalDistances = 20;  // of the diagonal table, each way
+inline constexpr int kTableRoots = 16;       // entries per axis of a tile, at the squares of 0..15
+inline constexpr int kTableDistances = 225;  // distances up to the last tile entry: 0..224
+inline constexpr int kDiagonalDistances = 20;  // of the diagonal table, per axis
 inline constexpr int kMixSums = 511;           // sums of two weights, 0..510; words are U0.20
 
 // clang-format off
-// U0.8 sRGB code -> linear light, U0.12 scaled so that 4095 is one: round(4095 * decode(i / 255)).
+// U0.8 sRGB code to linear light, U0.12 scaled so that 4095 is one: round(4095 * decode(i / 255)).
 inline constexpr std::array<std::uint16_t, 256> kLinear12FromSrgb = {
     0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 14, 15, 16, 18, 20, 21, 23, 25, 27, 29, 31, 33, 35, 37, 40,
     42, 45, 48, 50, 53, 56, 59, 62, 66, 69, 72, 76, 79, 83, 87, 91, 95, 99, 103, 107, 112, 116, 121,
@@ -35,7 +36,8 @@ inline constexpr std::array<std::uint16_t, 256> kLinear12FromSrgb = {
     3535, 3568, 3602, 3636, 3670, 3705, 3739, 3774, 3809, 3844, 3879, 3915, 3950, 3986, 4022, 4059,
     4095};
 
-// Linear light 0..4095 -> nearest sRGB code: round(255 * encode(j / 4095)). Inverts the table above.
+// Linear light 0..4095 to the nearest sRGB code: round(255 * encode(j / 4095)). The inverse of
+// kLinear12FromSrgb.
 inline constexpr std::array<std::uint8_t, 4096> kSrgbFromLinear12 = {
     0, 1, 2, 2, 3, 4, 5, 6, 6, 7, 8, 9, 10, 10, 11, 12, 13, 13, 14, 15, 15, 16, 16, 17, 18, 18, 19,
     19, 20, 20, 21, 21, 22, 22, 23, 23, 23, 24, 24, 25, 25, 25, 26, 26, 27, 27, 27, 28, 28, 29, 29,
@@ -262,7 +264,7 @@ inline constexpr std::array<std::uint32_t, 34> kChordInverseSlope = {
     2236962, 2164802, 2097152, 2033602};
 
 // U0.8: the weight of a sum z of learned weights, index z + 128: min(128, round(256 / (1 + e^(-z /
-// 16)))), below 4: 0.
+// 16)))); 0 if below 4.
 inline constexpr std::array<std::uint8_t, 256> kWeightOfSum = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 4,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Test vectors of the morphological engine's contract: data that golden and hardware are held to,
-// and that the tables of docs/reference/morphological/vectors.md are made from. The images and the
-// hash are there, too ("Test vectors").
+// Test vectors of the morphological engine: golden model and RTL model must both produce them. The
+// tables of docs/reference/morphological/vectors.md are made from them; images and hash: same page,
+// "Test vectors".
 #pragma once
 
 #include <array>
@@ -43,8 +43,8 @@ struct FrameVector {
   std::string_view name;
   VectorImage image;
   Preset preset;
-  Quality quality;  // of the presets that have qualities
-  // Beside the preset, by the names and values of describe(): "steps=4 linear_light=false".
+  Quality quality;  // for presets with qualities
+  // In addition to the preset, by the names and values of describe(): "steps=4 linear_light=false".
   std::string_view settings;
   FrameResult result;
 };
@@ -417,7 +417,7 @@ inline constexpr std::array<FrameVector, 38> kSmaaFrameVectors = {{
      {0xd9bb420a5e15b561, 1808, 1331, 0, 540, 0, 0, 0, 8, 1645}},
 }};
 
-// With the text guard, and one frame of text without it.
+// With the text guard; one frame of text without it.
 inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
     {"noise_deburr_guarded",
      VectorImage::kNoise,
@@ -481,8 +481,8 @@ inline constexpr std::array<FrameVector, 10> kGuardFrameVectors = {{
      {0x03e6d65781efd7f6, 1549, 1127, 0, 452, 0, 0, 0, 4, 1389, 21}},
 }};
 
-// Which pixels the text guard guards: rows of paper (.), ink (#) and a third colour (x), from
-// above; guarded pixels are g, others -.
+// Pixels bypassed by the text guard. Rows of paper (.), ink (#) and a third colour (x), top row
+// first; guarded pixels are g, others -.
 struct GuardVector {
   std::string_view name, rows, guarded;
 };
@@ -565,11 +565,11 @@ struct RunResult {
 
 // The fitted line through a run between two of the corners, from the first side to the second.
 struct RunVector {
-  std::array<int, 5> corners;  // in order; the first `count`
+  std::array<int, 5> corners;  // in order; `count` of them are used
   int count;
   int start;  // index of the corner where the run starts; it ends at the next one
   RunResult result;
-  std::string_view weights;  // of each pixel: b before, a after
+  std::string_view weights;  // per pixel: b before, a after
 };
 
 inline constexpr std::array<RunVector, 6> kRunVectors = {{
@@ -581,8 +581,7 @@ inline constexpr std::array<RunVector, 6> kRunVectors = {{
     {{0, 5, 11, 16}, 4, 0, {4, 32, 776723, 22118, 2, 16}, "b100 b52 b9/a4 a43 a90"},
 }};
 
-// ---- SMAA: weights of every edge
-// -----------------------------------------------------------------
+// ---- SMAA: weights of every edge ----------------------------------------------------------------
 
 struct PatternResult {
   std::uint64_t hash = 0, diagonal_pixels = 0;
@@ -597,9 +596,8 @@ struct PatternResult {
 struct PatternVector {
   std::string_view name;
   Quality quality;
-  std::string_view rows;  // a digit a pixel, 0 black and 1 white; a space between two rows
-  std::string_view
-      weights;  // t(x,y), l(x,y) first/second: of the top and left edges that have some
+  std::string_view rows;     // one digit per pixel, 0 black and 1 white; spaces separate rows
+  std::string_view weights;  // t(x,y), l(x,y) first/second: non-zero weights of top and left edges
   PatternResult result;
 };
 
@@ -692,7 +690,7 @@ struct LimitResult {
   }
 };
 
-// A Z alone in a frame, with quality low.
+// A single Z in a frame, with quality low.
 struct LimitVector {
   int length;
   std::string_view weights;  // first/second of each pixel
@@ -725,7 +723,7 @@ struct TableHashes {
   std::uint64_t half = 0, dip = 0, roots = 0, mix = 0, diagonals = 0;
   std::uint64_t published_half = 0, published_dip = 0, published_diagonals = 0;
 
-  // By the names that the page gives the tables.
+  // Named as on the page.
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("T", self.half);
@@ -739,7 +737,7 @@ struct TableHashes {
   }
 };
 
-// What is hashed, in this order; numbers over 255 by their bytes, highest first.
+// Values in the order of hashing; numbers over 255 as bytes, highest first.
 inline constexpr std::array<std::string_view, 8> kTableOrders = {
     "i, j = 0..15",
     "i, j = 0..15",
@@ -753,7 +751,7 @@ inline constexpr TableHashes kTableHashes = {
     0x08fb6f2f5185e12b, 0x4091cb22adf7523a, 0x0cdd319ff9fc3614, 0xf381b9d2ae2402d1,
     0xbd207affdb832b8f, 0x1ac3518888e5fed9, 0xd27dea44d582a429, 0xa682f0d6f6e9e26e};
 
-// Weights after interpolation, of the distances l and r.
+// Weights after interpolation, for the distances l and r.
 struct TableResult {
   std::uint64_t half = 0, dip = 0;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit can be built with. Why: docs/reference/texture/cache.md, "Tags";
-// docs/reference/texture/hardware.md, "Directions".
+// Rules between the build parameters of the texture unit. Reasons: docs/reference/texture/cache.md,
+// "Tags"; docs/reference/texture/hardware.md, "Directions".
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace deburr::spec::texture {
 constexpr bool is_power_of_two(std::int32_t value) {
   return value > 0 && std::has_single_bit(static_cast<std::uint32_t>(value));
 }
-// Cycles that leave two directions for each: 1, 2, 4 of two, four, eight.
+// Leaves at least two directions per cycle: 1, 2, 4 for two, four, eight axes.
 constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
 inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{

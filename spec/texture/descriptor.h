@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texture and sampler state of the texture unit, as its registers hold it. Meaning:
+// Texture and sampler state of the texture unit, as in its registers. Meaning:
 // docs/reference/texture/index.md.
 #pragma once
 
@@ -44,14 +44,14 @@ inline constexpr int kMaxTextures = 16;
 inline constexpr int kMaxTextureSize = 4096;
 inline constexpr int kMaxLevels = 13;
 inline constexpr int kTileBytes = 64;
-// Tile size in texels by bytes a texel (index 1, 2, 4): 8 x 8, 8 x 4, 4 x 4.
+// Tile size in texels, indexed by bytes per texel (1, 2, 4): 8 x 8, 8 x 4, 4 x 4.
 inline constexpr std::array<std::uint8_t, 5> kTileWidth = {0, 8, 8, 0, 4};
 inline constexpr std::array<std::uint8_t, 5> kTileHeight = {0, 8, 4, 0, 4};
 
-// One texture with its sampler state, as the ParameterStore holds it.
+// A texture with its sampler state, as in the ParameterStore.
 struct Descriptor {
   std::uint16_t width = 0, height = 0;  // texels of level 0, 1..4096
-  std::uint8_t levels = 0;              // levels present, 1..1 + floor(lb max(width, height))
+  std::uint8_t levels = 0;              // number of levels, 1..1 + floor(lb max(width, height))
   Format format = Format::kRgba8;
   Layout layout = Layout::kTiled;
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
@@ -61,7 +61,7 @@ struct Descriptor {
   std::int16_t lod_bias = 0;                     // S7.8
   std::uint16_t min_lod = 0;                     // U8.8
   std::uint16_t max_lod = 12 << 8;               // U8.8
-  std::array<std::uint32_t, kMaxLevels> base{};  // byte address of each level, multiple of 64
+  std::array<std::uint32_t, kMaxLevels> base{};  // byte address of each level, a multiple of 64
   friend bool operator==(const Descriptor&, const Descriptor&) = default;
 };
 

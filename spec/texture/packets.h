@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packets at the two ends of the texture unit: quads of fragments in, colours out. Each lists its
+// Packets at the ports of the texture unit: quads of fragments in, colours out. Each lists its
 // fields with their widths.
 #pragma once
 
@@ -12,15 +12,14 @@ namespace deburr::spec::texture {
 inline constexpr int kCoordinateFractionBits = 24;
 inline constexpr std::int32_t kCoordinateOne = 1 << kCoordinateFractionBits;
 
-// Four neighbouring pixels: lane 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1), x and y
-// even. All four lanes carry coordinates (of the primitive's plane, extrapolated where the pixel is
-// not covered), since the derivatives are differences between lanes; only lanes in `coverage` give
-// a colour.
+// Four adjacent pixels: lane 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1), x and y even.
+// All four lanes have coordinates, since the derivatives are differences between lanes; lanes that
+// are not covered have those of the extrapolated primitive. Only lanes in `coverage` give a colour.
 struct Quad {
-  std::uint32_t tag = 0;            // returned with each colour; the testbench's own business
-  std::uint16_t x = 0, y = 0;       // pixel of lane 0, for traces and error texts only
+  std::uint32_t tag = 0;            // returned with each colour; not used by the unit
+  std::uint16_t x = 0, y = 0;       // pixel of lane 0, only for traces and error texts
   std::uint8_t texture = 0;         // descriptor handle, 0..15
-  std::uint8_t coverage = 0xF;      // bit i: lane i wants a colour
+  std::uint8_t coverage = 0xF;      // bit i: lane i gives a colour
   std::uint8_t clamped = 0;         // bit i: lane i had a NaN, infinite or out-of-range coordinate
   std::array<std::int32_t, 4> s{};  // S7.24
   std::array<std::int32_t, 4> t{};  // S7.24

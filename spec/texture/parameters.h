@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the texture unit: rules, which change pixels, and build choices, which change
-// cycles and cost. Meaning: docs/reference/texture/index.md; formats and rounding:
+// Parameters of the texture unit: the configuration, which changes pixels, and build parameters,
+// which change cycles and cost. Meaning: docs/reference/texture/index.md; formats and rounding:
 // docs/reference/texture/formats.md.
 #pragma once
 
@@ -34,16 +34,17 @@ inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
 
-// ---- limits of what can be built
-// Four lines are looked up one after the other in a clock, which leaves time for so many ways.
+// ---- Limits of the build
+// Four lines are looked up one after the other in a cycle, which leaves time for this many ways.
 inline constexpr std::int32_t kMostCacheWays = 8;
-// Tags stand in flip-flops, which end at 16 kbit.
+// Tags are flip-flops, limited to 16 kbit.
 inline constexpr std::int32_t kMostCacheLines = 512;
 inline constexpr std::int32_t kMostFifoDepth = 4096;
 inline constexpr std::int32_t kLeastCacheBytes = 256;
 inline constexpr std::int32_t kLeastCacheLineBytes = 32, kMostCacheLineBytes = 128;
 
-// Rules: what changes pixels. Golden and hardware obey them. The defaults are the preset `deburr`.
+// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
+// `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Axes axes = Axes::kFour;
@@ -56,15 +57,15 @@ struct Configuration {
   SrgbOutput srgb_output = SrgbOutput::kLinear;
 };
 
-// Build choices: what changes cycles and cost, and no pixel. Runs that differ in these alone share
-// one golden picture.
+// Build parameters: change cycles and cost, but no pixels. Runs that only differ in these have the
+// same golden picture.
 struct Build {
   std::int32_t cache_bytes = 16384;
   std::int32_t cache_line_bytes = 64;
   std::int32_t cache_ways = 2;
   Replacement cache_replacement = Replacement::kLru;
   std::int32_t cache_outstanding = 64;
-  std::int32_t cache_fifo_depth = 0;  // 0: sized from the latency of memory
+  std::int32_t cache_fifo_depth = 0;  // 0: derived from the memory latency
   std::int32_t axis_cycles = 1;
 };
 
@@ -117,7 +118,7 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Build&>(p), v);
 }
 
-// What a preset sets; every other parameter keeps its default.
+// The parameters that a preset sets; all others keep their defaults.
 struct PresetRow {
   Preset preset;
   Axes axes;
@@ -130,7 +131,7 @@ inline constexpr std::array<PresetRow, 2> kPresets = {{
     {Preset::kDeburr, Axes::kFour, FootprintRule::kExact, Log2Rule::kSegments, CountRule::kAny},
 }};
 
-// Calls set(name, member, value) for all of it (spec/presets.h).
+// Calls set(name, member, value) for each of them (spec/presets.h).
 template <class Set>
 constexpr void for_each_of(Preset preset, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
@@ -140,7 +141,7 @@ constexpr void for_each_of(Preset preset, Set&& set) {
   set("count", &Configuration::count, row.count);
 }
 
-// The defaults with the rules of a preset. ConfigError for a preset that there is not.
+// The defaults with the values of a preset. Throws ConfigError for an unknown preset.
 constexpr Parameters preset_parameters(Preset preset) {
   Parameters p;
   p.preset = preset;

@@ -34,7 +34,7 @@ inline constexpr std::uint32_t kLodClamp = 0x0C;
 inline constexpr std::uint32_t kLevelBase = 0x10;  // + 4 k for level k
 inline constexpr std::uint32_t kIdValue = 0xDEB00002;
 
-// Fields, from the lowest bit on.
+// Fields, lowest bit first.
 namespace id {
 inline constexpr std::array kFields = number(Access::kConstant, kIdValue);
 }  // namespace id
@@ -106,7 +106,7 @@ inline constexpr std::uint32_t kControlInvalidate = control::kInvalidate.mask();
 inline constexpr std::uint32_t kControlClearCounters = control::kClearCounters.mask();
 }  // namespace reg
 
-// Writes while it is busy are taken.
+// Writes are accepted while the unit is busy.
 inline constexpr bool kBusyIgnoresWrites = false;
 inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit and the version of its register map.", reg::id::kFields},
@@ -127,7 +127,7 @@ inline constexpr std::array<RegisterInfo, 11> kRegisters = {{
 }};
 static_assert(fields_are_in_order(kRegisters));
 
-// The registers of a descriptor before its bases, offsets from its start.
+// The registers of a descriptor before its bases; offsets from its start.
 inline constexpr std::array<RegisterInfo, 4> kDescriptorRegisters = {{
     {reg::kSize, "SIZE", "Size of level 0.", reg::size::kFields},
     {reg::kMode, "MODE", "Texel format, layout and sampler state.", reg::mode::kFields},
@@ -147,7 +147,7 @@ constexpr std::uint32_t configuration_word(const Parameters& p) {
          configuration::kSrgbOutput.in(code(p.srgb_output)) |
          configuration::kSpread.in(code(p.spread));
 }
-// What a build has of its parameters.
+// Registers whose values come from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
   return {{{reg::kConfiguration, configuration_word(p)}}};
 }

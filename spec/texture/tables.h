@@ -16,8 +16,8 @@ inline constexpr std::array<std::uint16_t, 65> kLog2Table = {
     2812, 2869, 2926, 2982, 3037, 3092, 3146, 3200, 3254, 3307, 3359, 3412, 3463,
     3514, 3565, 3615, 3665, 3715, 3764, 3812, 3861, 3908, 3956, 4003, 4050, 4096};
 
-// Log2Rule::kCorrected: what is added to n + y in eighth i of the octave, U0.12. Each entry is the
-// middle of the range of lb(1 + y) - y over [i/8, (i+1)/8], so that the residual is smallest.
+// Log2Rule::kCorrected: correction of n + y in eighth i of the octave, U0.12. Each entry is the
+// middle of the range of lb(1 + y) - y over [i/8, (i+1)/8], which minimises the residual.
 inline constexpr std::array<std::uint16_t, 8> kLog2Correction = {92,  239, 320, 349,
                                                                  329, 272, 183, 65};
 
@@ -41,17 +41,16 @@ inline constexpr std::array<std::uint16_t, 256> kSrgbToLinear = {
     3041, 3072, 3103, 3134, 3165, 3197, 3228, 3260, 3292, 3325, 3357, 3390, 3422, 3455, 3488, 3522,
     3555, 3589, 3623, 3657, 3691, 3725, 3760, 3795, 3830, 3865, 3900, 3936, 3972, 4008, 4044, 4080};
 
-// Axes: cosine and sine of direction i, i x 22.5 degrees, in 1/128: shift-adds of three terms
-// (118 = 128 - 8 - 2, 49 = 32 + 16 + 1) and four (90 = 64 + 16 + 8 + 2).
+// Axes: cosine and sine of direction i, i x 22.5 degrees, in 1/128: shift-adds of three terms (118
+// = 128 - 8 - 2, 49 = 32 + 16 + 1) and four (90 = 64 + 16 + 8 + 2).
 struct Axis {
   std::int32_t cosine, sine;
 };
 inline constexpr std::array<Axis, 8> kAxes = {
     {{128, 0}, {118, 49}, {90, 90}, {49, 118}, {0, 128}, {-49, 118}, {-90, 90}, {-118, 49}}};
 
-// CountRule::kAny: entry n = round(4096 lb n) + 72, U3.12; entry 0 is not used. 72 is more than
-// three logarithms of `segments` are wrong together, so that a square takes one sample and 8 : 1
-// eight.
+// CountRule::kAny: entry n = round(4096 lb n) + 72, U3.12; entry 0 is not used. 72 exceeds the
+// total error of three logarithms of `segments`, so that a square takes one sample and 8 : 1 eight.
 inline constexpr std::array<std::uint16_t, 16> kLog2Count = {
     0,     72,    4168,  6564,  8264,  9583,  10660, 11571,
     12360, 13056, 13679, 14242, 14756, 15229, 15667, 16075};
@@ -61,8 +60,8 @@ inline constexpr std::array<std::uint32_t, 17> kReciprocal = {
     0,    65536, 32768, 21845, 16384, 13107, 10923, 9362, 8192,
     7282, 6554,  5958,  5461,  5041,  4681,  4369,  4096};
 
-// Weights of the N samples by kernel, N and sample, U1.8; they sum to 256.
-// docs/reference/texture/formats.md, "Sample walker".
+// Weights of the samples, indexed by kernel, N and sample, U1.8; the weights of N samples sum to
+// 256. docs/reference/texture/formats.md, "Sample walker".
 inline constexpr std::array<std::array<std::array<std::uint16_t, 16>, 17>, 2> kKernelWeights = {
     {{{{},
        {256},

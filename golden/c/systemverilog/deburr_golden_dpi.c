@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* Between deburr_golden_pkg.sv and libdeburr-golden: open arrays and texts of DPI-C. Made from
+/* Converts the open arrays and strings of deburr_golden_pkg.sv for libdeburr-golden. Generated from
  * deburr_golden.h. Compile it with the simulator's svdpi.h. */
 #include <svdpi.h>
 
 #include "deburr_golden.h"
 
-/* What a simulator copies as soon as a function has returned. */
+/* Returned text; the simulator copies it when the function returns. */
 #ifdef __cplusplus
 extern "C" {
 #define OF_THREAD thread_local

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Deburr's bit-exact golden models by way of DPI-C. Made from deburr_golden.h, where the same
-// functions have the same names: a pointer and its size are an open array here, declared as
-// [N] and of the type below; a text that comes back is a string. Compile deburr_golden_dpi.c
-// beside it and link libdeburr-golden.
+// Deburr's bit-exact golden models through DPI-C, generated from deburr_golden.h with the same
+// function names. A pointer with its size becomes an open array, declared as [N] and of the
+// type below; a returned text becomes a string. Also compile deburr_golden_dpi.c, and link
+// libdeburr-golden.
 package deburr_golden_pkg;
   localparam int DEBURR_OK = 0;
   localparam int DEBURR_ARGUMENT = 1;
@@ -16,74 +16,74 @@ package deburr_golden_pkg;
   // The version of the library, "0.3.0".
   import "DPI-C" function string deburr_version();
 
-  // Ends a handle. NULL is taken; DEBURR_BUSY leaves it as it is.
+  // Closes a handle. NULL is accepted. DEBURR_BUSY: the handle stays open.
   import "DPI-C" function int deburr_close(input chandle golden);
 
-  // The engine's name, or "" for NULL.
+  // The name of the engine, or "" for NULL.
   import "DPI-C" function string deburr_engine(input chandle golden);
 
-  // What went wrong in the last call with this handle that returned `status`; "" for DEBURR_OK. The
-  // text is cut to text_size with its zero.
+  // The error text of the last call with this handle that returned `status`; "" for DEBURR_OK. The
+  // text is truncated to text_size, including its terminating zero.
   import "DPI-C" deburr_dpi_error = function int deburr_error(input chandle golden,
       input int status, output string text);
 
-  // A parameter by its name and value as text, as in `deburr run --set`. What follows from a preset
-  // gives way to what was set by name, in whatever order. It counts from the next quad or frame on.
+  // Sets a parameter by name and text, as `deburr run --set` does. Parameters set by name override
+  // those of a preset, in any order. The value applies from the next quad or frame on.
   import "DPI-C" function int deburr_set(input chandle golden, input string name,
       input string text);
 
-  // Its value as text.
+  // Gets the value of a parameter as text.
   import "DPI-C" deburr_dpi_get = function int deburr_get(input chandle golden, input string name,
       output string text);
 
-  // Whether hardware could be built with the parameters as they are.
+  // Whether hardware can be built with the current parameters.
   import "DPI-C" function int deburr_check(input chandle golden);
 
-  // Names of the parameters, from 0 on.
+  // Number and names of the parameters; the first index is 0.
   import "DPI-C" function int deburr_parameter_count(input chandle golden,
       output int unsigned count);
   import "DPI-C" deburr_dpi_parameter_name = function int deburr_parameter_name(
       input chandle golden, input int unsigned index, output string text);
 
-  // Counters by name: of an engine that smooths frames those of the last one, of others since it was
-  // made or reset.
+  // Counters by name. Engines that smooth frames count the last frame; others count from creation
+  // or reset on.
   import "DPI-C" function int deburr_counter(input chandle golden, input string name,
       output longint unsigned value);
   import "DPI-C" function int deburr_counter_count(input chandle golden, output int unsigned count);
   import "DPI-C" deburr_dpi_counter_name = function int deburr_counter_name(input chandle golden,
       input int unsigned index, output string text);
 
-  // As after a reset of the hardware: counters 0, caches empty, no frame. Parameters, memory and what
-  // was put there stay.
+  // Acts like a hardware reset: clears counters and caches, and drops the frame. Parameters, memory
+  // and its contents are kept.
   import "DPI-C" function int deburr_reset(input chandle golden);
 
   // ---- engines that smooth frames ---------------------------------------------------------------
 
-  // A new frame to be smoothed: black, with neither depth nor edges.
+  // Starts a new frame: opaque black, without depth and edges.
   import "DPI-C" function int deburr_frame_begin(input chandle golden, input int unsigned width,
       input int unsigned height);
 
-  // Its pixels, R, G, B, A bytes; rows from above, `stride` in bytes.
+  // Sets the pixels of the frame: bytes R, G, B, A, top row first; `stride` in bytes.
   import "DPI-C" deburr_dpi_frame_pixels = function int deburr_frame_pixels(input chandle golden,
       input byte unsigned pixels[], input int unsigned stride);
 
-  // Its depths, 24 bits each, larger nearer; `stride` in depths.
+  // Sets the depths of the frame: 24 bits each, larger is nearer; `stride` in depths.
   import "DPI-C" deburr_dpi_frame_depth = function int deburr_frame_depth(input chandle golden,
       input int unsigned depth[], input int unsigned stride);
 
-  // One pixel and its depth, as a stream brings them; R in bits 7..0, A in bits 31..24.
+  // Sets one pixel and its depth, for input from a stream; R in bits 7..0, A in bits 31..24.
   import "DPI-C" function int deburr_frame_put(input chandle golden, input int unsigned x,
       input int unsigned y, input int unsigned rgba, input int unsigned depth);
 
-  // 1: the planes that only a slower model has are kept from the next frame on, 0: they are not.
+  // 1: also keep the planes that need a slower model, from the next frame on; 0: do not.
   import "DPI-C" function int deburr_frame_detail(input chandle golden,
       input int unsigned everything);
 
-  // Smooths the frame, which stays as it was given.
+  // Smooths the frame; the input is kept.
   import "DPI-C" function int deburr_frame_process(input chandle golden);
 
-  // What came of the last frame that was smoothed, by the name of a plane: its size and bytes a
-  // pixel, rows from above with `stride` in bytes, or one pixel, its first byte in bits 7..0.
+  // Results of the last smoothed frame, by the name of a plane: its size and bytes per pixel; all
+  // pixels, top row first, `stride` in bytes; or one pixel, its first byte in bits 7..0.
   import "DPI-C" function int deburr_plane_shape(input chandle golden, input string plane,
       output int unsigned width, output int unsigned height, output int unsigned pixel_bytes);
   import "DPI-C" deburr_dpi_plane = function int deburr_plane(input chandle golden,
@@ -93,11 +93,11 @@ package deburr_golden_pkg;
 
   // ---- texture unit -----------------------------------------------------------------------------
 
-  // NULL without memory.
+  // Returns NULL if out of memory.
   import "DPI-C" function chandle deburr_texture_new();
 
-  // Bytes of the memory that textures lie in, at most 2^32; 0 at first. What is there stays, what
-  // comes is zero; counters begin again.
+  // Sets the size of the texture memory in bytes, at most 2^32; initially 0. Existing contents are
+  // kept, new bytes are zero; counters restart.
   import "DPI-C" function int deburr_texture_memory(input chandle golden,
       input longint unsigned bytes);
   import "DPI-C" deburr_dpi_texture_write = function int deburr_texture_write(input chandle golden,
@@ -105,64 +105,64 @@ package deburr_golden_pkg;
   import "DPI-C" deburr_dpi_texture_read = function int deburr_texture_read(input chandle golden,
       input longint unsigned address, inout byte unsigned bytes[]);
 
-  // Texture 0..15: a register of its descriptor, by its offset from the descriptor's first; or a
-  // field of these registers by name and text, "format" "srgb8_a8", "base0" "4096".
+  // Sets a part of the descriptor of texture 0..15: a register, by its offset in the descriptor; or
+  // a field by name and text, such as "format" "srgb8_a8" or "base0" "4096".
   import "DPI-C" function int deburr_texture_register(input chandle golden,
       input int unsigned texture, input int unsigned offset, input int unsigned word);
   import "DPI-C" function int deburr_texture_field(input chandle golden, input int unsigned texture,
       input string name, input string text);
 
-  // Whether quads may name it: the unit gives zero for those of an invalid descriptor.
+  // Whether the descriptor is valid. Quads with an invalid descriptor get zero.
   import "DPI-C" function int deburr_texture_check(input chandle golden,
       input int unsigned texture);
 
-  // Sets the bases of all its levels, one after the other from `address` on, and says what is after
-  // them.
+  // Sets the bases of all levels, one after the other from `address` on; `behind`: the first
+  // address after them.
   import "DPI-C" function int deburr_texture_place(input chandle golden, input int unsigned texture,
       input longint unsigned address, output longint unsigned behind);
 
-  // Puts a level's texels into memory, in the layout that the descriptor says: rows from above, the
-  // texels as they lie in memory; `stride` in bytes.
+  // Writes the texels of a level to memory in the layout of the descriptor. Input: top row first,
+  // each texel as it is stored; `stride` in bytes.
   import "DPI-C" deburr_dpi_texture_level = function int deburr_texture_level(input chandle golden,
       input int unsigned texture, input int unsigned level, input byte unsigned texels[],
       input int unsigned stride);
 
-  // Filters a quad: s and t, S7.24, of its four lanes; bits of covered lanes and of those whose
-  // coordinates were clamped; R, G, B, A of each lane, 0 where it is not covered.
+  // Filters a quad: s and t, S7.24, of its four lanes; bit masks of covered and of clamped lanes.
+  // Output: R, G, B, A per lane, 0 for lanes that are not covered.
   import "DPI-C" function int deburr_texture_quad(input chandle golden, input int unsigned texture,
       input int unsigned coverage, input int unsigned clamped, input int s[4], input int t[4],
       output byte unsigned rgba[16]);
 
-  // What is decided about a lane of such a quad before its first texel is read. Changes nothing.
+  // A decision about a lane of such a quad before its first texel is read. Changes nothing.
   import "DPI-C" function int deburr_texture_analyse(input chandle golden,
       input int unsigned texture, input int unsigned lane, input int s[4], input int t[4],
       input string what, output longint value);
 
-  // Lines of memory that the last quad fetched, in order; `count` of them, of which lines_size are
-  // given at most.
+  // Memory lines fetched by the last quad, in order. `count`: their number; at most lines_size of
+  // them are written.
   import "DPI-C" deburr_dpi_texture_fills = function int deburr_texture_fills(input chandle golden,
       inout int unsigned lines[], output int unsigned count);
 
-  // Empties the cache, as CONTROL does.
+  // Invalidates the cache, like CONTROL.
   import "DPI-C" function int deburr_texture_invalidate(input chandle golden);
 
   // ---- morphological engine ---------------------------------------------------------------------
 
-  // NULL without memory.
+  // Returns NULL if out of memory.
   import "DPI-C" function chandle deburr_morphological_new();
 
-  // Edges that someone else found, instead of those that the engine would: a byte a pixel, bit 0 to
-  // the left neighbour, bit 1 to the upper one. For the frame that was begun.
+  // Sets the edges of the current frame instead of edge detection: one byte per pixel, bit 0 for
+  // the edge to the left neighbour, bit 1 for the edge to the upper one.
   import "DPI-C" deburr_dpi_morphological_edges = function int deburr_morphological_edges(
       input chandle golden, input byte unsigned edges[], input int unsigned stride);
 
   // ---- geometric engine -------------------------------------------------------------------------
 
-  // NULL without memory.
+  // Returns NULL if out of memory.
   import "DPI-C" function chandle deburr_geometric_new();
 
-  // What the frame was drawn from, as words of memory: four a vertex, four an edge; a bit a face.
-  // They stay until others are given.
+  // Inputs of the frame, in the layout of memory: four words per vertex, four words per edge, one
+  // facing bit per face. They are kept until they are replaced.
   import "DPI-C" deburr_dpi_geometric_vertices = function int deburr_geometric_vertices(
       input chandle golden, input int unsigned words[]);
   import "DPI-C" deburr_dpi_geometric_edges = function int deburr_geometric_edges(
@@ -170,7 +170,7 @@ package deburr_golden_pkg;
   import "DPI-C" deburr_dpi_geometric_facing = function int deburr_geometric_facing(
       input chandle golden, input int unsigned faces, input byte unsigned bits[]);
 
-  // What became of each edge of the last frame, with deburr_frame_detail.
+  // The class of each edge of the last frame; needs deburr_frame_detail.
   import "DPI-C" deburr_dpi_geometric_classes = function int deburr_geometric_classes(
       input chandle golden, inout byte unsigned classes[]);
 

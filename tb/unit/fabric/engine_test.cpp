@@ -142,7 +142,7 @@ TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(rejection({.steps = 8}), "taken");
   EXPECT_EQ(rejection({.steps = 9}), "toy.steps = 9 is outside 1..8 step");
   EXPECT_EQ(rejection({.steps = 0}), "toy.steps = 0 is outside 1..8 step");
-  EXPECT_EQ(rejection({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is none of plain, fancy");
+  EXPECT_EQ(rejection({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is not one of plain, fancy");
 }
 
 TEST(Engine, ListsWhatIsBelowIt) {

@@ -155,7 +155,7 @@ class Frames(Base):
         depths = [0.25] * 256
         depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
         depth = ("--depth", self.write("nan.tif", float_tiff(16, 16, depths, channels=1)))
-        says = ["nan.tif", "2 of 256 values are NaN", "the first at (5, 3)", "write 0, infinitely far"]
+        says = ["nan.tif", "2 of 256 values are NaN", "the first at (5, 3)", "write 0 (infinitely far)"]
         self.frame(5, "a.png", noisy_png(16, 16), *DEPTH_EDGES, *depth, says=says)
         self.frame(5, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), *depth, says=says)
 

@@ -540,13 +540,13 @@ class BadCalls(unittest.TestCase):
             for function in (golden.morphological, ideal.fxaa, ideal.cmaa2):
                 rejected(("pixels: uint8 of (height, width, 4) is wanted", given), function, pixels)
         for shape in ((0, 4, 4), (4, 0, 4), (8193, 1, 4), (1, 8193, 4)):
-            rejected("1..8192 each way", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
+            rejected("width and height must be 1..8192", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
         for depth in (numpy.zeros((61, 97)), numpy.zeros((61, 97, 1), numpy.float32), numpy.zeros((97, 61), numpy.float32),
                       numpy.zeros(61 * 97, numpy.uint32), [0.0]):
             rejected("depth: ", golden.morphological, image, depth)
         depth = numpy.full((61, 97), 0.5, numpy.float32)
         depth[3, 5:7] = numpy.nan
-        rejected("depth: 2 of 5917 values are NaN, which is no depth, the first at (5, 3): write 0, infinitely far",
+        rejected("depth: 2 of 5917 values are NaN, the first at (5, 3): write 0 (infinitely far)",
                  golden.morphological, image, depth)
         depth = numpy.ones((61, 97), numpy.uint32)
         depth[4, 6] = 1 << 24
@@ -559,7 +559,7 @@ class BadCalls(unittest.TestCase):
                                    ("trim", "maybe", "'trim' = 'maybe' wants true or false"),
                                    ("steps", image, "'steps' = '[")):
             rejected(words, golden.morphological, image, **{name: value})
-        rejected("unknown parameter 'stepps'; there are", golden.morphological, image, stepps=4)
+        rejected("unknown parameter 'stepps'; known:", golden.morphological, image, stepps=4)
         rejected("window_rows", golden.morphological, image, window_rows=11)  # what cannot be built
         edges = numpy.zeros((61, 97), dtype=numpy.uint8)
         edges[0, 5] = 2
@@ -584,7 +584,7 @@ class BadCalls(unittest.TestCase):
                             ("facing", numpy.zeros(2, numpy.uint8)), ("facing", [True]), ("vertices", numpy.zeros(4))):
             self.rejected(f"{name}: ", golden.geometric, image, depth, **{**mesh, name: value})
         self.rejected("unknown region of memory 'face'", golden.geometric, image, depth, bases={"face": 0}, **mesh)
-        self.rejected("is no multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
+        self.rejected("is not a multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
         self.rejected("bases", golden.geometric, image, depth, bases=7, **mesh)
         # Indices out of range are what the contract says: dropped.
         mesh["edges"]["v0"] = 0xFFFFFFFF
@@ -599,12 +599,12 @@ class BadCalls(unittest.TestCase):
         rejected = self.rejected
         for given in (None, numpy.zeros(4), quads.reshape(2, -1), [1], quads["s"]):
             rejected("quads: an array of QUAD of (n,) is wanted", unit.filter, given)
-        rejected("unknown parameter 'cash_bytes'; there are", unit.set, cash_bytes=4096)
+        rejected("unknown parameter 'cash_bytes'; known:", unit.set, cash_bytes=4096)
         rejected("'cache.bytes' = '7' is outside 256..65536", unit.set, cache_bytes=7)
         rejected("must be a power of two", unit.set, axes="two", cache_bytes=3000)
         self.assertEqual(unit.parameters["axes"], "four", "all of them or none")
         rejected("must be a power of two", golden.TextureUnit, cache_bytes=3000)
-        rejected("unknown field of a texture 'colour'; there are", unit.set_fields, 0, layout="linear", colour=1)
+        rejected("unknown field of a texture 'colour'; known:", unit.set_fields, 0, layout="linear", colour=1)
         rejected("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
         rejected("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
         rejected("outside the memory of", unit.read, 1 << 30, 4)
@@ -633,7 +633,7 @@ class BadCalls(unittest.TestCase):
         self.rejected("edges: ", ideal.smaa_weights, image)
         self.rejected("luma: ", ideal.smaa_edges, image)
         self.rejected("pixels: ", ideal.psnr, numpy.zeros((3, 4)), numpy.zeros((2, 4), numpy.uint8))
-        self.rejected("1..8192 each way", ideal.disc, 1, 1, 1, 0, 5)
+        self.rejected("width and height must be 1..8192", ideal.disc, 1, 1, 1, 0, 5)
 
 
 def thread_that_raises(function, results):

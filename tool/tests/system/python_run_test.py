@@ -158,7 +158,7 @@ class Errors(Scratch):
         depth = numpy.full((16, 16), 0.5, numpy.float32)
         depth[3, 5] = numpy.nan
         frame = {"in_": numpy.zeros((16, 16, 3), numpy.uint8), "morphological_edges_source": "depth"}
-        self.rejected("depth: 1 of 256 values are NaN, which is no depth, the first at (5, 3)", ValueError,
+        self.rejected("depth: 1 of 256 values are NaN, the first at (5, 3)", ValueError,
                       "morphological", depth=depth, **frame)
         self.rejected("depth: 1 of 256 values lie outside 0..16777215, the first at (5, 3)", ValueError, "morphological",
                       depth=numpy.where(numpy.isnan(depth), 1 << 24, 1).astype(numpy.uint32), **frame)

@@ -289,7 +289,7 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
     DEBURR_EXPECT_TAKEN(handle, deburr_geometric_facing(handle.get(), faces, words.facing.data(),
                                                         words.facing.size()));
     DEBURR_EXPECT_REJECTED(handle, DEBURR_ARGUMENT,
-                           "the frame has no depth: give one by deburr_frame_depth",
+                           "the frame has no depth: call deburr_frame_depth",
                            deburr_frame_process(handle.get()));
     DEBURR_EXPECT_TAKEN(
         handle, deburr_frame_depth(handle.get(), frame.depths.data(), frame.depths.size(), 0));
@@ -302,7 +302,7 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
     for (std::size_t e = 0; e < classes.size(); ++e)
       EXPECT_EQ(classes[e], static_cast<std::uint8_t>(golden.classes()[e]));
     DEBURR_EXPECT_REJECTED(
-        handle, DEBURR_ARGUMENT, "classes_size is 299; 300 edges need as many",
+        handle, DEBURR_ARGUMENT, "classes_size is 299, but there are 300 edges",
         deburr_geometric_classes(handle.get(), classes.data(), classes.size() - 1));
     EXPECT_EQ(counter_of(handle.get(), "edges"), golden.work().edges);
     EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
@@ -355,7 +355,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
                            deburr_plane(golden, "pixels", bytes.data(), 64, 0));
     for (const auto& [width, height] :
          {std::pair{0u, 1u}, {1u, 0u}, {8193u, 1u}, {1u, 8193u}, {~0u, ~0u}})
-      DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "1..8192 each way are possible",
+      DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "width and height must be 1..8192",
                              deburr_frame_begin(golden, width, height));
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_begin(golden, 4, 4));
     DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "pixels is NULL",
@@ -386,7 +386,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
                            deburr_frame_depth(golden, wide.data(), 16, 0));
     DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "depth 16777216 is outside 0..16777215",
                            deburr_frame_put(golden, 0, 0, 0, 1u << 24));
-    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "everything is 2; 0 or 1 are meant",
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "everything is 2; it must be 0 or 1",
                            deburr_frame_detail(golden, 2));
     // Of all that was rejected nothing was kept: the frame is black, and opaque.
     DEBURR_EXPECT_TAKEN(golden, deburr_frame_put(golden, 1, 0, 0xFF332211, 5));
@@ -399,7 +399,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
       EXPECT_EQ(number, 0xFF000000);
     };
     is_as_before();
-    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown plane 'pixel'; there are pixels, ",
+    DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown plane 'pixel'; known: pixels, ",
                            deburr_plane(golden, "pixel", bytes.data(), 64, 0));
     DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "plane is NULL",
                            deburr_plane(golden, nullptr, bytes.data(), 64, 0));
@@ -519,7 +519,7 @@ TEST(BadCalls, OfOneEngineAlone) {
   for (const auto& [i, bits] : {std::pair{0, 1}, {0, 2}, {1, 2}, {2, 1}, {3, 4}, {3, 255}}) {
     edges.assign(4, 0);
     edges[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(bits);
-    DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT, "has those with a neighbour in the frame",
+    DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT, "have a neighbour in the frame",
                            give_edges(4));
   }
   edges = {0, 1, 2, 3};
@@ -540,7 +540,7 @@ TEST(BadCalls, OfOneEngineAlone) {
   DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "words is NULL",
                          deburr_geometric_edges(drawn.get(), nullptr, 4));
   DEBURR_EXPECT_REJECTED(
-      drawn, DEBURR_ARGUMENT, "16777217 edges; at most 2^24 are possible",
+      drawn, DEBURR_ARGUMENT, "16777217 edges; the limit is 2^24",
       deburr_geometric_edges(drawn.get(), words.data(), (std::size_t{1} << 26) + 4));
   DEBURR_EXPECT_REJECTED(drawn, DEBURR_ARGUMENT, "the bits of 17 faces need 3 bytes",
                          deburr_geometric_facing(drawn.get(), 17, bits.data(), 2));

@@ -117,10 +117,10 @@ def wrapped(before, items, after, columns=100):
 
 def package(header):
     out = ["// SPDX-License-Identifier: MIT\n",
-           "// Deburr's bit-exact golden models by way of DPI-C. Made from deburr_golden.h, where the same\n"
-           "// functions have the same names: a pointer and its size are an open array here, declared as\n"
-           "// [N] and of the type below; a text that comes back is a string. Compile deburr_golden_dpi.c\n"
-           "// beside it and link libdeburr-golden.\n",
+           "// Deburr's bit-exact golden models through DPI-C, generated from deburr_golden.h with the same\n"
+           "// function names. A pointer with its size becomes an open array, declared as [N] and of the\n"
+           "// type below; a returned text becomes a string. Also compile deburr_golden_dpi.c, and link\n"
+           "// libdeburr-golden.\n",
            "package deburr_golden_pkg;\n"]
     out += [f"  localparam int {name} = {value};\n" for name, value in CONSTANT.findall(header)]
     for piece in pieces(header):
@@ -138,10 +138,10 @@ def package(header):
 
 def glue(header):
     out = ["/* SPDX-License-Identifier: MIT */\n",
-           "/* Between deburr_golden_pkg.sv and libdeburr-golden: open arrays and texts of DPI-C. Made from\n"
+           "/* Converts the open arrays and strings of deburr_golden_pkg.sv for libdeburr-golden. Generated from\n"
            " * deburr_golden.h. Compile it with the simulator's svdpi.h. */\n",
            "#include <svdpi.h>\n\n#include \"deburr_golden.h\"\n\n",
-           "/* What a simulator copies as soon as a function has returned. */\n",
+           "/* Returned text; the simulator copies it when the function returns. */\n",
            "#ifdef __cplusplus\nextern \"C\" {\n#define OF_THREAD thread_local\n#else\n"
            "#define OF_THREAD _Thread_local\n#endif\n",
            "static OF_THREAD char text_of_thread[4096];\n"]

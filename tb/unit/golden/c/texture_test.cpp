@@ -322,7 +322,8 @@ TEST(Levels, MayEndAtTheLastAddressAndReplaceBasesThatAreWrong) {
   const Handle handle = white_texture();
   std::uint64_t behind = 0;
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_field(handle.get(), 0, "base0", "4294967295"));
-  DEBURR_EXPECT_REJECTED(handle, DEBURR_CONFIGURATION, "the base of a level is no multiple of 64",
+  DEBURR_EXPECT_REJECTED(handle, DEBURR_CONFIGURATION,
+                         "the base of a level is not a multiple of 64",
                          deburr_texture_check(handle.get(), 0));
   DEBURR_EXPECT_TAKEN(handle, deburr_texture_place(handle.get(), 0, (1ull << 32) - 256, &behind));
   EXPECT_EQ(behind, 1ull << 32);
@@ -372,14 +373,14 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
                          deburr_texture_register(golden, 16, 0, 0));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT,
-                         "offset 2 is none of a descriptor's registers, 0, 4, .. 64",
+                         "offset 2 is not a register of a descriptor; expected 0, 4, .. 64",
                          deburr_texture_register(golden, 0, 2, 0));
-  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "offset 68 is none of a descriptor's registers",
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "offset 68 is not a register of a descriptor",
                          deburr_texture_register(golden, 0, 68, 0));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside 0..15",
                          deburr_texture_field(golden, 16, "width", "4"));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT,
-                         "unknown field of a texture 'depth'; there are width, height, format, ",
+                         "unknown field of a texture 'depth'; known: width, height, format, ",
                          deburr_texture_field(golden, 0, "depth", "4"));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "max_lod, base0 to base12",
                          deburr_texture_field(golden, 0, "depth", "4"));
@@ -404,7 +405,7 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
                          deburr_texture_check(golden, 1));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "texture 16 is outside",
                          deburr_texture_check(golden, 16));
-  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "address 4 is no multiple of 64",
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "address 4 is not a multiple of 64",
                          deburr_texture_place(golden, 0, 4, &behind));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "would end past address 2^32",
                          deburr_texture_place(golden, 0, 1ull << 32, &behind));
@@ -437,7 +438,7 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
                          deburr_texture_quad(golden, 0, 15, 0, s, s, nullptr));
   DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "lane 4 is outside 0..3",
                          deburr_texture_analyse(golden, 0, 4, s, s, "samples", &value));
-  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown decision 'sample'; there are valid, ",
+  DEBURR_EXPECT_REJECTED(golden, DEBURR_ARGUMENT, "unknown decision 'sample'; known: valid, ",
                          deburr_texture_analyse(golden, 0, 0, s, s, "sample", &value));
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, nullptr, &value), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, "samples", nullptr), DEBURR_ARGUMENT);

@@ -255,18 +255,19 @@ TEST(Configuration, SaysWhatWouldFit) {
     return "";
   };
   EXPECT_EQ(text({1920, 1080, 1, 1, 1}), "");
-  EXPECT_EQ(text({0, 10, 0, 0, 0}), "a frame of 0 x 10 pixels; 1..8192 each way are possible");
+  EXPECT_EQ(text({0, 10, 0, 0, 0}), "a frame of 0 x 10 pixels; width and height must be 1..8192");
   EXPECT_EQ(text({2049, 1080, 1, 1, 1}),
-            "a frame of 2049 x 1080 pixels does not fit rows of 2048 pixels; raise line_pixels");
+            "a frame of 2049 x 1080 pixels is wider than the row buffers of 2048 pixels; raise "
+            "line_pixels");
   // Words of 512 x 4 pixels: 4 across and 273 down.
   EXPECT_EQ(text({2048, 1089, 1, 1, 1}),
-            "a frame of 2048 x 1089 pixels needs 1092 touched words, the build has 1088; "
+            "a frame of 2048 x 1089 pixels needs 1092 touched words, but the build has 1088; "
             "raise touched_words");
-  EXPECT_EQ(text({8, 8, (1u << 24) + 1, 0, 0}), "16777217 edges; at most 2^24 are possible");
-  EXPECT_EQ(text({8, 8, 0, (1u << 24) + 1, 0}), "16777217 vertices; at most 2^24 are possible");
+  EXPECT_EQ(text({8, 8, (1u << 24) + 1, 0, 0}), "16777217 edges; the limit is 2^24");
+  EXPECT_EQ(text({8, 8, 0, (1u << 24) + 1, 0}), "16777217 vertices; the limit is 2^24");
   EXPECT_EQ(text({8, 8, 0, 0, 32769}),
-            "32769 faces, the build holds the facing bits of 32768; raise face_limit");
-  EXPECT_EQ(text({8, 8, 5, 0, 0, 6}), "6 boundaries of 5 edges");
+            "32769 faces, but the build stores facing bits for 32768; raise face_limit");
+  EXPECT_EQ(text({8, 8, 5, 0, 0, 6}), "6 boundary edges, but only 5 edges");
 }
 
 }  // namespace

@@ -722,7 +722,7 @@ TEST(NamedErrors, OfFramesSayWhatWouldFit) {
     return "";
   };
   const auto none = [](const std::string& size) {
-    return "a frame of " + size + " pixels; 1..8192 each way are possible";
+    return "a frame of " + size + " pixels; width and height must be 1..8192";
   };
   for (const auto& [width, height] : {std::pair{1, 1}, {8192, 1}, {1, 8192}, {8192, 8192}})
     EXPECT_EQ(text(width, height), "");
@@ -732,8 +732,9 @@ TEST(NamedErrors, OfFramesSayWhatWouldFit) {
   EXPECT_EQ(text(5, 8193), none("5 x 8193"));
   p.line_pixels = 100;
   EXPECT_EQ(text(100, 5), "");
-  EXPECT_EQ(text(101, 5),
-            "a frame of 101 x 5 pixels does not fit line buffers of 100 pixels; raise line_pixels");
+  EXPECT_EQ(
+      text(101, 5),
+      "a frame of 101 x 5 pixels is wider than the line buffers of 100 pixels; raise line_pixels");
 }
 
 }  // namespace

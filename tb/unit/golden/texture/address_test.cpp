@@ -186,7 +186,7 @@ TEST(Descriptor, EachFaultHasItsName) {
   EXPECT_EQ(fault([](D& d) { d.width = 4097; }), "width or height is over 4096");
   EXPECT_EQ(fault([](D& d) { d.height = 65535; }), "width or height is over 4096");
   EXPECT_EQ(fault([](D& d) { d.levels = 0; }), "no level");
-  EXPECT_EQ(fault([](D& d) { d.levels = 8; }), "more levels than the size has");
+  EXPECT_EQ(fault([](D& d) { d.levels = 8; }), "more levels than the size allows");
   EXPECT_EQ(fault([](D& d) { d.format = static_cast<Format>(5); }), "unknown format");
   EXPECT_EQ(fault([](D& d) { d.layout = static_cast<Layout>(2); }), "unknown layout");
   EXPECT_EQ(fault([](D& d) { d.wrap_s = static_cast<spec::texture::Wrap>(3); }),
@@ -198,7 +198,7 @@ TEST(Descriptor, EachFaultHasItsName) {
   EXPECT_EQ(fault([](D& d) { d.mag_filter = static_cast<spec::texture::MagFilter>(2); }),
             "unknown filter");
   EXPECT_EQ(fault([](D& d) { d.max_anisotropy_log2 = 5; }), "N_max is over 16");
-  EXPECT_EQ(fault([](D& d) { d.base[6] += 32; }), "the base of a level is no multiple of 64");
+  EXPECT_EQ(fault([](D& d) { d.base[6] += 32; }), "the base of a level is not a multiple of 64");
   // Legal corners: all levels, fewer levels, a crooked base of a level that is not there.
   EXPECT_EQ(fault([](D& d) { d.levels = 7; }), "");
   EXPECT_EQ(fault([](D& d) { d.levels = 1; }), "");
