@@ -120,7 +120,7 @@ class GeometricEngine final : public Engine {
 
  private:
   // From the registers to the units, and the pulses that set sticky bits.
-  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
+  Wire<FrameConfiguration> configuration_{"configuration", FrameConfiguration{},
                                           configuration_shape(parameters_)};
   Pulse start_{"start"}, latch_{"latch"};
   CombinationalWire<spec::geometric::Rejection> rejection_{"rejection", rejection_shape()};

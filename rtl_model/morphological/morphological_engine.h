@@ -123,7 +123,7 @@ class MorphologicalEngine final : public Engine {
 
  private:
   // Configuration from the registers to the units, and the events that set sticky bits.
-  Wire<FrameConfiguration> configuration_{"rules", FrameConfiguration{},
+  Wire<FrameConfiguration> configuration_{"configuration", FrameConfiguration{},
                                           configuration_shape(parameters_)};
   Pulse first_beat_{"first_beat"}, latch_{"latch"};
   CombinationalWire<bool> enabled_{"enabled"};

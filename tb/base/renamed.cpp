@@ -11,7 +11,7 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-// Instances: at the start of a part between dots, after an engine's name or not.
+// Instances: at the start of a part between dots, or after an underscore.
 constexpr std::array kInstances{Pair{"derivative", "derivative_unit"},
                                 Pair{"footprint", "footprint_unit"},
                                 Pair{"axis", "axis_unit"},
@@ -77,15 +77,12 @@ bool is_renamed(std::string_view before, std::string_view now) {
   for (;;) {
     const std::size_t b = before.find('.'), n = now.find('.');
     const std::string_view was = before.substr(0, b), is = now.substr(0, n);
+    // After nothing, or after the name of a part of a composition.
     const auto same = [&](const Pair& instance) {
-      for (const std::string_view engine : {"", "texture_", "morphological_"}) {
-        if (!was.starts_with(engine) || !is.starts_with(engine)) continue;
-        const std::string_view w = was.substr(engine.size()), i = is.substr(engine.size());
-        if (w.starts_with(instance.first) && i.starts_with(instance.second) &&
-            w.substr(instance.first.size()) == i.substr(instance.second.size()))
-          return true;
-      }
-      return false;
+      const std::size_t at = was.find(instance.first);
+      return at != std::string_view::npos && (at == 0 || was[at - 1] == '_') &&
+             is.starts_with(was.substr(0, at)) && is.substr(at).starts_with(instance.second) &&
+             was.substr(at + instance.first.size()) == is.substr(at + instance.second.size());
     };
     if (was != is && std::none_of(kInstances.begin(), kInstances.end(), same)) return false;
     if ((b == std::string_view::npos) != (n == std::string_view::npos)) return false;
@@ -100,7 +97,7 @@ std::optional<std::string> renamed(std::string_view name, const std::vector<std:
   const std::string today = with_words_of_today(std::string(name));
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const std::string& k) { return is_renamed(today, k); });
-  return found == known.end() ? std::nullopt : std::optional(*found);
+  return found == known.end() || *found == name ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace deburr::tb

@@ -61,7 +61,7 @@ class AreaUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  Counter descriptors{"records", "records", "lines stored"};
+  Counter descriptors{"descriptors", "descriptors", "lines stored"};
   Counter horizontal_edges{"horizontal_edges", "edges",
                            "edges evaluated in horizontal descriptors"};
   Counter vertical_edges{"vertical_edges", "edges", "edges evaluated in vertical descriptors"};

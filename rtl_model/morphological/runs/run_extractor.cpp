@@ -37,7 +37,7 @@ RunExtractor::RunExtractor(const sc_core::sc_module_name& name, ClockDomain& clo
       spare_(crossings_ || corners_ || p.area == spec::morphological::AreaSource::kLearned ? 1 : 0),
       diagonal_delay_(static_cast<Cycle>(diagonal_delay(p.diagonal_steps, built_lanes(p)))),
       descriptors_(
-          declare_stall("records",
+          declare_stall("descriptors",
                         "a descriptor FIFO is full, or descriptors of two slot rows before are not "
                         "finished")),
       about_(p.diagonals ? static_cast<std::size_t>(2 * p.diagonal_steps + 1) : 0) {

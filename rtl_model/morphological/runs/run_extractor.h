@@ -71,7 +71,7 @@ class RunExtractor final : public Unit {
   Counter vertical_runs{"vertical_runs", "runs", "maximal runs of left edges"};
   Counter long_runs{"long_runs", "runs", "runs longer than the search range of their axis"};
   Counter z_runs{"z_runs", "runs", "clean Z runs within the search range"};
-  Counter descriptors_sent{"records", "records", "run descriptors pushed into the FIFOs"};
+  Counter descriptors_sent{"descriptors", "descriptors", "run descriptors pushed into the FIFOs"};
   Counter interlock_stalls{
       "interlock_stalls", "clk",
       "cycles in which a slot waited for descriptors found two slot rows earlier"};

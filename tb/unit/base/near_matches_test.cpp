@@ -35,7 +35,7 @@ TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
                                           "work.line_unit_h_divides",
                                           "work.run_extractor_descriptor_stalls",
                                           "work.level_unit_two_levels",
-                                          "morphological.bypass",
+                                          "unit.bypass",
                                           "memory.bytes_per_cycle",
                                           "units.run_extractor.stalls.descriptors"};
   for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
@@ -47,7 +47,7 @@ TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
            {"work.divider_h_divides", "work.line_unit_h_divides"},
            {"work.extractor_record_stalls", "work.run_extractor_descriptor_stalls"},
            {"work.level_two_levels", "work.level_unit_two_levels"},
-           {"morphological.leave", "morphological.bypass"},
+           {"unit.leave", "unit.bypass"},
            {"memory.bytes_per_cycle", "memory.bytes_per_cycle"},
            {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"}}) {
     EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
