@@ -110,7 +110,7 @@ void describe(RunParameters& p, Visitor& v) {
   v.choice("line_trace", p.line_trace, tb::traces::kTraceChoiceNames,
            "Writes lines.trace: every line requested from memory (docs/reference/traces.md).");
   v.text("fault", p.fault, "name",
-         "Injects a fault that the checks must catch (docs/reference/injected_faults.md).");
+         "Injects a fault that the checks must catch (docs/reference/tests.md).");
   v.boolean("reference", p.reference,
             "Compare the picture with the supersampled reference image of the scene.");
   v.boolean("images", p.images, "Write pictures, and show them in the report.");

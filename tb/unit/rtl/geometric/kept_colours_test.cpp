@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours that are kept: which lines the resolve reads, and in which clock a line that is kept can
-// be used, as docs/reference/geometric/traffic.md has them.
+// be used, as docs/reference/geometric/memory.md has them.
 #include <deque>
 #include <set>
 

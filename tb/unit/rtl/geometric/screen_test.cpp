@@ -379,7 +379,7 @@ TEST(DepthTest, AGroupThatIsDroppedTakesAClock) {
 
 // ---- the engine
 
-// By the tables of docs/reference/geometric/traffic.md, of its two units.
+// By the tables of docs/reference/geometric/memory.md, of its two units.
 TEST(MemoriesOfLessTraffic, AreThoseOfThePage) {
   Parameters p = coarse(CoarseLines::k64);
   p.records = spec::geometric::RecordsLayout::kSplit;

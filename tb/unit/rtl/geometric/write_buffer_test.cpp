@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The write buffer of the WeightCombiner: which blocks go over the port and in which order, and in
-// which clock, as docs/reference/geometric/traffic.md has them.
+// which clock, as docs/reference/geometric/memory.md has them.
 #include <map>
 #include <set>
 
