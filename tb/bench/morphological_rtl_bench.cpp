@@ -203,8 +203,9 @@ int count_instructions(const std::string& image, const std::string& preset, int 
       cycles, static_cast<double>(cycles) / seconds.count() / 1e6,
       setup.engine.sequencer.frame_cycles.value(),
       100.0 * static_cast<double>(work.edge_pixels) / static_cast<double>(work.pixels),
-      setup.engine.extractor.descriptor_stalls.value(), setup.engine.extractor.interlock_stalls.value(),
-      setup.engine.beat_latency.min(), setup.engine.beat_latency.max());
+      setup.engine.extractor.descriptor_stalls.value(),
+      setup.engine.extractor.interlock_stalls.value(), setup.engine.beat_latency.min(),
+      setup.engine.beat_latency.max());
   std::uint64_t bits = 0;
   for (const rtl::MemoryBase* storage : setup.engine.memories()) {
     std::cout << fmt::format("  {:40} {:8} bits {}\n", storage->name(), storage->logical_bits(),

@@ -102,8 +102,7 @@ TEST_P(Codes, ThatNoChoiceHasCountAsThePageSays) {
   const auto& [name, field, code] = GetParam();
   const FrameVector v = geometric::frame_vector(name);
   const std::uint32_t word = spec::geometric::configuration_word(configuration(name).p);
-  EXPECT_EQ(differences(v.result, result_of(v, (word & ~field.mask()) | field.in(code))),
-            "");
+  EXPECT_EQ(differences(v.result, result_of(v, (word & ~field.mask()) | field.in(code))), "");
 }
 INSTANTIATE_TEST_SUITE_P(Page, Codes,
                          ::testing::Values(Code{'p', reg::configuration::kDepthBias, 31},

@@ -53,8 +53,9 @@ inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
 
 // What a reset loads from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
-  return {{{reg::kConfiguration, reg::configuration::kBits.in(static_cast<std::uint32_t>(p.bits)) |
-                             reg::configuration::kRounding.in(static_cast<std::uint32_t>(p.rounding))}}};
+  return {{{reg::kConfiguration,
+            reg::configuration::kBits.in(static_cast<std::uint32_t>(p.bits)) |
+                reg::configuration::kRounding.in(static_cast<std::uint32_t>(p.rounding))}}};
 }
 
 }  // namespace deburr::spec::posteriser
