@@ -27,8 +27,8 @@ constexpr std::size_t kLinks = 6;
 // not there in both.
 constexpr std::array<const char*, kLinks> kOutside = {"quads",
                                                       "texture.texels",
-                                                      "texture.cache.memory_requests",
-                                                      "texture.cache.memory_responses",
+                                                      "texture.texture_cache.memory_requests",
+                                                      "texture.texture_cache.memory_responses",
                                                       "texture.texel_quads",
                                                       "colours"};
 

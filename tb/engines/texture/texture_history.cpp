@@ -59,11 +59,11 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
         for (Fragment& fragment : fragments_)
           if (fragment.quad.quad.tag == quad.tag) fragment.taken = cycle;
       }));
-  see(clock, link_of<DerivativeToken>(unit, "address.derivatives"), &Fragment::derivative);
-  see(clock, link_of<FootprintToken>(unit, "address.footprints"), &Fragment::footprint);
-  see(clock, link_of<Log2Token>(unit, "address.logs"), &Fragment::log2);
-  see(clock, link_of<LevelToken>(unit, "address.levels"), &Fragment::level);
-  see_all(clock, link_of<SampleToken>(unit, "address.samples"), &Fragment::samples);
+  see(clock, link_of<DerivativeToken>(unit, "address_unit.derivatives"), &Fragment::derivative);
+  see(clock, link_of<FootprintToken>(unit, "address_unit.footprints"), &Fragment::footprint);
+  see(clock, link_of<Log2Token>(unit, "address_unit.logs"), &Fragment::log2);
+  see(clock, link_of<LevelToken>(unit, "address_unit.levels"), &Fragment::level);
+  see_all(clock, link_of<SampleToken>(unit, "address_unit.samples"), &Fragment::samples);
   see_all(clock, link_of<TexelToken>(unit, "texels"), &Fragment::texels);
   // A request leaves the tags in the clock of its look-ups.
   unit.cache.tag_stage.observer = [this](rtl::Cycle cycle, std::uint32_t line, LookUp outcome) {
@@ -71,7 +71,7 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
     looked_up_.push_back({cycle, line, outcome});
   };
   monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
-      clock, link_of<CacheToken>(unit, "cache.requests"),
+      clock, link_of<CacheToken>(unit, "texture_cache.requests"),
       [this](rtl::Cycle cycle, const CacheToken& token) {
         Fragment* const fragment = find(token.ticket.tag, token.ticket.lane);
         if (!fragment) return;

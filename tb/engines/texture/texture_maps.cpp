@@ -40,7 +40,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
   using rtl::texture::CacheToken;
   using rtl::texture::LevelToken;
   monitors_.push_back(std::make_unique<Monitor<LevelToken>>(
-      clock, link_of<LevelToken>(unit, "address.levels"),
+      clock, link_of<LevelToken>(unit, "address_unit.levels"),
       [this, add](rtl::Cycle, const LevelToken& token) {
         const auto& [tag, lane] = std::pair(token.ticket.tag, token.ticket.lane);
         add(tag, lane, samples_, token.last_index + 1U, &unplaced_.samples);
@@ -51,7 +51,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
           level_.set(quad->x(lane), quad->y(lane), token.level + kFraction * token.fraction);
       }));
   monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
-      clock, link_of<CacheToken>(unit, "cache.requests"),
+      clock, link_of<CacheToken>(unit, "texture_cache.requests"),
       [this, add](rtl::Cycle, const CacheToken& token) {
         add(token.ticket.tag, token.ticket.lane, misses_, token.fills, &unplaced_.misses);
       }));

@@ -143,7 +143,7 @@ TEST(Simulation, EndsAtItsLimit) {
     error = over.what();
   }
   EXPECT_THAT(error, HasSubstr("not done after 25 cycles"));
-  EXPECT_THAT(error, HasSubstr("25 of 1,000 cycles are done"));
+  EXPECT_THAT(error, HasSubstr("25 of 1,000 clocks are done"));
   EXPECT_FALSE(b.simulation.complete());
   EXPECT_EQ(b.simulation.cycles(), 25u);
   EXPECT_EQ(b.scripted.notes.back(), "begin@21");

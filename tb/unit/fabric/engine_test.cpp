@@ -472,8 +472,8 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
   };
   const std::span<const spec::RegisterInfo> all = kRows;
   EXPECT_EQ(said(all), "");
-  EXPECT_THAT(said(all.first(2)), HasSubstr("without a register CONTROL"));
-  EXPECT_THAT(said(all.last(2)), HasSubstr("without a register STATUS"));
+  EXPECT_THAT(said(all.first(2)), HasSubstr("has no register CONTROL"));
+  EXPECT_THAT(said(all.last(2)), HasSubstr("has no register STATUS"));
   std::array<spec::RegisterInfo, 3> fewer = kRows;
   fewer[0].fields = std::span(kStates).first(1);
   EXPECT_THAT(said(fewer), HasSubstr("STATUS has no field written_while_busy"));

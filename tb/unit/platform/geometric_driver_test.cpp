@@ -395,7 +395,7 @@ TEST(GeometricDriver, AnotherEngineIsRejected) {
   Bed b;
   b.registers.values[reg::kId] = 0xDEB00002;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.identify(); }),
-            "the ID register reads 0xdeb00001, expected 0xdeb00004");
+            "the ID register reads 0xdeb00002, expected 0xdeb00005");
 }
 
 TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {

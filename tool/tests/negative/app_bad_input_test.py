@@ -360,7 +360,7 @@ class Configuration(CommandTest):
 
     def test_trace_of_nothing(self):
         self.run_texture(2, "--trace", "texture.nothing*",
-                         says=["texture.nothing*", "texture.texels", "texture.cache.tag_stage"])
+                         says=["texture.nothing*", "texture.texels", "texture.texture_cache.tag_stage"])
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_a_window_that_caught_nothing(self):

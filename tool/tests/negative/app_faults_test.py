@@ -92,11 +92,11 @@ class Faults(CommandTest):
     def test_stuck_ready(self):
         done, _ = self.fault("stuck-ready", 4, "no link has moved", *self.CHECKED)
         self.assertIn("texture.texels", done.stderr, "the dump names every link")
-        self.assertIn("texture.cache.tag_stage", done.stderr, "the dump names every unit")
+        self.assertIn("texture.texture_cache.tag_stage", done.stderr, "the dump names every unit")
 
     def test_lost_response(self):
         done, _ = self.fault("lost-response", 4, "no link has moved", *self.CHECKED)
-        self.assertIn("texture.cache.memory_responses", done.stderr)
+        self.assertIn("texture.texture_cache.memory_responses", done.stderr)
 
     def test_memory_error(self):
         self.fault("memory-error", 3, "memory answered 1 line fills with an error", *self.CHECKED)

@@ -594,7 +594,7 @@ class WeightsFaults(BlockFaults):
                 self.run_engine(0, *noise, "--preset", preset, "--mask", self.mask(marks))
                 work = self.result()["work"]
                 self.assertEqual(work["blender_blended_pixels"] > 0, blends, preset)
-                self.assertEqual(work["blender_left_pixels"], 0)
+                self.assertEqual(work["blender_bypassed_pixels"], 0)
                 self.assertEqual(work["edge_pixels_percent"] > 0, blends, preset)
 
     def test_a_mask_that_does_not_fit(self):
@@ -636,9 +636,9 @@ class GuardFaults(BlockFaults):
         before = self.result()["work"]
         self.run_engine(0, *noise, *self.GUARD)
         work = self.result()["work"]
-        self.assertEqual(before["blender_left_pixels"], 0)
+        self.assertEqual(before["blender_bypassed_pixels"], 0)
         self.assertLess(work["blender_blended_pixels"], before["blender_blended_pixels"] / 5)
-        self.assertEqual(work["blender_blended_pixels"] + work["blender_left_pixels"], before["blender_blended_pixels"])
+        self.assertEqual(work["blender_blended_pixels"] + work["blender_bypassed_pixels"], before["blender_blended_pixels"])
         self.assertEqual(work["edge_pixels_percent"], before["edge_pixels_percent"])
 
 

@@ -64,11 +64,11 @@ class Smoothing(unittest.TestCase):
             result["cycles"], work["texturing_cycles"] + work["drawing_cycles"] + work["smoothing_cycles"], delta=20)
         self.assertLessEqual(work["engine_cycles_bound"], result["cycles"])
         # A marked pixel makes no edge, so none has a share to lose; with marked it has.
-        self.assertEqual(work["morphological_blender_left_pixels"], 0)
+        self.assertEqual(work["morphological_blender_bypassed_pixels"], 0)
         marked = self.run_frame("--smoothing", "geometric-morphological", "--set", "morphological.bypass=marked")["work"]
-        self.assertGreater(marked["morphological_blender_left_pixels"], 0)
+        self.assertGreater(marked["morphological_blender_bypassed_pixels"], 0)
         # Whoever is marked was blended.
-        self.assertLessEqual(marked["morphological_blender_left_pixels"], work["geometric_resolver_blended_pixels"])
+        self.assertLessEqual(marked["morphological_blender_bypassed_pixels"], work["geometric_resolver_blended_pixels"])
 
     def test_rules_that_are_given_stay(self):
         def configuration(*given):

@@ -112,7 +112,7 @@ std::vector<Json> each_alone(const GeometricSetup& setup) {
 const SeveralFrames kFigures = {
     .of_the_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
                     "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
-    .largest = {"memory_port_most_outstanding"},
+    .largest = {"memory_port_max_outstanding"},
     .by_formula = {"bytes_per_blended_pixel", "frame_bytes_per_blended_pixel", "columns_per_cycle",
                    "vertex_hits_percent", "depth_hits_percent", "weight_hits_percent",
                    "colour_hits_percent", "write_buffer_hits_percent", "divider_occupancy_percent",

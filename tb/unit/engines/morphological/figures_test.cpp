@@ -95,7 +95,7 @@ std::vector<Json> each_alone(const MorphologicalSetup& setup) {
 const SeveralFrames kFigures = {
     .of_the_last = {"frame_cycles", "frame_cycles_by_formula", "latency_by_formula",
                     "slot_sequencer_frame_cycles"},
-    .largest = {"memory_port_most_outstanding"},
+    .largest = {"memory_port_max_outstanding"},
     .by_formula = {"edge_pixels_percent", "blended_pixels_percent", "line_unit_h_occupancy_percent",
                    "line_unit_v_occupancy_percent", "input_pixels_per_cycle",
                    "memory_bytes_per_pixel", "frame_rate", "clock_for_1080p60",

@@ -526,7 +526,7 @@ TEST(BadCalls, OfOneEngineAlone) {
   DEBURR_EXPECT_TAKEN(smoother, give_edges(4));
   DEBURR_EXPECT_TAKEN(smoother, deburr_frame_process(smoother.get()));
   DEBURR_EXPECT_REJECTED(smoother, DEBURR_ARGUMENT,
-                         "the plane 'taps' was not kept: call deburr_frame_detail with 1",
+                         "the plane 'probes' was not kept: call deburr_frame_detail with 1",
                          deburr_plane(smoother.get(), "probes", edges.data(), 4, 0));
 
   const Handle drawn(deburr_geometric_new());
