@@ -124,7 +124,7 @@ std::vector<InjectedFault> MorphologicalFaults::smaa_faults() const {
       {"wrong-diagonal-area",
        "Flips a bit of the words of diagonal_rom for two pixels to either end.", "", for_diagonals},
       {"drop-diagonals", "Drops the weights of the diagonals of beat 200.",
-       "drop:morphological.diagonals.diagonal_weights_entries:200", for_diagonals},
+       "drop:morphological.diagonal_unit.diagonal_weights_entries:200", for_diagonals},
       {"wrong-corner", "Sharp corners keep 1/256 less of a weight.", "",
        unless(p.round_corners && p.corner_rounding > 0,
               "round_corners = true, corner_rounding of at least 1")},

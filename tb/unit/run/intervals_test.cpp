@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 Json intervals() {
   return Json::parse(R"({"cycles": [10, 10, 5], "series": {
-    "units": {"filter": {"busy": [4, 3, 5], "idle": [6, 0, 0], "stalls": {"full": [0, 7, 0]}}},
+    "units": {"filter_pipeline": {"busy": [4, 3, 5], "idle": [6, 0, 0], "stalls": {"full": [0, 7, 0]}}},
     "work": {"misses": [1, 2, 3]},
     "links": {"texels": {"beats": [4, 4, 4], "occupancy": [5, 6, 7], "most": [1, 2, 2]}},
     "ports": {"port": {"outstanding": [1, 1, 1], "most": [1, 1, 1]}}}})");
@@ -26,7 +26,7 @@ Json intervals() {
 
 Json result() {
   return Json::parse(R"({
-    "units": {"filter": {"busy": 12, "idle": 6, "stalls": {"full": 7}}},
+    "units": {"filter_pipeline": {"busy": 12, "idle": 6, "stalls": {"full": 7}}},
     "work": {"misses": 6}, "links": {"texels": {"beats": 12, "occupancy": 18, "most": 2}}})");
 }
 

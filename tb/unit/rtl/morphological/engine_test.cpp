@@ -295,10 +295,10 @@ TEST(Accounts, EveryUnitHasItsNameAndEveryClockItsClass) {
     EXPECT_EQ(unit->busy_cycles() + unit->stalled_cycles() + unit->idle_cycles(),
               bench.clock.cycle());
   }
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre("sequencer", "luma", "edges", "extractor",
-                                                     "endpoint_predictor_h", "endpoint_predictor_v",
-                                                     "line_unit_h", "line_unit_v", "area",
-                                                     "pixel_store", "blender"));
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre(
+                         "slot_sequencer", "luma_unit", "edge_detector", "run_extractor",
+                         "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h",
+                         "line_unit_v", "area_unit", "pixel_store", "blender"));
   // Every slot is a busy clock of the pipe.
   EXPECT_EQ(bench.engine.sequencer.busy_cycles(), (80u + 37u) * 90u);
   EXPECT_EQ(bench.engine.blender.busy_cycles(), 80u * 90u + 5u);

@@ -173,10 +173,10 @@ INSTANTIATE_TEST_SUITE_P(
         Build{spec::morphological::Preset::kMlaa, "lanes=4"},
         Build{spec::morphological::Preset::kMlaaSlope, "edges.source=depth lanes=2"},
         Build{spec::morphological::Preset::kDeburrLine,
-              "edges.source=predicated edges.threshold_off_depth_edge=16777215 leave=half"},
-        Build{spec::morphological::Preset::kSmaa, "lanes=2 leave=marked"},
-        Build{spec::morphological::Preset::kSmaaDynamic, "lanes=4 leave=beside"},
-        Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory leave=masked"},
+              "edges.source=predicated edges.threshold_off_depth_edge=16777215 bypass=half"},
+        Build{spec::morphological::Preset::kSmaa, "lanes=2 bypass=marked"},
+        Build{spec::morphological::Preset::kSmaaDynamic, "lanes=4 bypass=beside"},
+        Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory bypass=masked"},
         Build{spec::morphological::Preset::kDeburr, "lanes=2 text_guard=true"}));
 
 // Padding is written 0 and read back with its line.
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Build{spec::morphological::Preset::kMlaa, "storage=memory"},
                       Build{spec::morphological::Preset::kMlaa, "storage=memory lanes=2"},
                       Build{spec::morphological::Preset::kDeburr,
-                            "storage=memory lanes=4 leave=masked"}));
+                            "storage=memory lanes=4 bypass=masked"}));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl::ignored_bits_test

@@ -331,15 +331,15 @@ inline constexpr std::array<Kit::Build, 28> Kit::kBuilds = {{
     {1, Storage::kLineBuffers, 16, 31, 20, false, false,
      "edges.source=predicated edges.local_contrast=smaa trial_cycles=2"},
     {2, Storage::kLineBuffers, 16, 9, 20, false, false,
-     "edges.source=depth leave=half trial_cycles=3 predictor_units=2"},
+     "edges.source=depth bypass=half trial_cycles=3 predictor_units=2"},
     {0, Storage::kMemory, 16, 31, 20, false, false,
-     "edges.threshold_mode=dynamic edges.local_contrast=paper leave=beside trial_cycles=8 "
+     "edges.threshold_mode=dynamic edges.local_contrast=paper bypass=beside trial_cycles=8 "
      "linear_light=false"},
     {1, Storage::kLineBuffers, 16, 9, 20, true, false,
      "area=table_full edges.threshold_mode=dynamic edges.dynamic_luma=current"},
-    {2, Storage::kLineBuffers, 16, 31, 20, true, false, "area=table_minimal leave=marked"},
+    {2, Storage::kLineBuffers, 16, 31, 20, true, false, "area=table_minimal bypass=marked"},
     {1, Storage::kLineBuffers, 16, 9, 20, false, true,
-     "predictor=fit trim=true leave=half trial_cycles=5"},
+     "predictor=fit trim=true bypass=half trial_cycles=5"},
 }};
 
 }  // namespace deburr::tb::morphological_rtl

@@ -208,10 +208,10 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
                            {1u << 21, "corners 1"},
                            {1u << 22, "strongest 1"},
                            {1u << 23, ""},
-                           {1u << 24, "leave 1"},
-                           {2u << 24, "leave 2"},
-                           {3u << 24, "leave 3"},
-                           {4u << 24, "leave 4"},
+                           {1u << 24, "bypass 1"},
+                           {2u << 24, "bypass 2"},
+                           {3u << 24, "bypass 3"},
+                           {4u << 24, "bypass 4"},
                            {5u << 24, ""},
                            {6u << 24, ""},
                            {7u << 24, ""},
@@ -233,7 +233,7 @@ TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
   raw.write(reg::kConfiguration, 0xF0000000);
   EXPECT_EQ(text_of(decoded().configuration), "");
   raw.write(reg::kConfiguration, 0xF0000000 | 1u << 24);
-  EXPECT_EQ(text_of(decoded().configuration), "leave 1");
+  EXPECT_EQ(text_of(decoded().configuration), "bypass 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
   EXPECT_EQ(decoded().configuration.width, 40);
   EXPECT_EQ(decoded().configuration.height, 30);
@@ -247,7 +247,7 @@ TEST(FrameConfiguration, OfAnEngineWithLearnedShares) {
   // All but what ends at bit 16, learned and the highest bit of leave.
   expect_configuration(deburr(),
                        {{1u << 23, "learned 1"},
-                        {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, leave 3"},
+                        {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, bypass 3"},
                         {2u << 3, "dynamic_luma 2"},
                         {1u << 14, "contiguous 1"}});
 }
@@ -682,9 +682,9 @@ INSTANTIATE_TEST_SUITE_P(
               false},
         Field{"tables_are_off_beside_learned", learned, reg::kConfiguration, 19, 21, 7, as_it_is,
               false},
-        Field{"leave_masked", as_it_is, reg::kConfiguration, 24, 26, 4, masked},
-        Field{"leave_5_is_none", marked, reg::kConfiguration, 24, 26, 5, as_before},
-        Field{"leave_7_is_none", half, reg::kConfiguration, 24, 26, 7, as_before},
+        Field{"bypass_masked", as_it_is, reg::kConfiguration, 24, 26, 4, masked},
+        Field{"bypass_5_is_none", marked, reg::kConfiguration, 24, 26, 5, as_before},
+        Field{"bypass_7_is_none", half, reg::kConfiguration, 24, 26, 7, as_before},
         Field{"mode_dynamic", as_it_is, reg::kConfiguration, 2, 2, 1,
               [](P& p) { p.threshold_mode = spec::morphological::ThresholdMode::kDynamic; }},
         Field{"mode_fixed", dynamic, reg::kConfiguration, 2, 2, 0,
@@ -706,10 +706,10 @@ INSTANTIATE_TEST_SUITE_P(
               [](P& p) { p.dynamic_luma = spec::morphological::DynamicLuma::kMean; }},
         Field{"blend_strongest", as_it_is, reg::kConfiguration, 22, 22, 1,
               [](P& p) { p.blend = spec::morphological::BlendRule::kStrongest; }},
-        Field{"leave_marked", as_it_is, reg::kConfiguration, 24, 26, 1, marked},
-        Field{"leave_beside", as_it_is, reg::kConfiguration, 24, 26, 2, beside},
-        Field{"leave_none", beside, reg::kConfiguration, 24, 26, 0, as_before},
-        Field{"leave_half", as_it_is, reg::kConfiguration, 24, 26, 3, half},
+        Field{"bypass_marked", as_it_is, reg::kConfiguration, 24, 26, 1, marked},
+        Field{"bypass_beside", as_it_is, reg::kConfiguration, 24, 26, 2, beside},
+        Field{"bypass_none", beside, reg::kConfiguration, 24, 26, 0, as_before},
+        Field{"bypass_half", as_it_is, reg::kConfiguration, 24, 26, 3, half},
         Field{"crossings_are_off_where_not_built", as_it_is, reg::kConfiguration, 18, 18, 1,
               as_it_is, false},
         Field{"tables_are_off_where_not_built", as_it_is, reg::kConfiguration, 19, 19, 1, as_it_is,

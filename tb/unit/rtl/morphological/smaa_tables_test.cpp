@@ -333,8 +333,8 @@ INSTANTIATE_TEST_SUITE_P(
     Injected, SmaaLinkFaults,
     ::testing::Values("flip:engine.diagonal_columns:2000:top.0.8",
                       "drop:engine.diagonal_columns:2000", "duplicate:engine.diagonal_columns:2000",
-                      "drop:engine.diagonals.diagonal_weights_entries:2000",
-                      "duplicate:engine.diagonals.diagonal_weights_entries:2000",
+                      "drop:engine.diagonal_unit.diagonal_weights_entries:2000",
+                      "duplicate:engine.diagonal_unit.diagonal_weights_entries:2000",
                       "flip:engine.lines_h0:200:line.run.far.0",
                       "flip:engine.lines_v0:300:line.run.far.2",
                       "flip:engine.lines_h0:200:line.run.shape.0"));
