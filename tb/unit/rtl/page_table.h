@@ -25,7 +25,7 @@ class EnginePage : public PageTable {
   // A row a link, or several (*, ?): its places, and in the column `build` the bits of a beat; "-"
   // there: no such link.
   void expect_links(const std::string& build, const rtl::Engine& engine) const {
-    const std::size_t places = column("places"), bits = column(build);
+    const std::size_t places = column("entries"), bits = column(build);
     std::vector<bool> met(rows().size());
     for (const rtl::LinkBase* link : engine.links()) {
       const std::string name =

@@ -193,7 +193,7 @@ class Morphological(Figures):
             expected = {"area_unit_vertical_edges": 24, "area_unit_horizontal_edges": 5, "edge_detector_edge_pixels": 29,
                         "run_extractor_vertical_runs": 6, "run_extractor_horizontal_runs": 5, "run_extractor_z_runs": 9,
                         "run_extractor_long_runs": 0, "line_unit_h_divides": 5, "line_unit_v_divides": 6,
-                        "line_unit_h_occupancy": 20, "line_unit_v_occupancy": 24, "area_records": 11,
+                        "line_unit_h_occupancy": 20, "line_unit_v_occupancy": 24, "area_unit_descriptors": 11,
                         "blender_pixels": 960, "slot_sequencer_beats": 960 // lanes, "slot_sequencer_frames": 1}
             self.assertEqual({name: work[name] for name in expected}, expected)
             self.assertAlmostEqual(work["edge_pixels_percent"], 100 * 29 / 960)
