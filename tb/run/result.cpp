@@ -187,7 +187,7 @@ std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories,
 
 std::vector<std::string> not_implementable_memories(const Json& result) {
   std::vector<std::string> all;
-  const auto found = result.find("idealised");
+  const auto found = result.find("not_implementable");
   if (found == result.end() || !found->is_object()) return all;
   for (const auto& [name, why] : found->items())
     all.push_back(fmt::format("{} ({})", name, why.is_string() ? why.get<std::string>() : "?"));

@@ -280,7 +280,8 @@ Outcome compare_results(const CompareOptions& options, bool json) {
   std::string not_implementable;
   for (const Json& warning : comparison.at("warnings")) {
     fmt::print(stderr, "deburr: warning: {}\n", text(warning));
-    if (text(warning).find("idealised") != std::string::npos) not_implementable = ", IDEALISED";
+    if (text(warning).find("not implementable") != std::string::npos)
+      not_implementable = ", NOT IMPLEMENTABLE";
   }
   if (!json)
     comparison.at("kind") == "runs" ? print_runs(comparison, options.all)

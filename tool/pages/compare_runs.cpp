@@ -78,7 +78,7 @@ Json warnings_of(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     for (const std::string& memory : tb::not_implementable_memories(run.result))
       warnings.push_back(
-          fmt::format("{} cannot be built: idealised memory {}", run.letter, memory));
+          fmt::format("{} cannot be built: not implementable: memory {}", run.letter, memory));
     if (run.result.value("interrupted", false))
       warnings.push_back(
           fmt::format("{} was interrupted: its figures cover what was done until "

@@ -456,7 +456,7 @@ class ReportBuilder {
     mustache::data not_implementable{mustache::data::type::list};
     for (const std::string& memory : tb::not_implementable_memories(result_))
       not_implementable << memory;
-    page_.set("idealised", not_implementable);
+    page_.set("not_implementable", not_implementable);
     page_.set("is_not_implementable", !tb::not_implementable_memories(result_).empty());
   }
 

@@ -121,8 +121,8 @@ not_implementable.cache                  -       -                   nine ports 
 out/all.html
 REPRO: deburr compare out/1 out/2 out/3 --html out/all.html
 RESULT: FAIL worse: cycles, )"));
-  EXPECT_THAT(text, testing::EndsWith(R"(, not_implementable.cache, NOT_IMPLEMENTABLE
-! deburr: warning: C cannot be built: not_implementable memory cache (nine ports)
+  EXPECT_THAT(text, testing::EndsWith(R"(, not_implementable.cache, NOT IMPLEMENTABLE
+! deburr: warning: C cannot be built: not implementable: memory cache (nine ports)
 = 1
 )"));
   EXPECT_THAT(read("out/all.html"), HasSubstr("cycles"));

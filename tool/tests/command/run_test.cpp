@@ -123,7 +123,7 @@ a long name of it 7
 memory      3.2 GB/s read, 0.8 written at 200 MHz
 quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against reference
 changed     12.25 % of the pixels by more than 2 codes, 3.50 % by more than 16 (of those that were right before 0.75 % and 0.12 %); 33.75 dB to what went in
-RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html
+RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT IMPLEMENTABLE cache, queue, out/made/report.html
 ! deburr: warning: this hardware cannot be built: memory cache: nine ports
 ! deburr: warning: this hardware cannot be built: memory queue: no clock
 )"},
@@ -135,7 +135,7 @@ RESULT: PASS other: 1,000 cycles, 0.500 pixel/clk, out/other/report.html
     {"Unchecked", "run made --seed 2 --quiet --check none",
      "RESULT: UNCHECKED made: 1,000 cycles, 0.500 pixel/clk, out/made/report.html\n"},
     {"Mismatch", "run made --quiet --seed 3", R"(REPRO: deburr run made --quiet --seed 3
-RESULT: FAIL mismatch: 3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model (made: 12,345 outputs and 2,345 memory accesses compared, 7 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html)
+RESULT: FAIL mismatch: 3 of 12345 outputs and 4 of 2345 memory accesses differ from the golden model (made: 12,345 outputs and 2,345 memory accesses compared, 7 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT IMPLEMENTABLE cache, queue, out/made/report.html)
 = 1
 )"},
     {"MismatchAndInterrupted", "run made --seed 11",
@@ -159,7 +159,7 @@ RESULT: FAIL simulation: a limit (made: 0 cycles, 0.000 , out/made/report.html)
 = 3
 )"},
     {"Interrupted", "run made --quiet --seed 8", R"(REPRO: deburr run made --quiet --seed 8
-RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT_IMPLEMENTABLE cache, queue, out/made/report.html
+RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT IMPLEMENTABLE cache, queue, out/made/report.html
 ! deburr: interrupted; the partial results are kept. Run the same command again for all of it.
 = 130
 )"},

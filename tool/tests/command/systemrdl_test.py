@@ -28,7 +28,7 @@ CONTRACT = {
     "deburr_morphological.STATUS.framing": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
     "deburr_morphological.CONTROL.clear_counters": ({"sw": "w", "hw": "r", "singlepulse": "true"}, 0),
     "deburr_morphological.WEIGHTS_ADDRESS.entry": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, 0),
-    "deburr_morphological.WEIGHTS_DATA.share": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, None),
+    "deburr_morphological.WEIGHTS_DATA.weight": ({"sw": "rw", "hw": "rw", "we": "true", "swwe": "true"}, None),
     "deburr_morphological.WEIGHTS_SUM.value": ({"sw": "r", "hw": "w"}, None),
     "deburr_morphological.THRESHOLD_ON.value": ({"sw": "rw", "hw": "r", "swwe": "true"}, 167025),
     "deburr_morphological.THRESHOLD_OFF.value": ({"sw": "rw", "hw": "r", "swwe": "true"}, 835635),

@@ -264,7 +264,7 @@ TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
   });
   changed("b", [](Json& result, Json& manifest) {
     result["interrupted"] = true;
-    result["idealised"] = {{"cache", "nine ports"}};
+    result["not_implementable"] = {{"cache", "nine ports"}};
     manifest["commit"] = "abc";
   });
   changed("c", [](Json&, Json& manifest) {
@@ -275,7 +275,7 @@ TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
   leave("d", 1000, "2");
   fs::remove(path_ / "d/manifest.json");
   const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
-  EXPECT_EQ(all["warnings"], (Json{"B cannot be built: idealised memory cache (nine ports)",
+  EXPECT_EQ(all["warnings"], (Json{"B cannot be built: not implementable: memory cache (nine ports)",
                                    "B was interrupted: its figures cover what was done until then",
                                    "scene.width differs: A 8, B 9 (B is C here)"}));
   EXPECT_EQ(all["runs"][1],

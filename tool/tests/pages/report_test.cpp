@@ -51,7 +51,7 @@ constexpr const char* kResult = R"json({
   "memory_bits": {
     "flops": {"memories": 1, "logical": 20, "physical": 21, "logical_at_frame_width": 19},
     "total": {"memories": 2, "logical": 1490000, "physical": 2510000, "logical_at_frame_width": 340000}},
-  "idealised": {"lines": "nine ports", "ring": "no latency"},
+  "not_implementable": {"lines": "nine ports", "ring": "no latency"},
   "links": {"codes": {"link": "top.codes", "depth": 4, "beats": 9000, "mean": 1.256, "most": 3, "full_percent": 2.56}},
   "maps": {
     "work": {"title": "Work", "meaning": "Of each pixel.", "unit": "sample", "picture": "map_work.png",

@@ -222,7 +222,7 @@ constexpr const char* kFullResult = R"json({
     "registers": {"memories": 1, "logical": 130, "physical": 130, "logical_at_frame_width": 130},
     "links": {"memories": 3, "logical": 700, "physical": 700, "logical_at_frame_width": 700}
   },
-  "idealised": {"cache_lines": "nine ports"},
+  "not_implementable": {"cache_lines": "nine ports"},
   "links": {
     "cache_in": {
       "link": "engine.cache.in", "depth": 2, "beats": 30, "occupancy": 60, "mean": 1.5, "most": 2,
@@ -389,7 +389,7 @@ TEST(Results, MemoriesAddUpByKind) {
 TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
   Result ideal = sample_result();
   EXPECT_THAT(tb::not_implementable_memories(to_json(ideal)), testing::IsEmpty());
-  EXPECT_FALSE(to_json(ideal).contains("idealised"));
+  EXPECT_FALSE(to_json(ideal).contains("not_implementable"));
   ideal.memories[1].not_implementable = "nine ports";
   EXPECT_THAT(tb::not_implementable_memories(to_json(ideal)),
               testing::ElementsAre("cache_lines (nine ports)"));
