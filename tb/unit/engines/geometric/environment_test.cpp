@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What surrounds the geometric engine: resets, several frames, weather, and its use as a part.
+// What surrounds the geometric engine: several frames, and its use as a part.
+// Resets, stalls and errors of memory: figures_test.cpp and tb/system/geometric_stress_test.cpp.
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "spec/error.h"
@@ -14,8 +13,6 @@
 
 namespace deburr::tb::environment_test {
 namespace {
-
-using spec::geometric::Region;
 
 geometric::Frame small_frame(EdgeOrder order = EdgeOrder::kTable) {
   GeometricSceneParameters p;
@@ -60,23 +57,6 @@ Outcome run(const SimulationOptions& options, const GeometricSetup& setup, std::
   });
 }
 
-// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
-// here alone.
-TEST(GeometricEnvironment, TheHashIsOfEveryChannelOfEveryPixel) {
-  const std::vector<geometric::Frame> frames = {small_frame()};
-  Simulation simulation({});
-  GeometricEnvironment environment(simulation, frames, small_setup());
-  simulation.elaborate(environment);
-  simulation.run();
-  OutputHash hash;
-  for (const Rgba8& pixel : environment.expected_frame().pixels) {
-    std::uint64_t word = 0;
-    for (std::size_t c = 4; c-- > 0;) word = word * 256 + pixel[c];
-    hash.add(word);
-  }
-  EXPECT_EQ(environment.pixel_hash(), hash.value());
-}
-
 // Golden's bins of look-ups against the counters of the hardware.
 TEST(GeometricEnvironment, GoldenFetchesAsTheHardwareLooksUp) {
   const std::vector<geometric::Frame> frames = {small_frame()};
@@ -104,25 +84,6 @@ TEST(GeometricEnvironment, GoldenFetchesAsTheHardwareLooksUp) {
   EXPECT_EQ(fetches("block", "read-back"), engine.weight_combiner.blocks_read.value());
 }
 
-TEST(GeometricEnvironment, AResetInAnyPhaseBeginsTheFrameAgain) {
-  for (const bool frame_copy : {false, true}) {
-    GeometricSetup setup = small_setup();
-    setup.geometric.frame_copy = frame_copy;
-    const Outcome whole = run({}, setup);
-    for (const rtl::Cycle at : {3u, 60u, 150u, 250u, 400u, 600u, 800u, 1000u}) {
-      ASSERT_LT(at, whole.cycles);
-      SimulationOptions options;
-      options.reset_after = at;
-      options.poison = true;
-      const Outcome again = run(options, setup);
-      EXPECT_EQ(again.hash, whole.hash) << at;
-      EXPECT_EQ(again.cycles, whole.cycles) << at;
-      EXPECT_EQ(again.mismatches, 0u) << at;
-      EXPECT_GE(again.comparisons, whole.comparisons) << at;
-    }
-  }
-}
-
 TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
   const Outcome one = run({}, small_setup()), three = run({}, small_setup(), 3);
   EXPECT_EQ(three.frames, 3u);
@@ -132,108 +93,11 @@ TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
   EXPECT_EQ(three.comparisons - kAtTheEnd, 3 * (one.comparisons - kAtTheEnd));
 }
 
-// MEMORY_ERRORS counts on from frame to frame.
-TEST(GeometricEnvironment, ErrorsOfFramesInARowAreExpected) {
-  const Outcome two = forked<Outcome>([] {
-    const std::vector<geometric::Frame> frames(2, small_frame());
-    GeometricSetup setup = small_setup();
-    setup.memory.error_address = regions_of(frames, setup.geometric).base(Region::kVertices);
-    Simulation simulation({});
-    GeometricEnvironment environment(simulation, frames, setup);
-    simulation.elaborate(environment);
-    bool failed = false;
-    try {
-      simulation.run();
-      environment.check();
-    } catch (const spec::SimulationError&) {
-      failed = true;  // by the memory's errors, which are predicted
-    }
-    Outcome outcome = outcome_of(simulation, environment);
-    if (!failed) outcome.frames = 0;
-    return outcome;
-  });
-  EXPECT_EQ(two.frames, 2u) << "or no error came";
-  EXPECT_EQ(two.mismatches, 0u);
-}
-
-// Of a frame with a copy: each line is a request, and takes a clock of the port at least.
-TEST(GeometricEnvironment, FiguresOfACopyHaveEachLineOnce) {
-  struct Figures {
-    double bound, read, written, bytes_read;
-  };
-  const Figures figures = forked<Figures>([] {
-    const std::vector<geometric::Frame> frames = {small_frame()};
-    GeometricSetup setup = small_setup();
-    setup.geometric.frame_copy = true;
-    Simulation simulation({});
-    GeometricEnvironment environment(simulation, frames, setup);
-    simulation.elaborate(environment);
-    simulation.run();
-    environment.check();
-    Result result;
-    simulation.collect(result);
-    Figures f{0, 0, 0, static_cast<double>(result.bytes_read)};
-    for (const auto& work : result.work) {
-      const auto* whole = std::get_if<std::uint64_t>(&work.value);
-      const auto* real = std::get_if<double>(&work.value);
-      const double value = whole ? static_cast<double>(*whole) : real ? *real : 0;
-      if (work.name == "frame_cycles_bound") f.bound = value;
-      if (work.name.starts_with("lines_read_")) f.read += value;
-      if (work.name.starts_with("lines_written_")) f.written += value;
-    }
-    return f;
-  });
-  EXPECT_GT(figures.written, 0);
-  EXPECT_EQ(64 * figures.read, figures.bytes_read);
-  EXPECT_GE(figures.bound, figures.read + figures.written);
-}
-
-TEST(GeometricEnvironment, WeatherChangesClocksAndNothingElse) {
-  const Outcome calm = run({}, small_setup());
-  SimulationOptions slow;
-  slow.fast_path = false;
-  EXPECT_EQ(run(slow, small_setup()).cycles, calm.cycles);
-  for (const std::uint64_t seed : {1u, 2u}) {
-    SimulationOptions stormy;
-    stormy.seed = seed;
-    stormy.stall_permille = 150;
-    stormy.poison = stormy.shuffle = true;
-    GeometricSetup setup = small_setup();
-    setup.memory.latency_max = 200;
-    setup.memory.outstanding = 20;
-    setup.memory.banks = 4;
-    setup.memory.bank_busy = 5;
-    const Outcome outcome = run(stormy, setup);
-    EXPECT_EQ(outcome.hash, calm.hash);
-    EXPECT_EQ(outcome.traffic, calm.traffic);
-    EXPECT_EQ(outcome.mismatches, 0u);
-    EXPECT_GT(outcome.cycles, calm.cycles);
-  }
-}
-
 TEST(GeometricEnvironment, TheOrderOfEdgesChangesNoPixel) {
   const Outcome table = run({}, small_setup()),
                 shuffled = run({}, small_setup(), 1, EdgeOrder::kShuffled);
   EXPECT_EQ(shuffled.hash, table.hash);
   EXPECT_NE(shuffled.traffic, table.traffic);
-}
-
-TEST(GeometricEnvironment, RegionsFollowEachOtherAtPages) {
-  const std::vector<geometric::Frame> frames = {small_frame()};
-  GeometricSetup setup;
-  for (const bool frame_copy : {false, true}) {
-    setup.geometric.frame_copy = frame_copy;
-    const platform::GeometricRegions map = regions_of(frames, setup.geometric);
-    // 480 faces, 720 edges, 240 vertices and 2 poles; 12 x 8 tiles of 256 bytes; 23 x 16 blocks.
-    const std::uint32_t expected[] = {0, 4096, 16384, 20480, 45056, 69632, 94208};
-    for (std::size_t i = 0; i < std::size(expected); ++i)
-      EXPECT_EQ(map.base(static_cast<Region>(i)), expected[i]) << i;
-    EXPECT_EQ(map.bytes(), frame_copy ? 118784u : 94208u);
-    EXPECT_EQ(map.region_of(4095), 0u);
-    EXPECT_EQ(map.region_of(4096), 1u);
-    EXPECT_EQ(map.region_of(94207), 5u);
-    EXPECT_EQ(map.region_of(118784), platform::GeometricRegions::kCount);
-  }
 }
 
 TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRejected) {

@@ -6,7 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "spec/geometric/tables.h"
+#include "golden/geometric/classify.h"
+#include "golden/geometric/line.h"
+#include "golden/geometric/traffic.h"
 #include "tb/unit/rtl/geometric/support.h"
 
 namespace deburr::tb::geometric_rtl {
@@ -21,6 +23,9 @@ class Bounds {
  public:
   Bounds(const EngineBench& b, const Scene& scene) : b_(b), w_(b.engine.work()) {
     read_edges(scene);
+    layout_ = {b.p.layout, b.width, b.height};
+    const int bits = bits_of(b.p.depth_lines);
+    cache_.reset(bits, golden::geometric::depth_column_bits(b.p.layout, bits));
     for (const spec::geometric::LineRecord& line : b.lines) walk(line);
   }
   std::uint64_t begin() const {
@@ -73,40 +78,32 @@ class Bounds {
   static std::uint64_t lines(CacheLines code) {
     return spec::geometric::kCacheLineCount[static_cast<std::size_t>(code)];
   }
+  static int bits_of(CacheLines code) {
+    return spec::geometric::kCacheLineBits[static_cast<std::size_t>(code)];
+  }
   static int count_of(Lanes lanes) {
     return spec::geometric::kLaneCount[static_cast<std::size_t>(lanes)];
-  }
-  bool keeps(const Scene& scene, const Edge& e) const {
-    const auto vertices = scene.vertices.size(), faces = scene.facing.size();
-    const bool boundary = e.flags & flag::kBoundary,
-               all = b_.p.select == spec::geometric::Select::kAll;
-    if (e.v0 >= vertices || e.v1 >= vertices) return false;
-    if (!all && (e.f0 >= faces || (!boundary && e.f1 >= faces))) return false;
-    if (boundary || all) return true;
-    if (scene.facing[e.f0] != scene.facing[e.f1]) return true;
-    if (!scene.facing[e.f0] && b_.p.cull == spec::geometric::Cull::kBack) return false;
-    const bool angle = e.flags & flag::kAngle, split = e.flags & flag::kSplitNormals,
-               seam = e.flags & flag::kSeam;
-    return b_.p.crease == spec::geometric::Crease::kPaper ? angle
-           : b_.p.crease == spec::geometric::Crease::kOff ? false
-                                                          : (angle && split) || seam;
   }
   // Beats of edges, and look-ups of vertices that both miss.
   void read_edges(const Scene& scene) {
     const std::size_t lanes = static_cast<std::size_t>(count_of(b_.p.edge_lanes));
-    const std::uint64_t size = lines(b_.p.vertex_lines);
-    std::map<std::uint64_t, std::uint32_t> cache;
+    golden::geometric::DirectMapped cache;
+    const int bits = bits_of(b_.p.vertex_lines);
+    cache.reset(bits, bits);
+    std::uint64_t replaced = 0;
     const auto misses = [&](std::uint32_t line) {
-      const auto found = cache.find(line % size);
-      if (found != cache.end() && found->second == line) return 0;
-      cache[line % size] = line;
-      return 1;
+      return cache.look_up(line, 0, replaced) ? 0 : 1;
     };
+    const auto count = static_cast<std::uint32_t>(scene.vertices.size());
+    const std::vector<std::uint8_t> facing = platform::facing_bits(scene.facing);
+    const golden::geometric::FacingBits faces = {facing,
+                                                 static_cast<std::uint32_t>(scene.facing.size())};
     for (std::size_t from = 0; from < scene.edges.size(); from += lanes) {
       std::uint64_t kept = 0;
       for (std::size_t i = from; i < std::min(from + lanes, scene.edges.size()); ++i) {
         const Edge& e = scene.edges[i];
-        if (!keeps(scene, e)) continue;
+        if (!golden::geometric::is_kept(golden::geometric::classify(b_.p, e, count, faces)))
+          continue;
         ++kept;
         int missed = misses(e.v0 / 4);
         if (e.v1 / 4 != e.v0 / 4) missed += misses(e.v1 / 4);
@@ -121,56 +118,39 @@ class Bounds {
     const int walkers = count_of(b_.p.walkers);
     const int rows = vertical ? b_.width : b_.height;
     for (int i = 0; i < l.count;) {
-      const auto at = [&](int k) { return (l.position + k * std::int64_t{l.slope}) >> 8; };
-      const auto block = [&](int k) { return std::pair{(l.first + k) >> 2, at(k) >> 18}; };
+      const auto at = [&](int k) { return l.position + k * std::int64_t{l.slope}; };
+      const auto block = [&](int k) { return std::pair{(l.first + k) >> 2, at(k) >> 26}; };
       int n = 1;
       while (n < walkers && i + n < l.count && block(i + n) == block(i)) ++n;
-      std::vector<std::pair<int, int>> wanted;
+      std::vector<golden::geometric::LineOfPixels> wanted;
       for (int k = i; k < i + n; ++k) {
-        const int row = static_cast<int>(at(k) >> 16),
-                  distance = static_cast<int>(at(k) & 65535) - 32768;
-        const int other = distance > 0 || (distance == 0 && l.tie_forward) ? row + 1 : row - 1;
-        if (row < 0 || row >= rows || other < 0 || other >= rows || !covers(l, std::abs(distance)))
+        const golden::geometric::ColumnPoint point = golden::geometric::point_at(at(k), 0);
+        const int other =
+            point.row + (golden::geometric::is_forward(point.distance, l.tie_forward) ? 1 : -1);
+        if (std::min(point.row, other) < 0 || std::max(point.row, other) >= rows ||
+            golden::geometric::shares(b_.p.coverage, point.distance, l.slope).first == 0)
           continue;
-        for (const int m : {row, other}) {
-          const int x = vertical ? m : l.first + k, y = vertical ? l.first + k : m;
-          const std::pair place = b_.tiled() ? std::pair{x / 4, y / 4} : std::pair{x / 16, y};
-          if (std::find(wanted.begin(), wanted.end(), place) == wanted.end())
-            wanted.push_back(place);
+        for (const int m : {point.row, other}) {
+          const auto line =
+              vertical ? layout_.line_of(m, l.first + k) : layout_.line_of(l.first + k, m);
+          if (std::find(wanted.begin(), wanted.end(), line) == wanted.end()) wanted.push_back(line);
         }
       }
       for (std::size_t pair = 0; pair < wanted.size(); pair += 2) {
-        std::uint64_t misses = 0;
+        std::uint64_t misses = 0, replaced = 0;
         for (std::size_t k = pair; k < std::min(pair + 2, wanted.size()); ++k)
-          misses += look_up(wanted[k]);
+          misses += !cache_.look_up(wanted[k].u, wanted[k].v, replaced);
         depth_ += std::max<std::uint64_t>(1, misses);
       }
       i += n;
     }
   }
-  bool covers(const spec::geometric::LineRecord& l, int away) const {
-    const std::int32_t slope = std::abs(l.slope);
-    if (b_.p.coverage == spec::geometric::CoverageRule::kDistance ||
-        2 * away + (slope >> 8) <= 65536)
-      return away <= 32640;
-    const int k = std::max(1, (slope + (1 << 18)) >> 19);
-    return spec::geometric::kCutArea[static_cast<std::size_t>(k - 1)]
-                                    [static_cast<std::size_t>(away / 1024)] != 0;
-  }
-  std::uint64_t look_up(std::pair<int, int> place) {
-    const int bits = spec::geometric::kCacheLineBits[static_cast<std::size_t>(b_.p.depth_lines)];
-    const int low = b_.tiled() ? (bits + 1) / 2 : std::max(1, (bits + 1) / 2 - 2);
-    const int index = place.first % (1 << low) + (place.second % (1 << (bits - low)) << low);
-    const auto found = cache_.find(index);
-    if (found != cache_.end() && found->second == place) return 0;
-    cache_[index] = place;
-    return 1;
-  }
 
   const EngineBench& b_;
   const spec::geometric::Work w_;
   std::uint64_t beats_ = 0, vertices_ = 0, depth_ = 0;
-  std::map<int, std::pair<int, int>> cache_;
+  golden::geometric::FrameLayout layout_;
+  golden::geometric::DirectMapped cache_;
 };
 
 inline void expect_bounds(const EngineBench& b, const Scene& scene, bool edges_too = true) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Colours that are kept: which lines the resolve reads, and in which clock a line that is kept can
-// be used, as docs/reference/geometric/memory.md has them.
+// Colours that are kept: in which clock a line that is kept can be used, as
+// docs/reference/geometric/traffic.md has it. Which lines the resolve reads is compared with the
+// golden model by tb/system/geometric_system_test.cpp.
 #include <deque>
 #include <set>
 
-#include "tb/base/fnv.h"
-#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/resolve_bench.h"
 
 namespace deburr::tb::geometric_rtl::kept_colours_test {
@@ -13,8 +12,6 @@ namespace {
 
 using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::CacheLines;
-using spec::geometric::Layout;
-using testing::ElementsAre;
 
 // ---- ColourStore
 
@@ -95,31 +92,6 @@ TEST(ColourStore, ALineAClockHitOrMiss) {
   EXPECT_EQ(s.take(34), 1);
   EXPECT_EQ(s.take(35), 3);
 }
-// C takes A's place in the clock of its look-up; hits of A before that still read A, since C comes
-// there when it is taken. A hit does not make A younger.
-TEST(ColourStore, TheLineThatWasReadFirstIsReplaced) {
-  Store s(keeping(2));
-  EXPECT_FALSE(s.read(1, kA).replaces);
-  EXPECT_FALSE(s.read(2, kB).replaces);
-  s.places = {0, 1};
-  s.hit(3, kA);
-  const auto third = s.read(4, kC);
-  EXPECT_TRUE(third.replaces);
-  s.places.push_back(third.place);
-  EXPECT_FALSE(s.filler.find(kA).has_value());
-  EXPECT_TRUE(s.filler.find(kB).has_value());
-  s.hit(5, kB);
-  s.hit(6, kC);
-  s.fill(10, 1);
-  s.fill(11, 2);
-  s.fill(12, 3);
-  std::vector<int> taken;
-  for (rtl::Cycle c = 1; c < 30; ++c)
-    if (const int value = s.take(c); value >= 0) taken.push_back(value);
-  EXPECT_THAT(taken, ElementsAre(1, 2, 1, 3, 2, 3));
-  s.miss(30, kA);
-  EXPECT_FALSE(s.filler.find(kB).has_value());
-}
 // Eight entries, and one that is being taken.
 TEST(ColourStore, WithoutAnEntryNothingIsOrdered) {
   Store s(keeping(1));
@@ -197,40 +169,11 @@ TEST(ColourStore, ATagIsOneLineOfItsLayout) {
 
 // ---- the resolve
 
-constexpr std::uint32_t kColours = 0x40000;
-Parameters kept(int lines, Layout layout = Layout::kTiled) {
+Parameters kept(int lines) {
   Parameters p;
   p.colour_lines = lines;
-  p.layout = layout;
   p.weight_blocks = CacheLines::k1024;
   return p;
-}
-// Tiled, 256 pixels across: block (x, y).
-std::uint64_t tiled_line(int x, int y) {
-  return kColours +
-         static_cast<std::uint64_t>(256 * (y / 2 * 32 + x / 2) + 64 * (y % 2 * 2 + x % 2));
-}
-
-// Block (x, 1) takes from the left: the line of the block before it, which that has read, and its
-// own.
-TEST(KeptColours, WhatTheBlockBeforeHasReadIsNotReadAgain) {
-  for (const int lines : {0, 1, 2, 256}) {
-    const std::string got = in_child([lines] {
-      ResolveBench b(kept(lines), 256, 64);
-      for (int x = 1; x < 4; ++x) b.touch(x, 1, 1u << 4, true);
-      b.memory.clear_statistics();
-      b.run();
-      std::string text = std::to_string(b.fetch.lines_kept.value()) + ":";
-      for (const std::uint64_t line : b.memory.lines_read())
-        for (int x = 0; x < 4; ++x)
-          if (line == tiled_line(x, 1)) text += " " + std::to_string(x);
-      return text + ", " + std::to_string(b.fetch.lines_replaced.value());
-    });
-    EXPECT_EQ(got, lines == 0   ? "0: 0 1 1 2 2 3, 0"
-                   : lines == 1 ? "2: 0 1 2 3, 3"
-                   : lines == 2 ? "2: 0 1 2 3, 2"
-                                : "2: 0 1 2 3, 0");
-  }
 }
 
 // A block whose only line is kept, behind a block whose line came long before: the line is taken in
@@ -291,110 +234,6 @@ TEST(KeptColours, StallsWithoutAnEntry) {
   // Eight lines in a round trip of some 208 cycles: 80 of them, or 41 of 80.
   EXPECT_EQ(waits(0), "stalls 20");
   EXPECT_EQ(waits(128), "stalls 18");
-}
-
-// ---- the rule of the page, in words of its own
-
-struct Touched {
-  int x, y;
-  std::uint16_t pixels;
-  bool vertical, forward;
-};
-using LineOfMemory = std::pair<int, int>;  // v, u
-std::vector<LineOfMemory> lines_of(Layout layout, int width, int height, const Touched& block) {
-  std::set<LineOfMemory> lines;
-  const auto add = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= width || y >= height) return;
-    lines.insert(layout == Layout::kTiled ? LineOfMemory{y / 4, x / 4} : LineOfMemory{y, x / 16});
-  };
-  for (int i = 0; i < 16; ++i) {
-    if (!(block.pixels >> i & 1)) continue;
-    const int x = 4 * block.x + i % 4, y = 4 * block.y + i / 4, step = block.forward ? 1 : -1;
-    const int nx = block.vertical ? x + step : x, ny = block.vertical ? y : y + step;
-    if (x >= width || y >= height || nx < 0 || ny < 0 || nx >= width || ny >= height) continue;
-    add(x, y);
-    add(nx, ny);
-  }
-  return {lines.begin(), lines.end()};
-}
-std::uint64_t address_of(Layout layout, int width, const LineOfMemory& line) {
-  const auto [v, u] = line;
-  return kColours + static_cast<std::uint64_t>(layout == Layout::kTiled
-                                                   ? 256 * (v / 2 * ((width + 7) / 8) + u / 2) +
-                                                         64 * (v % 2 * 2 + u % 2)
-                                                   : 64 * (v * ((width + 15) / 16) + u));
-}
-
-std::string random_blocks(int lines, Layout layout, std::uint64_t seed) {
-  Random random(seed, "blocks");
-  const int width = random.between(40, 250), height = random.between(30, 64);
-  std::map<std::pair<int, int>, Touched> touched;
-  for (int i = 0; i < 300; ++i) {
-    const int x = random.between(0, (width - 1) / 4), y = random.between(0, (height - 1) / 4);
-    touched[{y, x}] = {x, y, static_cast<std::uint16_t>(random.word() & random.word()),
-                       random.chance(500), random.chance(500)};
-  }
-  std::vector<std::uint8_t> colours(0x20000);
-  for (std::uint8_t& byte : colours) byte = static_cast<std::uint8_t>(random.word());
-  Parameters p = kept(lines, layout);
-  if (seed % 2 == 0) p.resolve_lines = 16;
-  const auto frame = [&](int kept_lines, bool stalls) {
-    return in_child([&] {
-      p.colour_lines = kept_lines;
-      ResolveBench b(p, width, height, std::array{1u, 20u, 100u}[seed % 3]);
-      b.memory.preload(kColours, colours);
-      for (const auto& [place, block] : touched)
-        b.touch(block.x, block.y, block.pixels, block.vertical, block.forward);
-      Random when(seed, "stalls");
-      if (stalls)
-        b.before_clock = [&] {
-          if (when.chance(200)) b.requests.hold_push(b.clock.cycle());
-          if (when.chance(200)) b.responses.hold_pop(b.clock.cycle());
-          if (when.chance(200)) b.blocks.hold_pop(b.clock.cycle());
-        };
-      b.before_resolve = [&] { b.memory.clear_statistics(); };
-      b.run();
-      // The page's ring.
-      std::vector<std::uint64_t> wanted;
-      std::deque<LineOfMemory> ring;
-      std::uint64_t hits = 0;
-      for (const auto& [place, block] : touched) {
-        if (block.pixels == 0) continue;
-        for (const LineOfMemory& line : lines_of(layout, width, height, block)) {
-          if (std::find(ring.begin(), ring.end(), line) != ring.end()) {
-            ++hits;
-            continue;
-          }
-          wanted.push_back(address_of(layout, width, line));
-          ring.push_back(line);
-          if (ring.size() > static_cast<std::size_t>(kept_lines)) ring.pop_front();
-        }
-      }
-      std::vector<std::uint64_t> read;  // without weights
-      for (const std::uint64_t line : b.memory.lines_read())
-        if (line < 0x80000) read.push_back(line);
-      std::string text;
-      if (read != wanted) text += "reads ";
-      if (b.fetch.lines_kept.value() != hits) text += "hits ";
-      if (b.fetch.lines_read.value() != wanted.size()) text += "misses ";
-      if (kept_lines > 1 && hits == 0) text += "nothing was hit ";
-      FnvHash hash;
-      for (const auto& block : b.resolved)
-        for (std::size_t i = 0; i < 16; ++i)
-          for (const std::uint8_t byte : block.pixels[i])
-            if (block.blended >> i & 1) hash.byte(byte);
-      return text + std::to_string(hash.value()) + " " + std::to_string(b.resolved.size());
-    });
-  };
-  const std::string without = frame(0, false), with = frame(lines, true);
-  return with == without ? "" : with + " for " + without;
-}
-TEST(KeptColours, RandomBlocksByTheRule) {
-  for (const int lines : {0, 1, 2, 3, 64, 128, 256})
-    for (const Layout layout : {Layout::kTiled, Layout::kRaster})
-      for (std::uint64_t seed = 0; seed < 3; ++seed)
-        EXPECT_EQ(random_blocks(lines, layout, seed), "")
-            << lines << " lines, layout " << static_cast<int>(layout) << ", seed " << seed;
 }
 
 }  // namespace

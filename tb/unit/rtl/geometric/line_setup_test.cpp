@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-// LineSetup: the lines of spec/geometric/vectors.h, random ones against its formulas with
-// every way to a reciprocal, drops, latency and intervals.
+// LineSetup: lines against the golden model with every way to a reciprocal; latency and intervals.
 #include "rtl_model/geometric/lines/line_setup.h"
 
-#include <numeric>
-
+#include "golden/geometric/line.h"
 #include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
@@ -14,7 +12,6 @@ namespace {
 using rtl::geometric::EdgeEnds;
 using rtl::geometric::LineToken;
 using rtl::geometric::VertexFields;
-using spec::geometric::Axis;
 using spec::geometric::LineRecord;
 
 struct SetupBench : Frame {
@@ -51,145 +48,79 @@ EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
   return {{make(a), make(b)}, false, false};
 }
 
-TEST(LineSetup, LinesOfThePage) {
-  using spec::geometric::LineEnd;
-  using spec::geometric::LineVector;
-  SetupBench b({}, spec::geometric::kLineVectorWidth, spec::geometric::kLineVectorHeight);
-  std::vector<EdgeEnds> edges;
-  for (const LineVector& v : spec::geometric::kLineVectors) {
-    const auto ends = [](const LineEnd& end) {
-      return std::array{end.major, end.minor, static_cast<std::int32_t>(end.depth)};
-    };
-    const bool horizontal = v.axis == Axis::kHorizontal;
-    edges.push_back(edge(horizontal, ends(v.a), ends(v.b)));
-    edges.push_back(edge(horizontal, ends(v.b), ends(v.a)));
-  }
-  const std::vector<LineRecord> lines = b.run(edges);
-  ASSERT_EQ(lines.size(), edges.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    SCOPED_TRACE(i);
-    const LineVector& v = spec::geometric::kLineVectors[i / 2];
-    const LineRecord& l = lines[i];
-    EXPECT_EQ(l.axis, v.axis);
-    EXPECT_EQ(l.tie_forward, v.axis == Axis::kHorizontal && v.result.slope > 0);
-    const spec::geometric::LineResult got = {l.first, l.count, l.position,
-                                             l.slope, l.depth, l.depth_step};
-    EXPECT_EQ(differences(v.result, got), "");
-    expect_each_value_is_compared(v.result, got);
-  }
-}
-
-// The page's formulas, with divisions. `kept`: the line has a column of the frame.
-LineRecord by_formula(const EdgeEnds& e, int width, int height, bool& kept) {
-  using Wide = std::int64_t;
-  const VertexFields *a = &e.vertex[0], *b = &e.vertex[1];
-  const bool horizontal = std::abs(b->x - a->x) > std::abs(b->y - a->y);
-  if (horizontal ? b->x < a->x : b->y < a->y) std::swap(a, b);
-  const std::int64_t m0 = horizontal ? a->x : a->y, m1 = horizontal ? b->x : b->y,
-                     n0 = horizontal ? a->y : a->x, n1 = horizontal ? b->y : b->x,
-                     size = horizontal ? width : height, rows = horizontal ? height : width;
-  const auto ceil_centre = [](std::int64_t m) {  // first column with its centre at m or behind
-    std::int64_t c = (m - 128) / 256 - 2;
-    while (256 * c + 128 < m) ++c;
-    return c;
-  };
-  const std::int64_t first = std::max<std::int64_t>(0, ceil_centre(m0)),
-                     last = std::min(size - 1, ceil_centre(m1) - 1);
-  kept = first <= last && !(n0 < 0 && n1 < 0) && !(n0 >= 256 * rows && n1 >= 256 * rows);
-  LineRecord line;
-  line.crease = e.crease;
-  if (!kept) return line;
-  const std::int64_t length = m1 - m0, dm = std::abs(n1 - n0),
-                     dd = std::abs(std::int64_t{b->depth} - std::int64_t{a->depth});
-  int exponent = 0;
-  while (length >> (exponent + 1)) ++exponent;
-  const std::int64_t shift = 22 - exponent;
-  const std::int64_t reciprocal = (std::int64_t{1} << 48) / (length << shift);
-  const auto slope =
-      static_cast<std::int64_t>(((Wide{dm} << shift) * reciprocal + (1 << 23)) >> 24);
-  const std::int64_t offset = 256 * first + 128 - m0;
-  const auto share = static_cast<std::int64_t>(((Wide{offset} << shift) * (reciprocal >> 2)) >> 22);
-  const std::int64_t down = n1 < n0 ? -1 : 1, deep = b->depth < a->depth ? -1 : 1;
-  line.axis = horizontal ? Axis::kHorizontal : Axis::kVertical;
-  line.tie_forward = horizontal && n1 > n0;
-  line.first = static_cast<std::uint16_t>(first);
-  line.count = static_cast<std::uint16_t>(last - first + 1);
-  line.position = n0 * 65536 + down * ((slope * offset) >> 8) + 128;
-  line.slope = static_cast<std::int32_t>(down * slope);
-  line.depth =
-      (std::int64_t{a->depth} << 12) + deep * static_cast<std::int64_t>((Wide{dd} * share) >> 12);
-  line.depth_step =
-      exponent >= 8
-          ? deep * static_cast<std::int64_t>((Wide{dd} * (reciprocal >> 2)) >> (4 + exponent))
-          : 0;
-  return line;
-}
-
 class Reciprocals : public ::testing::TestWithParam<int> {};
 
-// Ends apart by all powers of two, in a frame with odd sides; a table of n bits.
-TEST_P(Reciprocals, RandomLinesByFormula) {
+// Ends apart by all powers of two, in a frame with odd sides; a table of n bits. Ends on borders of
+// the frame and on centres of its pixels, in one place, and out of the guard band.
+TEST_P(Reciprocals, SetsUpLinesAsGolden) {
+  using golden::geometric::LineFate;
+  constexpr int kWidth = 1021, kHeight = 333;
   Parameters p;
   p.pipelined = GetParam() < 0;
   p.reciprocal_table = std::max(0, GetParam());
   p.dividers = 8;
-  SetupBench b(p, 1021, 333);
+  SetupBench b(p, kWidth, kHeight);
   Random random(static_cast<std::uint64_t>(GetParam() + 100), "lines");
   std::vector<EdgeEnds> edges;
   std::vector<LineRecord> wanted;
-  std::uint64_t empty = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    const auto within = [&](int span) {
-      return static_cast<int>(random.below(2u * static_cast<std::uint32_t>(span) + 1)) - span;
+  std::uint64_t outside = 0, degenerate = 0, empty = 0;
+  const auto add = [&](const VertexFields& a, const VertexFields& c) {
+    const EdgeEnds e{{a, c}, random.chance(500), false};
+    const auto end = [](const VertexFields& v) {
+      return spec::geometric::Vertex{v.x, v.y, v.depth, v.usable};
     };
+    LineRecord line;
+    line.crease = e.crease;
+    edges.push_back(e);
+    switch (golden::geometric::set_up_line(end(a), end(c), kWidth, kHeight, line)) {
+      case LineFate::kLine:
+        wanted.push_back(line);
+        break;
+      case LineFate::kOutside:
+        ++outside;
+        break;
+      case LineFate::kDegenerate:
+        ++degenerate;
+        break;
+      default:
+        ++empty;
+    }
+  };
+  for (int i = 0; i < 20'000; ++i) {
+    const auto within = [&](int span) { return random.between(-span, span); };
     const int span = 1 << random.below(20);
     const VertexFields a = vertex(within(300'000), within(120'000), random.below(1u << 24));
-    VertexFields c =
+    add(a,
         vertex(std::clamp(a.x + within(span), -(1 << 22), (1 << 22) - 1),
-               std::clamp(a.y + within(span), -(1 << 22), (1 << 22) - 1), random.below(1u << 24));
-    if (a.x == c.x && a.y == c.y) ++c.x;
-    const EdgeEnds e{{a, c}, random.chance(500), false};
-    bool kept = false;
-    const LineRecord line = by_formula(e, 1021, 333, kept);
-    edges.push_back(e);
-    if (kept)
-      wanted.push_back(line);
-    else
-      ++empty;
+               std::clamp(a.y + within(span), -(1 << 22), (1 << 22) - 1), random.below(1u << 24)));
+  }
+  const auto place = [&](int size) {
+    constexpr std::array kPlaces = {-1, 0, 127, 128, 129, 384};
+    const int at = kPlaces[random.below(kPlaces.size())];
+    return random.chance(300) ? 256 * size + at - 384 : at;
+  };
+  for (int i = 0; i < 2'000; ++i) {
+    VertexFields a = vertex(place(kWidth), place(kHeight), 5),
+                 c = vertex(place(kWidth), place(kHeight), 9);
+    a.usable = !random.chance(50);
+    c.usable = !random.chance(50);
+    add(a, c);
   }
   const std::vector<LineRecord> lines = b.run(edges);
-  ASSERT_GT(wanted.size(), 1000u);
   ASSERT_EQ(lines.size(), wanted.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
     ASSERT_EQ(lines[i], wanted[i]) << i << ": " << rtl::payload_difference(wanted[i], lines[i]);
+  EXPECT_EQ(b.unit.outside_edges.value(), outside);
+  EXPECT_EQ(b.unit.degenerate_edges.value(), degenerate);
   EXPECT_EQ(b.unit.empty_edges.value(), empty);
   EXPECT_EQ(b.unit.lines.value(), wanted.size());
+  for (const std::uint64_t edges_of_a_fate : {outside, degenerate, empty, wanted.size()})
+    EXPECT_GT(edges_of_a_fate, 20u);
   if (GetParam() >= 5) {
     EXPECT_GT(b.unit.table_lines.value(), 0u);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Bits, Reciprocals, ::testing::Values(-1, 0, 1, 5, 10, 11));
-
-TEST(LineSetup, DropsInTheOrderOfThePage) {
-  SetupBench b;
-  VertexFields gone = vertex(300, 300, 5);
-  gone.usable = false;
-  const auto lines =
-      b.run({{{gone, gone}, false, false},                                         // outside
-             {{vertex(300, 300, 5), gone}, false, false},                          // outside
-             {{vertex(300, 300, 5), vertex(300, 300, 9)}, false, false},           // degenerate
-             {{vertex(300, 300, 5), vertex(301, 300, 9)}, false, false},           // empty
-             {{vertex(128, -1, 5), vertex(999, -200, 9)}, false, false},           // before
-             {{vertex(128, 720 * 256, 5), vertex(999, 190000, 9)}, false, false},  // behind
-             {{vertex(128, 720 * 256 - 1, 5), vertex(999, 184400, 9)}, false, false},
-             {{vertex(128, -1, 5), vertex(999, 0, 9)}, false, false},
-             {{vertex(-300, -300, 5), vertex(128, 200, 9)}, false, false}});
-  EXPECT_EQ(lines.size(), 3u);
-  EXPECT_EQ(b.unit.outside_edges.value(), 2u);
-  EXPECT_EQ(b.unit.degenerate_edges.value(), 1u);
-  EXPECT_EQ(b.unit.empty_edges.value(), 3u);
-  EXPECT_EQ(b.unit.lines.value(), 3u);
-}
 
 EdgeEnds some_line(int length = 5000) {
   return edge(true, {1000, 1000, 1}, {1000 + length, 2000, 7});

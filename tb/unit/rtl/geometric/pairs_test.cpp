@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// records = split: the EdgeClassifier that counts where the vertices of each edge are, the
-// PairFetch by itself, and the engine with both. Memory answers 20 cycles after a request.
+// records = split: the EdgeClassifier that counts where the vertices of each edge are, and the
+// PairFetch. Memory answers 20 cycles after a request.
 #include <algorithm>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -107,36 +107,6 @@ TEST(PairFetch, AnEdgeAClockHitOrMissed) {
     const std::string lines = step == 1 ? "12" : step == 3 ? "36" : "60";
     EXPECT_EQ(got, std::to_string(59 * PairFetch::datasheet().interval.cycles) + " " + lines);
   }
-}
-TEST(PairFetch, PairsAreThoseOfTheirArrayInOrder) {
-  PairBench b;
-  b.fill(40);
-  std::string wanted;
-  for (const auto& [n, other] : {std::pair{0u, false},
-                                 {9u, false},
-                                 {0u, true},
-                                 {10u, false},
-                                 {9u, true},
-                                 {11u, true},
-                                 {20u, true},
-                                 {19u, false},
-                                 {39u, false},
-                                 {29u, true}}) {
-    b.ends.source.add(PairBench::number(n, other, n == 9));
-    wanted += (other ? std::to_string(500 + n) + "-" + std::to_string(499 - n)
-                     : std::to_string(2 * n) + "-" + std::to_string(2 * n + 1)) +
-              (n == 9 ? "c " : " ");
-  }
-  PairNumber end{};
-  end.end = true;
-  b.ends.source.add(end);
-  finish(b, b.ends, 11);
-  EXPECT_EQ(b.taken(), wanted + "end");
-  const std::vector<std::uint64_t> lines = {kBoundaries,  kOthers,       kBoundaries + 64,
-                                            kOthers + 64, kOthers + 128, kBoundaries + 192};
-  EXPECT_EQ(b.memory.lines_read(), lines);
-  EXPECT_EQ(b.unit.kept_edges.value(), 10u);
-  EXPECT_EQ(b.unit.invalid_edges.value(), 0u);
 }
 // 24 bits each; the last vertex is one, the count itself is none.
 TEST(PairFetch, VerticesEndBeforeTheirCount) {
@@ -317,115 +287,11 @@ TEST(EdgeClassifier, CountsEdgesBeyondTheirPairs) {
   EXPECT_EQ(b.unit.kept_edges.value(), 9u) << "the PairFetch drops them";
   EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge, 0u);
 }
-// Edges that are dropped, invalid ones too, have a number all the same; they go beyond the array
-// without being found invalid.
-TEST(EdgeClassifier, DroppedEdgesHaveNumbers) {
-  NumberBench b(split(Lanes::kTwo), 8, 2);
-  b.bus.write(reg::kFaceCount, 4);
-  b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
-  EdgeBeat beat{};
-  const auto add = [&](std::uint32_t f0, unsigned flags) {
-    beat.edge[beat.count++] = {0, 0, f0, 0, static_cast<std::uint8_t>(flags)};
-    if (beat.count < 2) return;
-    b.ends.source.add(beat);
-    beat = {};
-  };
-  add(0, 0);                                                    // flat: o0
-  add(9, flag::kBoundary);                                      // invalid: b0
-  add(0, flag::kBoundary);                                      // b1
-  add(9, flag::kSeam);                                          // invalid: o1
-  add(1, flag::kSeam);                                          // crease: o2
-  add(0, 0);                                                    // flat: o3
-  for (int i = 0; i < 4; ++i) add(0, i & 1 ? flag::kSeam : 0);  // o4..o7, six there are
-  b.clock.run(40);
-  EXPECT_EQ(b.taken(), "b0.1 o0.2 o0.5 o0.7! ");
-  EXPECT_EQ(b.unit.invalid_edges.value(), 3u);
-  EXPECT_EQ(b.unit.unpaired_edges.value(), 1u);
-  EXPECT_EQ(b.unit.flat_edges.value(), 4u);
-  EXPECT_EQ(b.unit.crease_edges.value(), 3u);
-  EXPECT_EQ(b.unit.boundary_edges.value(), 1u);
-}
 TEST(EdgeClassifier, LatencyOfTheDatasheetWithNumbers) {
   NumberBench b(all_of(Lanes::kTwo), 9, 2);
   EdgeBeat beat{};
   beat.count = 1;
   expect_latency_of(EdgeClassifier::datasheet(), b.latency(b.ends, beat));
-}
-
-// ---- the engine
-
-// Of the contract's scene all vertices of drawn edges are in range but some; the picture is the one
-// of joined records.
-TEST(SplitRecords, GiveThePictureOfJoinedOnes) {
-  for (const char name : {'a', 'b', 'c', 'l', 'm'})
-    for (const char* const lanes : {"1", "2", "4"}) {
-      const std::string got = in_child([&] {
-        Configuration c = configuration(name);
-        apply_settings(c.p, std::string("records=split edge_lanes=") + lanes);
-        EngineBench b(c.p);
-        b.load(contract_scene());
-        std::string text;
-        for (int frame = 0; frame < 2; ++frame) {
-          b.load_frame(contract_scene());
-          b.run();
-          EXPECT_EQ(b.pixel_hash(), c.pixels);
-          EXPECT_EQ(b.weight_hash(), c.weights);
-          text += std::to_string(b.reads(b.bases.edges).size()) + " ";
-        }
-        const spec::geometric::Work work = b.engine.work();
-        EXPECT_EQ(work.kept_edges,
-                  work.outside_edges + work.degenerate_edges + work.empty_edges + work.lines);
-        EXPECT_EQ(b.bus.read(reg::kKeptEdges), work.kept_edges);
-        EXPECT_EQ(b.bus.read(reg::kInvalidEdges), work.invalid_edges);
-        return text;
-      });
-      EXPECT_EQ(got, "30 30 ") << name << ", edge_lanes " << lanes;
-    }
-}
-TEST(SplitRecords, ABoundaryCountBeyondTheEdgesIsRejected) {
-  EngineBench b(split());
-  const Scene scene = contract_scene();
-  b.load(scene);
-  const auto edges = static_cast<std::uint32_t>(scene.edges.size());
-  b.bus.write(reg::kBoundaryCount, edges + 1);
-  b.start();
-  b.clock.run(50);
-  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kBoundaryCount);
-  EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusRejected, 0u);
-  EXPECT_TRUE(b.engine.idle());
-  EXPECT_EQ(b.memory.reads(), 0u);
-  b.bus.write(reg::kBoundaryCount, edges);
-  b.run();
-  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
-}
-TEST(JoinedRecords, HaveNoBoundaryCountAndNoPairs) {
-  EngineBench b(configuration('l').p);
-  b.load(contract_scene());
-  for (const std::uint32_t offset : {reg::kBoundaryCount, reg::kPairBase, reg::kOtherPairBase})
-    b.bus.write(offset, 0xFFFFFFC0);
-  b.run();
-  EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
-  EXPECT_EQ(b.pixel_hash(), configuration('l').pixels);
-}
-// BOUNDARY_COUNT and memory do not agree: what has no pair is dropped, of the rest each is drawn as
-// its array has it.
-TEST(SplitRecords, EdgesWithoutAPairAreDropped) {
-  Parameters p = configuration('l').p;
-  p.records = spec::geometric::RecordsLayout::kSplit;
-  EngineBench b(p);
-  const Scene scene = contract_scene();
-  b.load(scene);
-  const auto boundaries = static_cast<std::uint32_t>(platform::boundaries_of(scene.edges));
-  b.run();
-  const spec::geometric::Work all = b.engine.work();
-  b.bus.write(reg::kControl, reg::kControlClearCounters | reg::kControlEnable);
-  b.bus.write(reg::kBoundaryCount, boundaries - 3);
-  b.run();
-  const spec::geometric::Work fewer = b.engine.work();
-  EXPECT_EQ(b.engine.edge_classifier.unpaired_edges.value(), 3u);
-  EXPECT_EQ(fewer.boundary_edges, all.boundary_edges);
-  EXPECT_EQ(fewer.invalid_edges, all.invalid_edges + 3);
-  EXPECT_EQ(fewer.kept_edges, all.kept_edges - 3);
 }
 
 }  // namespace

@@ -46,26 +46,6 @@ TEST(Resolve, AWordTakesAClockForEachBlock) {
   EXPECT_EQ(b.resolved[4].x, 511);
   EXPECT_EQ(b.resolved[4].y, 15);
 }
-TEST(Resolve, EveryTouchedBlockOnceInOrder) {
-  ResolveBench b({}, 1024, 64);
-  for (const int x : {0, 5, 127, 128, 255}) b.touch(x, 2, 1);
-  for (const int x : {1, 5, 127, 129, 255}) b.touch(x, 3, 1);
-  b.touch(5, 5, 1);
-  b.run();
-  std::vector<std::pair<int, int>> places;
-  for (const auto& block : b.resolved) places.emplace_back(block.y, block.x);
-  EXPECT_THAT(places, testing::ElementsAreArray(std::vector<std::pair<int, int>>{{2, 0},
-                                                                                 {2, 5},
-                                                                                 {2, 127},
-                                                                                 {2, 128},
-                                                                                 {2, 255},
-                                                                                 {3, 1},
-                                                                                 {3, 5},
-                                                                                 {3, 127},
-                                                                                 {3, 129},
-                                                                                 {3, 255},
-                                                                                 {5, 5}}));
-}
 
 // Blocks are in memory when it is overwritten by somebody else: what a pixel takes stays a half of
 // each neighbour at most, all of it from the frame, and nothing is touched outside of the regions.
@@ -139,108 +119,6 @@ TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
   EXPECT_EQ(b.fetch.weights_read.value(), 1u);
   // Stage 2 asks, arbiter, port, M + 1, port, arbiter, its place; then stages 3 to 5.
   expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0] - (20 + 6));
-}
-
-// ---- Originals
-
-// R of the colours that a frame begins with; the other channels are 0.
-int red(int x, int y) { return (7 * x + 11 * y) % 256; }
-// Half of the pixel itself and half of its neighbour, as docs/reference/morphological/algorithm.md
-// rounds it.
-int half_of_both(int own, int other) {
-  const int v = 128 * (other - own), moved = (std::abs(v) + 128) >> 8;
-  return v < 0 ? own - moved : own + moved;
-}
-
-struct OriginalsBench : ResolveBench {
-  static constexpr int kSize = 64;
-  OriginalsBench() : ResolveBench(in_codes(), kSize, kSize) { load(0); }
-  static Parameters in_codes() {
-    Parameters p;
-    p.linear_light = false;
-    return p;
-  }
-  // What memory has; `moved` to tell one frame from another.
-  void load(int moved) {
-    std::vector<spec::geometric::Rgba8> colours;
-    for (int y = 0; y < kSize; ++y)
-      for (int x = 0; x < kSize; ++x)
-        colours.push_back({static_cast<std::uint8_t>(red(x + moved, y)), 0, 0, 255});
-    memory.preload(0x40000, platform::colour_buffer({Layout::kTiled, kSize, kSize}, colours));
-  }
-  // The blended pixel at (x, y).
-  int blended(int x, int y) const {
-    for (const auto& block : resolved) {
-      const auto place = static_cast<std::size_t>(4 * (y % 4) + x % 4);
-      if (block.x == x / 4 && block.y == y / 4 && (block.blended >> place & 1))
-        return block.pixels[place][0];
-    }
-    return -1;
-  }
-};
-constexpr std::uint16_t kLeftColumn = 0x1111, kRightColumn = 0x8888, kFirstRow = 0x000F,
-                        kLastRow = 0xF000;
-
-// The last column of the block before stands for the left neighbours of the block beside it, and
-// of no other one: not of that in the row below, which comes next where nothing else is touched.
-TEST(Resolve, OriginalsToTheLeftAreThoseOfTheBlockBesideInItsRow) {
-  for (const auto& [bx, by] : {std::pair{4, 2}, {4, 3}, {5, 2}}) {
-    const std::string got = in_child([bx = bx, by = by] {
-      OriginalsBench b;
-      b.touch(3, 2, kRightColumn, true);
-      b.touch(bx, by, kLeftColumn, true);
-      b.run();
-      std::string wrong;
-      for (int i = 0; i < 4; ++i) {
-        const int y = 8 + i, x = 4 * bx, row = 4 * by + i;
-        if (b.blended(15, y) != half_of_both(red(15, y), red(14, y))) wrong += "first ";
-        if (b.blended(x, row) != half_of_both(red(x, row), red(x - 1, row))) wrong += "second ";
-      }
-      return wrong;
-    });
-    EXPECT_EQ(got, "") << bx << ' ' << by;
-  }
-}
-
-// Nor of a block of the next frame, whose first one it may be.
-TEST(Resolve, OriginalsEndWithTheirFrame) {
-  OriginalsBench b;
-  b.touch(3, 2, kRightColumn, true);
-  b.run();
-  EXPECT_EQ(b.blended(15, 8), half_of_both(red(15, 8), red(14, 8)));
-  constexpr int kMoved = 5;
-  b.load(kMoved);
-  b.begin(OriginalsBench::kSize, OriginalsBench::kSize);
-  b.touch(4, 2, kLeftColumn, true);
-  b.run();
-  for (int y = 8; y < 12; ++y)
-    EXPECT_EQ(b.blended(16, y), half_of_both(red(16 + kMoved, y), red(15 + kMoved, y))) << y;
-}
-
-// It is of no account whether a line is read before or after the write of a neighbour in it: of the
-// block to the left, or of that above.
-TEST(Resolve, OriginalsStandForWhatIsWrittenBeforeItIsRead) {
-  for (const bool vertical : {true, false}) {
-    const std::string got = in_child([vertical] {
-      OriginalsBench b;
-      b.touch(3, 2, vertical ? kRightColumn : kLastRow, vertical);
-      b.touch(vertical ? 4 : 3, vertical ? 2 : 3, vertical ? kLeftColumn : kFirstRow, vertical);
-      // The second block comes when the write of the first one is answered.
-      b.before_clock = [&b] {
-        if (b.touched.pops() == 1 && b.resolver.memory.responses_in.link().pops() == 0)
-          b.touched.hold_pop(b.clock.cycle());
-      };
-      b.run();
-      std::string wrong;
-      for (int i = 0; i < 4; ++i) {
-        const int x = vertical ? 16 : 12 + i, y = vertical ? 8 + i : 12;
-        const int other = vertical ? red(x - 1, y) : red(x, y - 1);
-        if (b.blended(x, y) != half_of_both(red(x, y), other)) wrong += "blended ";
-      }
-      return wrong;
-    });
-    EXPECT_EQ(got, "") << vertical;
-  }
 }
 
 // Cycles a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
@@ -489,46 +367,6 @@ TEST(FrameCopier, TheDefaultCoversTheLatency) {
     EXPECT_EQ(lines, (static_cast<std::int32_t>(latency) + 9) / 2);
     EXPECT_EQ(copy_cycles_of_512(0, latency), 1024u) << latency;
     EXPECT_GT(copy_cycles_of_512(lines - 1, latency), 1024u) << latency;
-  }
-}
-TEST(FrameCopier, CopiesEveryLineOnceAndThenIsIdle) {
-  for (const auto& [layout, width, height, lines] : {std::tuple{Layout::kTiled, 64, 64, 256u},
-                                                     {Layout::kTiled, 61, 65, 288u},
-                                                     {Layout::kTiled, 1, 1, 4u},
-                                                     {Layout::kRaster, 64, 9, 36u},
-                                                     {Layout::kRaster, 65, 9, 45u},
-                                                     {Layout::kRaster, 1, 1, 1u}}) {
-    const std::string got = in_child([layout = layout, width = width, height = height] {
-      constexpr std::uint32_t kFrom = 0x10000, kTo = 0x40000, kBytes = 0x10000;
-      Parameters p;
-      p.frame_copy = true;
-      p.layout = layout;
-      Frame b(p);
-      FrameCopier copier("copier", b.clock, rtl::geometric::sized(p, {}));
-      b.arbiter.connect(Client::kCopy, copier.memory);
-      copier.configuration_in(b.configuration);
-      copier.phase_in(b.phase);
-      const rtl::Wire<bool>& copied = b.wire(copier.copied_out);
-      std::vector<std::uint8_t> bytes(kBytes);
-      for (std::size_t i = 0; i < bytes.size(); ++i)
-        bytes[i] = static_cast<std::uint8_t>(1 + i % 251);
-      b.memory.preload(kFrom, bytes);
-      b.memory.preload(kTo, std::vector<std::uint8_t>(kBytes, 0));
-      b.bus.write(reg::kColourBase, kFrom);
-      b.bus.write(reg::kCopyBase, kTo);
-      b.begin(width, height);
-      b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 10'000);
-      const auto lines_there = static_cast<std::size_t>(copier.lines_copied.value());
-      std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(64 * lines_there), bytes.end(), 0);
-      EXPECT_EQ(b.memory.dump(kTo, kBytes), bytes);
-      EXPECT_EQ(b.memory.reads(), lines_there);
-      EXPECT_EQ(b.memory.writes(), lines_there);
-      const std::uint64_t busy = copier.busy_cycles() + copier.stalled_cycles();
-      b.clock.run(100);
-      EXPECT_EQ(copier.busy_cycles() + copier.stalled_cycles(), busy) << "nothing is left to do";
-      return std::to_string(lines_there);
-    });
-    EXPECT_EQ(got, std::to_string(lines)) << width << " x " << height;
   }
 }
 

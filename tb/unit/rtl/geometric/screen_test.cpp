@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// coarse_lines: the DepthScreen by itself, what DepthTest makes of what it drops, and the engine
-// with both. Memory answers 20 cycles after a request.
+// coarse_lines: the DepthScreen by itself, and what DepthTest makes of what it drops. Memory
+// answers 20 cycles after a request.
 #include <algorithm>
 
+#include "golden/geometric/coarse.h"
 #include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/lines/depth_screen.h"
 #include "rtl_model/geometric/lines/depth_test.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
 namespace deburr::tb::geometric_rtl::screen_test {
@@ -99,219 +101,103 @@ TEST(DepthScreen, AGroupAClockWhereAtMostOneLookUpMisses) {
   EXPECT_EQ(spread(b.ends), 59 * DepthScreen::datasheet().interval.cycles + 6);
   EXPECT_EQ(b.unit.both_missed.value(), 7u);
 }
-// N = 4 = 2^2: index (U mod 2) + 2 (V mod 2). N = 8: (U mod 4) + 4 (V mod 2).
-TEST(DepthScreen, LinesOfOneIndexReplaceEachOther) {
-  struct Row {
-    CoarseLines lines;
-    std::vector<std::uint64_t> read;
-  };
-  for (const Row& row : {Row{CoarseLines::k4, {0, 1, 10, 11, 2, 0, 20, 0, 3, 1}},
-                         Row{CoarseLines::k8, {0, 1, 10, 11, 2, 20, 0, 3}},
-                         Row{CoarseLines::k64, {0, 1, 10, 11, 2, 20, 3}}}) {
-    const std::string got = in_child([&] {
-      ScreenBench b(coarse(row.lines));
-      std::size_t tokens = 0;
-      for (const auto& [u, v] : {std::pair{0u, 0u},
-                                 {1u, 0u},
-                                 {0u, 1u},
-                                 {1u, 1u},
-                                 {2u, 0u},
-                                 {0u, 0u},
-                                 {0u, 2u},
-                                 {0u, 0u},
-                                 {3u, 0u},
-                                 {1u, 0u},
-                                 {1u, 1u}}) {
-        b.ends.source.add(ScreenBench::inside(u, v));
-        ++tokens;
+// Candidates inside of tiles and at each side of them, at the bound and beside it, by every test
+// and bias; the lines that are read for them, with few lines and with many.
+TEST(DepthScreen, DropsAsGolden) {
+  using spec::geometric::DepthTest;
+  namespace gold = golden::geometric;
+  for (const auto& [lines, bits] :
+       {std::pair{CoarseLines::k4, 2}, {CoarseLines::k8, 3}, {CoarseLines::k64, 6}}) {
+    const std::string got = in_child([lines = lines, bits = bits] {
+      Parameters p = coarse(lines);
+      ScreenBench b(p);
+      const gold::CoarseLayout layout(610, 512);
+      gold::DirectMapped cache;
+      cache.reset(bits, gold::block_column_bits(bits));
+      Random random(static_cast<std::uint64_t>(bits), "tiles");
+      std::vector<std::uint16_t> entries;
+      for (std::uint32_t ty = 0; ty < 64; ++ty)
+        for (std::uint32_t tx = 0; tx < 77; ++tx) {
+          entries.push_back(static_cast<std::uint16_t>(
+              random.chance(100) ? 0xFFFF : random.word() >> random.between(16, 31)));
+          b.set(tx, ty, entries.back());
+        }
+      FrameConfiguration configuration = decode(b.control);
+      rtl::Histogram sides("sides", "side", "expected"), lesser("lesser", "tile", "expected");
+      std::vector<CandidateToken> wanted;
+      std::vector<std::uint64_t> read;
+      std::uint64_t dropped = 0, at_bound = 0, groups = 0, lookups = 0;
+      for (int rule = 0; rule < 72; ++rule) {
+        p.depth_test = static_cast<DepthTest>(rule % 3);
+        p.depth_bias = 1 + rule / 3;
+        configuration.depth_test = p.depth_test;
+        configuration.depth_bias = static_cast<std::uint32_t>(p.depth_bias);
+        b.configuration.drive(b.clock.cycle() - 1, configuration);
+        const int bx = random.between(1, 140), by = random.between(1, 116);
+        for (int i = 0; i < 40; ++i) {
+          const bool vertical = random.chance(500);
+          CandidateToken token{};
+          token.block_x = static_cast<std::uint16_t>(bx + random.between(0, 11));
+          token.block_y = static_cast<std::uint16_t>(by + random.between(0, 11));
+          token.vertical = vertical;
+          token.candidates = static_cast<std::uint8_t>(random.between(1, 15));
+          token.forward = static_cast<std::uint8_t>(random.below(16));
+          token.seconds = static_cast<std::uint8_t>(token.candidates & random.below(16));
+          std::uint8_t drops = 0;
+          std::vector<gold::LineOfPixels> looked;
+          const auto look_up = [&](const gold::CoarseLayout::Tile& tile) {
+            const gold::LineOfPixels line = gold::CoarseLayout::line_of(tile);
+            if (std::find(looked.begin(), looked.end(), line) != looked.end()) return;
+            looked.push_back(line);
+            std::uint64_t replaced = 0;
+            if (!cache.look_up(line.u, line.v, replaced))
+              read.push_back(layout.offset_of(line) / 64);
+          };
+          for (unsigned lane = 0; lane < 4; ++lane) {
+            const int place = random.between(0, 15), step = token.forward >> lane & 1 ? 1 : -1,
+                      x = 4 * token.block_x + place % 4, y = 4 * token.block_y + place / 4;
+            const auto own = gold::CoarseLayout::tile_of(x, y),
+                       other = gold::CoarseLayout::tile_of(x + (vertical ? step : 0),
+                                                           y + (vertical ? 0 : step));
+            const bool two = p.depth_test == DepthTest::kFarther && other != own;
+            const std::uint16_t first = entries[layout.index_of(own)],
+                                second = two ? entries[layout.index_of(other)] : first,
+                                entry = std::min(first, second);
+            const std::uint32_t c = 256u * entry, least = c - (c >> p.depth_bias);
+            token.place[lane] = static_cast<std::uint8_t>(place);
+            token.depth[lane] = std::min(0xFFFFFFu, std::max(2u, least + random.below(5)) - 2);
+            if (p.depth_test == DepthTest::kOff || !(token.candidates >> lane & 1)) continue;
+            look_up(own);
+            if (two) look_up(other);
+            at_bound += entry != 0 && token.depth[lane] == least;
+            if (two) lesser.record(first < second ? 0 : first > second ? 1 : 2);
+            if (!gold::is_dropped(p, token.depth[lane], entry)) continue;
+            drops |= static_cast<std::uint8_t>(1u << lane);
+            dropped += 1 + (token.seconds >> lane & 1);
+            sides.record(2u * vertical + (token.forward >> lane & 1));
+          }
+          groups += !looked.empty();
+          lookups += looked.size();
+          b.ends.source.add(token);
+          token.dropped = drops;
+          wanted.push_back(token);
+        }
+        finish(b, b.ends, wanted.size());
       }
-      finish(b, b.ends, tokens);
-      EXPECT_EQ(b.lines(), row.read);
-      return std::string("done");
+      for (std::size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_EQ(rtl::payload_difference(wanted[i], b.ends.sink.taken.at(i).token), "") << i;
+      EXPECT_EQ(b.lines(), read);
+      EXPECT_EQ(b.unit.dropped.value(), dropped);
+      EXPECT_EQ(b.unit.kept_at_bound.value(), at_bound);
+      EXPECT_EQ(b.unit.groups.value(), groups);
+      EXPECT_EQ(b.unit.lookups.value(), lookups);
+      EXPECT_EQ(b.unit.misses.value(), read.size());
+      EXPECT_EQ(text_of(b.unit.dropped_sides), text_of(sides));
+      EXPECT_EQ(text_of(b.unit.lesser_tiles), text_of(lesser));
+      return std::string("compared");
     });
-    EXPECT_EQ(got, "done");
+    EXPECT_EQ(got, "compared") << bits;
   }
-}
-TEST(DepthScreen, ARowOfLinesIsAsWideAsTheFrame) {
-  for (const auto& [width, across] : {std::pair{576, 9}, {577, 10}, {640, 10}, {641, 11}}) {
-    const std::string got = in_child([width = width] {
-      ScreenBench b(coarse(), width);
-      b.ends.source.add(ScreenBench::inside(0, 1));
-      finish(b, b.ends, 1);
-      return std::to_string(b.lines()[0]);
-    });
-    EXPECT_EQ(got, std::to_string(across)) << width;
-  }
-}
-// c = 256 e; dropped below c - (c >> 4).
-TEST(DepthScreen, DropsWhatLiesBeforeTheBound) {
-  struct Row {
-    std::uint32_t entry, depth;
-    bool dropped;
-  };
-  for (const Row& row :
-       {Row{0, 0, false}, Row{1, 239, true}, Row{1, 240, false}, Row{0x8000, 0x780000, false},
-        Row{0x8000, 0x77FFFF, true}, Row{0xFFFF, 0xFFFF00 - 0xFFFF0, false},
-        Row{0xFFFF, 0xFFFF00 - 0xFFFF0 - 1, true}, Row{0xFFFF, 0xFFFFFF, false},
-        Row{0xFFFF, 0, true}}) {
-    const std::string got = in_child([&] {
-      ScreenBench b;
-      b.set(3, 2, row.entry);
-      for (int i = 0; i < 2; ++i)
-        b.ends.source.add(ScreenBench::pixel(27, 20, ScreenBench::kUp, row.depth));
-      finish(b, b.ends, 2);
-      return b.dropped() + " " + std::to_string(b.unit.dropped.value());
-    });
-    EXPECT_EQ(got, row.dropped ? "11 2" : "00 0") << row.entry << " " << row.depth;
-  }
-}
-TEST(DepthScreen, TheBiasIsThatOfTheRules) {
-  for (const std::int32_t bias : {1, 8, 24}) {
-    const std::string got = in_child([bias] {
-      Parameters p = coarse();
-      p.depth_bias = bias;
-      ScreenBench b(p);
-      b.set(0, 0, 0xC000);
-      const std::uint32_t c = 0xC00000, least = c - (c >> bias);
-      b.ends.source.add(ScreenBench::pixel(1, 1, ScreenBench::kUp, least));
-      b.ends.source.add(ScreenBench::pixel(1, 1, ScreenBench::kUp, least - 1));
-      finish(b, b.ends, 2);
-      return b.dropped();
-    });
-    EXPECT_EQ(got, "01") << bias;
-  }
-}
-// Tile (3, 2) is pixels 24..31, 16..23. Beyond a side of it the lesser of both entries counts,
-// inside, and away from that side, its own alone.
-TEST(DepthScreen, ANeighbourInAnotherTileCounts) {
-  struct Row {
-    std::uint32_t x, y;
-    ScreenBench::Side side;
-    int tile;  // of the neighbour: up, down, left, right of tile (3, 2); -1: its own
-  };
-  constexpr std::array<std::array<std::uint32_t, 2>, 4> kTiles = {{{3, 1}, {3, 3}, {2, 2}, {4, 2}}};
-  for (const Row& row : {Row{26, 16, ScreenBench::kUp, 0}, Row{26, 16, ScreenBench::kDown, -1},
-                         Row{26, 17, ScreenBench::kUp, -1}, Row{26, 20, ScreenBench::kUp, -1},
-                         Row{26, 23, ScreenBench::kDown, 1}, Row{26, 23, ScreenBench::kUp, -1},
-                         Row{26, 19, ScreenBench::kDown, -1}, Row{24, 18, ScreenBench::kLeft, 2},
-                         Row{24, 18, ScreenBench::kRight, -1}, Row{24, 18, ScreenBench::kUp, -1},
-                         Row{28, 18, ScreenBench::kLeft, -1}, Row{31, 18, ScreenBench::kRight, 3},
-                         Row{31, 18, ScreenBench::kLeft, -1}, Row{27, 18, ScreenBench::kRight, -1}})
-    for (const bool own_is_lesser : {false, true}) {
-      const std::string got = in_child([&] {
-        ScreenBench b;
-        b.set(3, 2, own_is_lesser ? 100 : 200);
-        for (const auto& tile : kTiles) b.set(tile[0], tile[1], 150);
-        // Dropped with 200 (48000) and 150 (36000), and with 100 (24000) not.
-        for (const std::uint32_t depth : {23999u, 24000u, 35999u, 36000u, 47999u, 48000u})
-          b.ends.source.add(ScreenBench::pixel(row.x, row.y, row.side, depth));
-        finish(b, b.ends, 6);
-        return b.dropped() + " " + text_of(b.unit.dropped_sides) + "; " +
-               text_of(b.unit.lesser_tiles);
-      });
-      const std::string side = std::to_string(static_cast<int>(row.side)) + " x ";
-      const std::string wanted = own_is_lesser  ? "100000 " + side + "1; "
-                                 : row.tile < 0 ? "111110 " + side + "5; "
-                                                : "111000 " + side + "3; ";
-      EXPECT_EQ(got, wanted + (row.tile < 0    ? ""
-                               : own_is_lesser ? "0 x 6"
-                                               : "1 x 6"))
-          << row.x << " " << row.y << " side " << row.side;
-    }
-}
-// Groups of one tile and of two, in one line and in two, each after each other one: what the group
-// before looked at is of no account, whether its lines were there or came.
-TEST(DepthScreen, AGroupHasNothingOfTheOneBefore) {
-  struct Row {
-    std::uint32_t x;
-    ScreenBench::Side side;
-    std::uint32_t least;  // entry of its tiles
-  };
-  // Tile tx has entry 100 (tx - 5). A line is eight tiles; that of tiles 16.. has the index of
-  // that of tiles 0...
-  const std::vector<Row> rows = {{52, ScreenBench::kUp, 100},      {55, ScreenBench::kRight, 100},
-                                 {56, ScreenBench::kLeft, 100},    {60, ScreenBench::kUp, 200},
-                                 {63, ScreenBench::kRight, 200},   {64, ScreenBench::kLeft, 200},
-                                 {70, ScreenBench::kUp, 300},      {71, ScreenBench::kRight, 300},
-                                 {72, ScreenBench::kLeft, 300},    {76, ScreenBench::kUp, 400},
-                                 {127, ScreenBench::kRight, 1000}, {128, ScreenBench::kLeft, 1000},
-                                 {130, ScreenBench::kUp, 1100}};
-  ScreenBench b;
-  for (std::uint32_t tx = 6; tx <= 16; ++tx) b.set(tx, 0, 100 * (tx - 5));
-  std::string wanted;
-  std::size_t tokens = 0;
-  const auto add = [&](const Row& row, bool dropped) {
-    // 256 e, less a sixteenth of it.
-    const std::uint32_t bound = 240 * row.least;
-    b.ends.source.add(ScreenBench::pixel(row.x, 1, row.side, dropped ? bound - 1 : bound));
-    wanted += dropped ? "1" : "0";
-    ++tokens;
-  };
-  for (const Row& before : rows)
-    for (const Row& row : rows) {
-      add(before, false);
-      add(row, true);
-      add(before, true);
-      add(row, false);
-    }
-  finish(b, b.ends, tokens);
-  EXPECT_EQ(b.dropped(), wanted);
-  EXPECT_GT(b.unit.misses.value(), 100u);
-  EXPECT_LT(b.unit.misses.value(), b.unit.lookups.value() / 2);
-}
-// depth_test = own looks at no neighbour's tile; off at none, and drops nothing.
-TEST(DepthScreen, TilesByTheRuleOfTheTest) {
-  for (const auto& [test, wanted] : {std::pair{spec::geometric::DepthTest::kOwn, "1 1 1"},
-                                     {spec::geometric::DepthTest::kFarther, "0 2 2"},
-                                     {spec::geometric::DepthTest::kOff, "0 0 0"}}) {
-    const std::string got = in_child([test = test] {
-      Parameters p = coarse();
-      ScreenBench b(p);
-      rtl::geometric::FrameConfiguration configuration = decode(b.control);
-      configuration.depth_test = test;
-      b.configuration.drive(b.clock.cycle() - 1, configuration);
-      b.set(7, 1, 1000);
-      b.ends.source.add(ScreenBench::pixel(63, 12, ScreenBench::kRight, 5));
-      finish(b, b.ends, 1);
-      return b.dropped() + " " + std::to_string(b.unit.lookups.value()) + " " +
-             std::to_string(b.memory.reads());
-    });
-    EXPECT_EQ(got, wanted);
-  }
-}
-// Each lane by itself; second candidates go with the first of their column; what is no candidate is
-// not dropped.
-TEST(DepthScreen, EachLaneByItself) {
-  ScreenBench b;
-  b.set(0, 0, 0x1000);
-  CandidateToken group = ScreenBench::pixel(0, 0, ScreenBench::kDown);
-  group.candidates = 0b1011;
-  group.forward = 0b1111;
-  group.seconds = 0b0011;
-  group.place = {4, 5, 6, 7};
-  group.depth = {0, 0xFFFFFF, 0, 0};
-  b.ends.source.add(group);
-  CandidateToken end{};
-  end.end = true;
-  b.ends.source.add(end);
-  finish(b, b.ends, 2);
-  const CandidateToken& out = b.ends.sink.taken[0].token;
-  EXPECT_EQ(out.dropped, 0b1001);
-  EXPECT_EQ(out.candidates, group.candidates);
-  EXPECT_EQ(out.seconds, group.seconds);
-  EXPECT_EQ(out.depth, group.depth);
-  EXPECT_EQ(b.unit.dropped.value(), 3u);
-  EXPECT_TRUE(b.ends.sink.taken[1].token.end);
-  EXPECT_EQ(b.unit.groups.value(), 1u);
-}
-TEST(DepthScreen, CountsWhatIsKeptJustAtTheBound) {
-  ScreenBench b;
-  b.set(0, 0, 16);  // 4096 - 256
-  for (const std::uint32_t depth : {3839u, 3840u, 3841u, 3840u, 3840u})
-    b.ends.source.add(ScreenBench::pixel(1, 1, ScreenBench::kUp, depth));
-  finish(b, b.ends, 5);
-  EXPECT_EQ(b.unit.kept_at_bound.value(), 3u);
-  EXPECT_EQ(b.unit.dropped.value(), 1u);
 }
 TEST(DepthScreen, StallsByCause) {
   ScreenBench b;
@@ -375,72 +261,6 @@ TEST(DepthTest, AGroupThatIsDroppedTakesAClock) {
   EXPECT_EQ(spread(b.ends), 31u);
   EXPECT_EQ(b.unit.lookups.value(), 2u);
   EXPECT_EQ(b.memory.reads(), 1u);
-}
-
-// ---- the engine
-
-// By the tables of docs/reference/geometric/memory.md, of its two units.
-TEST(MemoriesOfLessTraffic, AreThoseOfThePage) {
-  Parameters p = coarse(CoarseLines::k64);
-  p.records = spec::geometric::RecordsLayout::kSplit;
-  EngineBench b(p);
-  std::string text;
-  for (const rtl::MemoryBase* memory : b.engine.memories()) {
-    const std::string name = std::string(memory->name()).substr(std::string("engine.").size());
-    if (name.rfind("pair_fetch.", 0) != 0 && name.rfind("depth_screen.", 0) != 0) continue;
-    text += name + " " + rtl::name_of(memory->memory_kind()) + " " +
-            std::to_string(memory->words()) + " x " + std::to_string(memory->word_bits()) + " " +
-            (name.ends_with("fifo") ? "FIFO" : memory->ports()) + "\n";
-  }
-  EXPECT_EQ(text, R"(pair_fetch.pair_tags flops 2 x 22 1R1W
-pair_fetch.pair_lines flops 2 x 480 1R1W
-pair_fetch.pair_fills sram 108 x 480 1R1W
-pair_fetch.latency_fifo sram 128 x 9 FIFO
-depth_screen.coarse_tags flops 64 x 16 2R1W
-depth_screen.coarse_lines sram 64 x 512 2R1W
-depth_screen.coarse_fills sram 108 x 512 1R1W
-depth_screen.latency_fifo sram 128 x 243 FIFO
-)");
-}
-
-TEST(CoarseTest, ChangesNoPixel) {
-  for (const char name : {'a', 'b', 'd', 'g', 'm'})
-    for (const char* const lines : {"4", "64"}) {
-      const std::string got = in_child([&] {
-        Configuration c = configuration(name);
-        apply_settings(c.p, std::string("coarse_lines=") + lines);
-        Scene scene = contract_scene();
-        // What is near hides much.
-        for (std::size_t i = 0; i < scene.depths.size(); ++i)
-          scene.depths[i] = std::max(scene.depths[i], i % 61 < 32 ? 9'000'000u : 0u);
-        std::string text;
-        for (const bool screened : {false, true}) {
-          Parameters p = c.p;
-          if (!screened) p.coarse_lines = CoarseLines::kNone;
-          const std::string one = in_child([&] {
-            EngineBench b(p);
-            b.load(scene);
-            for (int frame = 0; frame < 2; ++frame) {
-              b.load_frame(scene);
-              b.run();
-            }
-            if (screened) {
-              EXPECT_GT(b.engine.depth_screen->dropped.value(), 100u);
-              EXPECT_GT(b.reads(b.bases.coarse).size(), 0u);
-            }
-            const spec::geometric::Work work = b.engine.work();
-            return std::to_string(b.pixel_hash()) + " " + std::to_string(b.weight_hash()) + " " +
-                   std::to_string(work.candidates) + " " + std::to_string(work.passed);
-          });
-          if (!screened)
-            text = one;
-          else if (one != text)
-            return one + ", not " + text;
-        }
-        return std::string("same");
-      });
-      EXPECT_EQ(got, "same") << name << ", " << lines;
-    }
 }
 
 }  // namespace

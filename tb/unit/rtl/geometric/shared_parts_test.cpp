@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What several units of the geometric engine share, each by itself and by hand: the places of
 // lines on their way from memory, the way of an edge.
+#include <cstdlib>
 #include <optional>
-#include <tuple>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "rtl_model/geometric/common/edge_latency.h"
@@ -138,17 +140,49 @@ struct Latencies {
       if (latency) histogram.record(*latency);
     }
   } edges{histogram};
-  // An edge on its way to the first stage behind the reader that knows it: the walker.
-  void line(Cycle left) {
-    edges.leave(left, 1);
-    edges.decided(true);
-    edges.set_up(true);
+  // What happens, in order, a word or a letter each:
+  //   L10*3  three edges leave in cycle 10      + -  the next one is kept, or dropped
+  //   W20    a group is written in cycle 20     = /  it is a line, or none
+  //   E      the end of the frame               G g  the last group of a line, or another one
+  //   P n    some of a group pass, or none      c x  it has a candidate, or none
+  void happen(const std::string& events) {
+    std::istringstream words(events);
+    for (std::string word; words >> word;) {
+      const std::size_t times = word.find('*');
+      const auto cycle = static_cast<Cycle>(std::atoi(word.c_str() + 1));
+      switch (word[0]) {
+        case 'L':
+          edges.leave(cycle,
+                      times == word.npos ? 1u : static_cast<std::uint32_t>(word.back() - '0'));
+          break;
+        case 'W':
+          edges.write(cycle);
+          break;
+        case 'E':
+          edges.end();
+          break;
+        default:
+          for (const char event : word) stage(event);
+      }
+    }
   }
-  // A group that passes everything.
-  void group(bool last) {
-    edges.walk(last);
-    edges.cover(true);
-    edges.test(true);
+  void stage(char event) {
+    switch (event) {
+      case '+':
+      case '-':
+        return edges.decided(event == '+');
+      case '=':
+      case '/':
+        return edges.set_up(event == '=');
+      case 'G':
+      case 'g':
+        return edges.walk(event == 'G');
+      case 'c':
+      case 'x':
+        return edges.cover(event == 'c');
+      default:
+        return edges.test(event == 'P');
+    }
   }
   std::vector<std::uint64_t> all() const {
     std::vector<std::uint64_t> values;
@@ -158,101 +192,39 @@ struct Latencies {
   }
 };
 using testing::ElementsAre;
-using testing::IsEmpty;
 
-TEST(EdgeLatency, IsFromItsLeavingToItsLastGroup) {
-  Latencies l;
-  l.line(10);
-  for (const bool last : {false, false, true}) l.group(last);
-  l.edges.write(20);
-  l.edges.write(21);
-  EXPECT_THAT(l.all(), IsEmpty()) << "another group may come";
-  l.edges.write(25);
-  l.edges.end();
-  EXPECT_THAT(l.all(), ElementsAre(15));
-}
-TEST(EdgeLatency, EdgesThatAreNoLineAreLeftOut) {
-  Latencies l;
-  l.edges.leave(10, 3);
-  l.edges.leave(20, 2);
-  for (const bool kept : {false, true, false, true, true}) l.edges.decided(kept);
-  for (const bool line : {false, true, true}) l.edges.set_up(line);  // of 10, 20, 20
-  l.group(true);
-  l.group(true);
-  l.edges.write(40);
-  l.edges.write(51);
-  l.edges.end();
-  EXPECT_THAT(l.all(), ElementsAre(20, 31));
-}
-TEST(EdgeLatency, GroupsThatEndOnTheWayAreLeftOut) {
-  Latencies l;
-  for (const Cycle left : {10, 11, 12, 13}) l.line(left);
-  struct Group {
-    bool last, covers, passes;
+TEST(EdgeLatency, IsFromLeavingTheReaderToTheLastGroup) {
+  struct Row {
+    const char *what, *events;
+    std::vector<std::uint64_t> latencies;
   };
-  // The second line has no candidate, the third none that passes, the fourth loses its last group.
-  for (const auto& [last, covers, passes] : {Group{false, false, false},
-                                             {true, true, true},
-                                             {true, false, false},
-                                             {true, true, false},
-                                             {false, true, true},
-                                             {false, true, false},
-                                             {true, false, false}}) {
-    l.edges.walk(last);
-    l.edges.cover(covers);
-    if (covers) l.edges.test(passes);
+  for (const Row& row : std::vector<Row>{
+           {"another group may come", "L10 += gcP gcP GcP W20 W21", {}},
+           {"the last of three groups", "L10 += gcP gcP GcP W20 W21 W25 E", {15}},
+           {"edges that are no line", "L10*3 L20*2 -+-++ /== GcP GcP W40 W51 E", {20, 31}},
+           {"lines without a candidate, without one that passes, without a last group",
+            "L10 += L11 += L12 += L13 += gx GcP Gx Gcn gcP gcn Gx W100 W200 E",
+            {90, 187}},
+           {"many on their way", "L1*2 L5 +++ === gGGgG ccccc PPPPP W10 W20 W30 W40 W50", {19, 29}},
+           {"and the last one",
+            "L1*2 L5 +++ === gGGgG ccccc PPPPP W10 W20 W30 W40 W50 E",
+            {19, 29, 45}},
+           {"what nobody announced, as injected faults send it", "+= GcP W9 E", {}},
+           {"and nothing waits for it", "+= GcP W9 E L10 += GcP W17 W19 E", {7}},
+           {"two frames, and one without a line", "L1 += GcP W4 E L11 += GcP W19 E E", {3, 8}}}) {
+    Latencies l;
+    l.happen(row.events);
+    EXPECT_EQ(l.all(), row.latencies) << row.what;
   }
-  l.edges.write(100);
-  l.edges.write(200);
-  l.edges.end();
-  EXPECT_THAT(l.all(), ElementsAre(90, 187));
-}
-TEST(EdgeLatency, OfManyOnTheirWayEachIsItsOwn) {
-  Latencies l;
-  l.edges.leave(1, 2);
-  l.edges.leave(5, 1);
-  for (int i = 0; i < 3; ++i) l.edges.decided(true);
-  for (int i = 0; i < 3; ++i) l.edges.set_up(true);
-  for (const bool last : {false, true, true, false, true}) l.edges.walk(last);
-  for (int i = 0; i < 5; ++i) l.edges.cover(true);
-  for (int i = 0; i < 5; ++i) l.edges.test(true);
-  for (const Cycle written : {10, 20, 30, 40, 50}) l.edges.write(written);
-  EXPECT_THAT(l.all(), ElementsAre(19, 29));
-  l.edges.end();
-  EXPECT_THAT(l.all(), ElementsAre(19, 29, 45));
-}
-// What nobody announced, as injected faults send it, is not counted, and nothing waits for it.
-TEST(EdgeLatency, TokensThatWereNotAnnouncedCountNowhere) {
-  Latencies l;
-  l.edges.decided(true);
-  l.edges.set_up(true);
-  l.group(true);
-  l.edges.write(9);
-  l.edges.end();
-  EXPECT_THAT(l.all(), IsEmpty());
-  l.line(10);
-  l.group(true);
-  l.edges.write(17);
-  l.edges.write(19);
-  l.edges.end();
-  EXPECT_THAT(l.all(), ElementsAre(7));
 }
 TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
-  for (int stage = 0; stage < 7; ++stage) {
+  for (const char* const before :
+       {"L1", "L1 +", "L1 +=", "L1 += g", "L1 += gc", "L1 += gcP", "L1 += gcP W4"}) {
     Latencies l;
-    l.edges.leave(1, 1);
-    if (stage > 0) l.edges.decided(true);
-    if (stage > 1) l.edges.set_up(true);
-    if (stage > 2) l.edges.walk(false);
-    if (stage > 3) l.edges.cover(true);
-    if (stage > 4) l.edges.test(true);
-    if (stage > 5) l.edges.write(4);
+    l.happen(before);
     l.edges.reset();
-    l.line(10);
-    l.group(true);
-    l.edges.write(15);
-    l.edges.end();
-    EXPECT_THAT(l.all(), ElementsAre(5)) << stage;
+    l.happen("L10 += GcP W15 E");
+    EXPECT_THAT(l.all(), ElementsAre(5)) << before;
   }
   // One that is a boundary but for its pair, which has not come.
   Latencies l;
@@ -262,24 +234,8 @@ TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
   l.edges.leave(10, 1);
   l.edges.decided(true, true);
   l.edges.paired(true);
-  l.edges.set_up(true);
-  l.group(true);
-  l.edges.write(15);
-  l.edges.end();
+  l.happen("= GcP W15 E");
   EXPECT_THAT(l.all(), ElementsAre(5));
-}
-TEST(EdgeLatency, AFrameAfterAnotherBeginsAnew) {
-  Latencies l;
-  l.line(1);
-  l.group(true);
-  l.edges.write(4);
-  l.edges.end();
-  l.line(11);
-  l.group(true);
-  l.edges.write(19);
-  l.edges.end();
-  l.edges.end();  // of a frame without a line
-  EXPECT_THAT(l.all(), ElementsAre(3, 8));
 }
 
 }  // namespace

@@ -70,14 +70,6 @@ struct Scene {
   std::vector<bool> facing;
 };
 
-// Byte offset of a pixel, by the table of docs/reference/geometric/memory.md.
-inline std::uint32_t pixel_offset(bool tiled, int width, int x, int y) {
-  if (!tiled) return static_cast<std::uint32_t>(y * ((4 * width + 63) / 64 * 64) + 4 * x);
-  const int bx = x / 4, by = y / 4, tiles = (width + 7) / 8;
-  return static_cast<std::uint32_t>(256 * (by / 2 * tiles + bx / 2) + 64 * (2 * (by % 2) + bx % 2) +
-                                    4 * (4 * (y % 4) + x % 4));
-}
-
 // A scene of the contract's vectors.
 inline Scene contract_scene(
     spec::geometric::DrawnFrame which = spec::geometric::DrawnFrame::kRandom) {
@@ -154,11 +146,6 @@ class EngineBench {
     driver.load({width, height, scene.edges, scene.vertices, scene.facing.size(), facing,
                  pixels.depths, pixels.colours});
     driver.program();
-  }
-  void load_frame(const Scene& scene) {
-    Pixels pixels(scene);
-    driver.load_depths(pixels.depths);
-    driver.load_colours(pixels.colours);
   }
   bool tiled() const { return driver.configuration().layout == spec::geometric::Layout::kTiled; }
   void start() { driver.start(); }
@@ -283,15 +270,14 @@ class EngineBench {
 
 // The contract's vector of this name, and how its engine is set.
 struct Configuration {
-  char name;
   Parameters p;
-  std::uint64_t pixels, weights, traffic;
+  std::uint64_t pixels, weights;
 };
 inline Configuration configuration(char name) {
   const spec::geometric::FrameVector v = geometric::frame_vector(name);
   Parameters p = preset_parameters(v.preset);
   apply_settings(p, v.settings);
-  return {name, p, v.result.hashes.pixels, v.result.hashes.weights, v.result.hashes.traffic};
+  return {p, v.result.hashes.pixels, v.result.hashes.weights};
 }
 
 }  // namespace deburr::tb::geometric_rtl

@@ -5,6 +5,8 @@
 #include <deque>
 #include <numeric>
 
+#include "golden/geometric/classify.h"
+#include "golden/geometric/line.h"
 #include "rtl_model/geometric/common/sizing.h"
 #include "rtl_model/geometric/edges/edge_classifier.h"
 #include "rtl_model/geometric/edges/vertex_fetch.h"
@@ -12,6 +14,7 @@
 #include "rtl_model/geometric/lines/depth_test.h"
 #include "rtl_model/geometric/lines/line_walker.h"
 #include "rtl_model/geometric/weights/weight_combiner.h"
+#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/combiner_bench.h"
 #include "tb/unit/rtl/geometric/parts.h"
 
@@ -86,120 +89,58 @@ TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(b.ends.sink.taken[i].token.v0, i % 4);
 }
 
-// The last index of each table is one, the count itself is none; a boundary has no second face.
-TEST(EdgeClassifier, IndicesEndBeforeTheirCounts) {
-  Parameters p;
-  p.edge_lanes = Lanes::kFour;
-  p.cull = spec::geometric::Cull::kBack;
-  ClassifierBench b(p);
-  b.bus.write(reg::kFaceCount, 40);
-  b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
-  struct Row {
-    EdgeFields edge;
-    bool valid;
-  };
-  using spec::geometric::flag::kBoundary;
-  EdgeBeat beat{};
-  int valid = 0, edges = 0;
-  for (const Row& row :
-       {Row{{99, 99, 39, 39, 0}, true}, Row{{100, 99, 39, 39, 0}, false},
-        Row{{99, 100, 39, 39, 0}, false}, Row{{99, 99, 40, 39, 0}, false},
-        Row{{99, 99, 39, 40, 0}, false}, Row{{99, 99, 39, 40, kBoundary}, true},
-        Row{{99, 99, 40, 39, kBoundary}, false}, Row{{100, 0, 0, 0, kBoundary}, false}}) {
-    beat.edge[beat.count++] = row.edge;
-    valid += row.valid;
-    ++edges;
-    if (beat.count < 4) continue;
-    b.ends.source.add(beat);
-    beat = {};
-  }
-  b.clock.run(20);
-  EXPECT_EQ(b.unit.edges.value(), static_cast<std::uint64_t>(edges));
-  EXPECT_EQ(b.unit.invalid_edges.value(), static_cast<std::uint64_t>(edges - valid));
-  EXPECT_EQ(b.unit.back_edges.value(), 1u);
-  EXPECT_EQ(b.unit.boundary_edges.value(), 1u);
-}
-
-// What becomes of an edge of two faces, by the classes of the page: "back", "crease", "flat", and
-// whether it leaves the unit and as what.
-TEST(EdgeClassifier, EdgesOfFacesTurnedAwayAreCulledOrClassified) {
-  namespace flag = spec::geometric::flag;
-  using spec::geometric::Crease;
-  using spec::geometric::Cull;
-  for (const Cull cull : {Cull::kNone, Cull::kBack})
-    for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading})
-      for (const unsigned flags : {0u, 2u, 4u, 6u, 8u, 10u, 14u}) {
-        const std::string got = in_child([&] {
-          Parameters p;
-          p.cull = cull;
-          p.crease = crease;
-          ClassifierBench b(p);
-          b.bus.write(reg::kFaceCount, 4);  // no facing bit is loaded: all of them turned away
-          b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
-          EdgeBeat beat{};
-          beat.count = 2;
-          beat.edge[0] = {1, 2, 0, 1, static_cast<std::uint8_t>(flags)};
-          beat.edge[1] = {3, 4, 0, 0, flag::kBoundary};
-          b.ends.source.add(beat);
-          b.clock.run(20);
-          std::string text = std::to_string(b.unit.back_edges.value()) + " " +
-                             std::to_string(b.unit.crease_edges.value()) + " " +
-                             std::to_string(b.unit.flat_edges.value()) + ":";
-          for (const auto& taken : b.ends.sink.taken)
-            text += " " + std::to_string(taken.token.v0) + (taken.token.crease ? "c" : "");
-          return text;
-        });
-        const bool angle = flags & flag::kAngle, split = flags & flag::kSplitNormals,
-                   seam = flags & flag::kSeam;
-        const bool is_crease = crease == Crease::kPaper     ? angle
-                               : crease == Crease::kShading ? (angle && split) || seam
-                                                            : false;
-        const std::string wanted = cull == Cull::kBack ? "1 0 0: 3"
-                                   : is_crease         ? "0 1 0: 1c 3"
-                                                       : "0 0 1: 3";
-        EXPECT_EQ(got, wanted) << flags << ", crease " << static_cast<int>(crease);
-      }
-}
-
-// By the mesh alone no facing bit is read, no face is checked, and no class goes by the view.
-TEST(EdgeClassifier, MeshSelectsBoundariesAndCreasesWhereverTheyAreSeenFrom) {
-  namespace flag = spec::geometric::flag;
-  using spec::geometric::Crease;
-  for (const Crease crease : {Crease::kOff, Crease::kPaper, Crease::kShading}) {
+// Every flag and facing, with indices around their counts, by every rule.
+TEST(EdgeClassifier, ClassifiesAsGolden) {
+  using spec::geometric::EdgeClass;
+  constexpr std::uint32_t kFaces = 40;
+  const std::vector<std::uint8_t> facing = {1, 0, 0, 0, 0x80};  // faces 0 and 39
+  for (int rule = 0; rule < 18; ++rule) {
     const std::string got = in_child([&] {
       Parameters p;
-      p.select = spec::geometric::Select::kMesh;
-      p.cull = spec::geometric::Cull::kBack;
-      p.crease = crease;
+      p.select = static_cast<spec::geometric::Select>(rule % 3);
+      p.crease = static_cast<spec::geometric::Crease>(rule / 3 % 3);
+      p.cull = static_cast<spec::geometric::Cull>(rule / 9);
       p.edge_lanes = Lanes::kFour;
       ClassifierBench b(p);
-      // A face that is turned to the eye beside one that is not, were the bits looked at.
-      b.facing.words.backdoor(0) = 1;
+      b.bus.write(reg::kFaceCount, kFaces);
+      b.configuration.drive(b.clock.cycle() - 1, decode(b.control));
+      b.facing.words.backdoor(0) = facing[0];
+      b.facing.words.backdoor(1) = facing[4];
+      std::array<std::uint64_t, spec::geometric::kEdgeClassNames.size()> classes{};
+      std::vector<std::pair<std::uint32_t, bool>> wanted, kept;
       EdgeBeat beat{};
-      beat.count = 4;
-      beat.edge[0] = {1, 2, 0, 1, 0};
-      beat.edge[1] = {2, 3, 0xFFFFFF, 1, flag::kAngle};
-      beat.edge[2] = {3, 4, 0, 0xFFFFFF, flag::kSeam};
-      beat.edge[3] = {4, 5, 0xFFFFFF, 0xFFFFFF, flag::kBoundary};
-      b.ends.source.add(beat);
-      beat.edge[0] = {5, 6, 1, 2, flag::kAngle | flag::kSplitNormals};
-      beat.edge[1] = {6, 7, 1, 2, flag::kSplitNormals};
-      beat.edge[2] = {100, 7, 1, 2, flag::kAngle};
-      beat.edge[3] = {7, 100, 1, 2, flag::kBoundary};
-      b.ends.source.add(beat);
-      b.clock.run(20);
-      std::string text;
-      for (const rtl::Counter* const counter :
-           {&b.unit.boundary_edges, &b.unit.silhouette_edges, &b.unit.back_edges,
-            &b.unit.crease_edges, &b.unit.flat_edges, &b.unit.invalid_edges})
-        text += std::to_string(counter->value()) + " ";
+      const auto add = [&](const spec::geometric::Edge& e) {
+        const EdgeClass c = golden::geometric::classify(p, e, 100, {facing, kFaces});
+        ++classes[static_cast<std::size_t>(c)];
+        if (golden::geometric::is_kept(c)) wanted.emplace_back(e.v0, c == EdgeClass::kCrease);
+        beat.edge[beat.count++] = {e.v0, e.v1, e.f0, e.f1, e.flags};
+        if (beat.count < 4) return;
+        b.ends.source.add(beat);
+        beat = {};
+      };
+      for (std::uint8_t flags = 0; flags < 16; ++flags)
+        for (const std::uint32_t f0 : {0u, 1u, kFaces - 1, kFaces, 0xFFFFFFu})
+          for (const std::uint32_t f1 : {0u, 1u, kFaces - 1, kFaces, 0xFFFFFFu}) {
+            const std::uint32_t v = (f0 + f1) % 98;
+            for (const auto& [v0, v1] : {std::pair{v, 99u}, {99u, v}, {100u, 99u}, {99u, 100u}})
+              add({v0, v1, f0, f1, flags});
+          }
+      b.clock.run(1700);
       for (const auto& taken : b.ends.sink.taken)
-        text += " " + std::to_string(taken.token.v0) + (taken.token.crease ? "c" : "");
-      return text;
+        kept.emplace_back(taken.token.v0, taken.token.crease);
+      EXPECT_EQ(kept, wanted);
+      const auto count = [&](EdgeClass c) { return classes[static_cast<std::size_t>(c)]; };
+      EXPECT_EQ(b.unit.edges.value(), 1600u);
+      EXPECT_EQ(b.unit.invalid_edges.value(), count(EdgeClass::kInvalid));
+      EXPECT_EQ(b.unit.boundary_edges.value(), count(EdgeClass::kBoundary));
+      EXPECT_EQ(b.unit.silhouette_edges.value(), count(EdgeClass::kSilhouette));
+      EXPECT_EQ(b.unit.back_edges.value(), count(EdgeClass::kBack));
+      EXPECT_EQ(b.unit.crease_edges.value(), count(EdgeClass::kCrease));
+      EXPECT_EQ(b.unit.flat_edges.value(), count(EdgeClass::kFlat));
+      EXPECT_EQ(b.unit.kept_edges.value(), wanted.size());
+      return std::string("compared");
     });
-    EXPECT_EQ(got, crease == Crease::kOff     ? "1 0 0 0 5 2  4"
-                   : crease == Crease::kPaper ? "1 0 0 2 3 2  2c 4 5c"
-                                              : "1 0 0 2 3 2  3c 4 5c");
+    EXPECT_EQ(got, "compared") << rule;
   }
 }
 
@@ -227,13 +168,6 @@ TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   EXPECT_EQ(b.unit.misses.value(), 3u);
   EXPECT_EQ(b.unit.lookups.value(), 6u);
 }
-TEST(VertexFetch, CarriesTheClassOfEachEdge) {
-  VertexBench b;
-  for (std::uint32_t i = 0; i < 40; ++i) b.ends.source.add({i, 40 - i, i % 3 == 0, false});
-  finish(b, b.ends, 40);
-  for (std::size_t i = 0; i < 40; ++i)
-    EXPECT_EQ(b.ends.sink.taken[i].token.crease, i % 3 == 0) << i;
-}
 TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   VertexBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false, false});
@@ -241,8 +175,8 @@ TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
   EXPECT_EQ(spread(b.ends), 59 * VertexFetch::datasheet().interval.cycles);
   EXPECT_EQ(b.unit.misses.value(), 61u);
 }
-// Both vertices of a line are one look-up; a frame's end is none, and reads nothing.
-TEST(VertexFetch, CountsLookUpsOfLines) {
+// The end of a frame reads nothing.
+TEST(VertexFetch, EndReadsNoLine) {
   VertexBench b;
   KeptEdge end{};
   end.end = true;
@@ -253,30 +187,7 @@ TEST(VertexFetch, CountsLookUpsOfLines) {
       EXPECT_EQ(memory.reads(), 0u) << memory.name();
     }
   });
-  b.ends.source.add({0, 3, false, false});
-  b.ends.source.add({3, 4, false, false});
-  b.ends.source.add({5, 5, false, false});
-  finish(b, b.ends, 4);
-  EXPECT_EQ(b.unit.lookups.value(), 1u + 2 + 1);
-  EXPECT_EQ(b.unit.misses.value(), 2u);
-}
-TEST(VertexFetch, TwoLinesOfOneIndexAreFetchedAnew) {
-  VertexBench b;
-  std::vector<std::uint8_t> bytes(64 * 65);
-  bytes[0] = 77;
-  bytes[12] = 1;
-  bytes[64 * 64] = 99;
-  bytes[64 * 64 + 12] = 1;
-  b.memory.preload(0, bytes);
-  for (int i = 0; i < 4; ++i) b.ends.source.add({0, 256, false, false});
-  for (int i = 0; i < 4; ++i) b.ends.source.add({256, 0, false, false});
-  finish(b, b.ends, 8);
-  // Edge 5 finds its v0, which edge 4 fetched last, and so on.
-  EXPECT_EQ(b.unit.misses.value(), 2u + 2 + 2 + 2 + 1 + 2 + 2 + 2);
-  for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(b.ends.sink.taken[i].token.vertex[i < 4 ? 0 : 1].x, 77) << i;
-    EXPECT_EQ(b.ends.sink.taken[i].token.vertex[i < 4 ? 1 : 0].x, 99) << i;
-  }
+  EXPECT_EQ(b.unit.lookups.value(), 0u);
 }
 
 // ---- MemoryArbiter
@@ -367,62 +278,36 @@ TEST(MemoryArbiter, LatencyCountsFromTheGrantOfTheClientThatAsked) {
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 6");
 }
 // Eight clients, and one for each of two build choices.
-void expect_served_in_turn(const Parameters& p, std::size_t clients) {
-  Frame b(p);
-  b.tie();
-  std::deque<Asker> askers;
-  ASSERT_EQ(clients_of(p).size(), clients);
-  for (const Client client : clients_of(p)) {
-    askers.emplace_back((std::string("asker") + std::to_string(askers.size())).c_str(), b.clock);
-    askers.back().wanted = 40;
-    b.arbiter.connect(client, askers.back().memory);
+TEST(MemoryArbiter, ServesEachClientInTurn) {
+  for (std::size_t clients = 8; clients <= 10; ++clients) {
+    const std::string got = in_child([clients] {
+      Parameters p;
+      if (clients > 8) p.records = spec::geometric::RecordsLayout::kSplit;
+      if (clients > 9) p.coarse_lines = spec::geometric::CoarseLines::k4;
+      Frame b(p);
+      b.tie();
+      std::deque<Asker> askers;
+      for (const Client client : clients_of(p)) {
+        askers.emplace_back(("asker" + std::to_string(askers.size())).c_str(), b.clock);
+        askers.back().wanted = 40;
+        b.arbiter.connect(client, askers.back().memory);
+      }
+      b.clock.run(600);
+      std::vector<Cycle> answers;
+      for (const Asker& asker : askers) {
+        EXPECT_EQ(asker.answered.size(), 40u);
+        for (std::size_t i = 3; i < 40; ++i) {
+          EXPECT_EQ(asker.asked.at(i) - asker.asked.at(i - 1), clients);
+          EXPECT_EQ(asker.answered.at(i) - asker.answered.at(i - 1), clients);
+        }
+        answers.insert(answers.end(), asker.answered.begin(), asker.answered.end());
+      }
+      const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
+      EXPECT_EQ(*last - *first, clients * 40 - 1) << "one a clock";
+      return std::to_string(askers.size());
+    });
+    EXPECT_EQ(got, std::to_string(clients));
   }
-  b.clock.run(600);
-  std::vector<Cycle> answers;
-  for (const Asker& asker : askers) {
-    ASSERT_EQ(asker.answered.size(), 40u);
-    for (std::size_t i = 3; i < 40; ++i) {
-      EXPECT_EQ(asker.asked[i] - asker.asked[i - 1], clients);
-      EXPECT_EQ(asker.answered[i] - asker.answered[i - 1], clients);
-    }
-    answers.insert(answers.end(), asker.answered.begin(), asker.answered.end());
-  }
-  const auto [first, last] = std::minmax_element(answers.begin(), answers.end());
-  EXPECT_EQ(*last - *first, clients * 40 - 1) << "one a clock";
-}
-TEST(MemoryArbiter, ServesEachOfEightAfterSevenOthers) { expect_served_in_turn({}, 8); }
-TEST(MemoryArbiter, ServesEachOfNineAfterEightOthers) {
-  Parameters p;
-  p.records = spec::geometric::RecordsLayout::kSplit;
-  expect_served_in_turn(p, 9);
-}
-TEST(MemoryArbiter, ServesEachOfTenAfterNineOthers) {
-  Parameters p;
-  p.records = spec::geometric::RecordsLayout::kSplit;
-  p.coarse_lines = spec::geometric::CoarseLines::k4;
-  expect_served_in_turn(p, 10);
-}
-
-void expect_whole_addresses_and_tags(const Parameters& p, std::uint32_t tag_bits) {
-  const EngineBench b(p);
-  std::size_t clients = 0, port = 0;
-  rtl::for_each<rtl::LinkBase>([&](const rtl::LinkBase& link) {
-    const std::string name = link.basename();
-    if (!name.ends_with("requests") && !name.ends_with("responses")) return;
-    const bool of_port = name == "requests" || name == "responses";
-    ++(of_port ? port : clients);
-    EXPECT_EQ(link.payload().find("address")->bits, 32u) << name;
-    // The client beside its own number.
-    EXPECT_EQ(link.payload().find("tag")->bits, of_port ? tag_bits : 12u) << name;
-  });
-  EXPECT_EQ(port, 2u);
-  EXPECT_EQ(clients, 2 * clients_of(p).size());
-}
-TEST(MemoryArbiter, LinksCarryWholeAddressesAndTags) { expect_whole_addresses_and_tags({}, 15); }
-TEST(MemoryArbiter, ANinthClientTakesABitMoreOfTheTag) {
-  Parameters p;
-  p.records = spec::geometric::RecordsLayout::kSplit;
-  expect_whole_addresses_and_tags(p, 16);
 }
 
 // ---- LineWalker
@@ -480,21 +365,6 @@ TEST(LineWalker, CountsTheColumnsOfEachLine) {
   EXPECT_EQ(b.unit.line_columns.sum(), 3u + 6 + 4 + 499 + 500 + 501 + 8192);
   EXPECT_EQ(b.unit.columns.value(), b.unit.line_columns.sum());
 }
-TEST(LineWalker, GivesEachGroupSlopeAndClassOfItsLine) {
-  WalkerBench b(Lanes::kFour);
-  for (int i = 0; i < 12; ++i) {
-    LineToken token = WalkerBench::line(0, 8, (i - 6) << 16);
-    token.line.crease = i % 2 == 1;
-    b.ends.source.add(token);
-  }
-  b.clock.run(100);
-  ASSERT_EQ(b.ends.sink.taken.size(), 24u);
-  for (int i = 0; i < 24; ++i) {
-    const GroupToken& group = b.ends.sink.taken[static_cast<std::size_t>(i)].token;
-    EXPECT_EQ(group.slope, (i / 2 - 6) << 16) << i;
-    EXPECT_EQ(group.crease, i / 2 % 2 == 1) << i;
-  }
-}
 TEST(LineWalker, GroupsEndAtBlocks) {
   WalkerBench b(Lanes::kFour);
   b.ends.source.add(WalkerBench::line(3, 4));              // 1 + 3
@@ -529,19 +399,6 @@ struct CoverageBench : Frame {
     Parameters p;
     p.coverage = spec::geometric::CoverageRule::kArea;
     return p;
-  }
-  // "direction coverage", or nothing.
-  std::string one(const GroupToken& token) {
-    ends.sink.taken.clear();
-    ends.source.add(token);
-    GroupToken last{};
-    last.end = true;
-    ends.source.add(last);
-    clock.run_until([&] { return !ends.sink.taken.empty() && ends.sink.taken.back().token.end; },
-                    100);
-    if (ends.sink.taken.size() == 1) return "";
-    const CandidateToken& c = ends.sink.taken[0].token;
-    return std::string(c.forward & 1 ? "+" : "-") + std::to_string(c.coverage[0]);
   }
   CoverageUnit unit;
   Ends<GroupToken, CandidateToken> ends;
@@ -583,123 +440,82 @@ TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
   EXPECT_EQ(b.unit.stalled_cycles(), 101u - 53);
   EXPECT_EQ(b.ends.sink.taken[2].cycle, begin + 102);
 }
-TEST(CoverageUnit, EveryDistance) {
-  CoverageBench b;
-  for (int distance = -32768; distance < 32768; ++distance)
-    b.ends.source.add(CoverageBench::group(false, 7, distance));
-  b.clock.run(65'536 + 10);
-  const auto& taken = b.ends.sink.taken;
-  std::size_t at = 0;
-  for (int distance = -32768; distance < 32768; ++distance) {
-    const int wanted = (32768 - std::abs(distance) + 128) / 256;
-    ASSERT_EQ(wanted == 0, std::abs(distance) > 32640);
-    if (wanted == 0) continue;
-    ASSERT_EQ(taken[at].token.coverage[0], wanted) << distance;
-    ASSERT_EQ(taken[at].token.forward, distance > 0) << distance;
-    ++at;
-  }
-  EXPECT_EQ(at, taken.size());
-}
-TEST(CoverageUnit, TiesAndBorders) {
-  CoverageBench b;
-  EXPECT_EQ(b.one(CoverageBench::group(false, 7, 0, true)), "+128");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 7, 0, false)), "-128");
-  EXPECT_EQ(b.one(CoverageBench::group(true, 7, 0, false)), "-128");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 0, -9)), "");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 0, 9)), "+128");
-  EXPECT_EQ(b.one(CoverageBench::group(false, -1, 9)), "");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 47, 9)), "");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 47, -900)), "-124");
-  EXPECT_EQ(b.one(CoverageBench::group(false, 48, -900)), "");
-  EXPECT_EQ(b.one(CoverageBench::group(true, 63, 900)), "");
-  EXPECT_EQ(b.one(CoverageBench::group(true, 62, 900)), "+124");
-}
 
-// The area by the page's formula, of a slope of k / 32 at the middle of its distances, in 1/256.
-int area_of(int k, int i) {
-  const int h = 63 - 2 * i + 2 * k;
-  return h <= 0 ? 0 : h >= 4 * k ? 126 - 4 * i : (h * h + 2 * k) / (4 * k);
+std::array<int, 8> first_lane_of(const CandidateToken& c) {
+  return {c.candidates, c.block_x,     c.block_y,     c.vertical,
+          c.place[0],   c.coverage[0], c.forward & 1, c.seconds ? c.second[0] : -1};
 }
-// Every distance, at slopes around each of the table's and where halves are rounded up.
-TEST(CoverageUnit, AreasOfEveryDistanceAndSlope) {
+// Every distance of a level line; distances at slopes around each of the table's and where a line
+// begins to leave its pixel; rows at the borders of the frame, ties and both axes.
+TEST(CoverageUnit, CutsAsGolden) {
+  using spec::geometric::CoverageRule;
   std::vector<int> slopes = {0, 1, 255, 256, 511, 512, 1 << 18, (1 << 18) - 1};
   for (int k = 1; k <= 32; ++k)
     for (const int beside : {-262'144, -262'145, 0}) slopes.push_back((k << 19) + beside);
-  std::size_t seconds = 0, far_seconds = 0;
-  CoverageBench b(CoverageBench::area());
-  for (const int magnitude : slopes)
-    for (const int slope : {magnitude, -magnitude}) {
-      b.ends.sink.taken.clear();
-      std::vector<int> distances;
-      for (int distance = -32768; distance < 32768; distance += 61) distances.push_back(distance);
-      for (const int distance : {-32767, -1, 0, 1, 128, 129, 16384, 32767})
-        distances.push_back(distance);
-      const int edge = (65536 - (magnitude >> 8)) / 2;  // where the line begins to leave the pixel
-      for (const int distance : {edge, edge + 1, -edge, -edge - 1, edge - 1})
-        if (distance >= -32768 && distance < 32768) distances.push_back(distance);
-      for (const int distance : distances) {
-        GroupToken group = CoverageBench::group(false, 7, distance);
+  for (const CoverageRule rule : {CoverageRule::kDistance, CoverageRule::kArea}) {
+    const std::string got = in_child([&] {
+      Parameters p;
+      p.coverage = rule;
+      CoverageBench b(p);
+      std::vector<CandidateToken> wanted;
+      std::uint64_t groups = 0, candidates = 0;
+      const auto add = [&](GroupToken group, int slope) {
         group.slope = slope;
         b.ends.source.add(group);
-      }
-      b.clock.run(distances.size() + 10);
-      std::size_t at = 0;
-      for (const int distance : distances) {
-        const int away = std::abs(distance);
-        int first = (32768 - away + 128) / 256, second = 0;
-        if (2 * away + (magnitude >> 8) > 65536) {
-          const int k = std::max(1, (magnitude + (1 << 18)) >> 19);
-          first = area_of(k, away / 1024);
-          second = area_of(k, (65536 - away) / 1024);
+        ++groups;
+        const auto at = golden::geometric::point_at(std::int64_t{group.position[0]} << 8, 0);
+        const auto shares = golden::geometric::shares(rule, at.distance, slope);
+        const bool forward = golden::geometric::is_forward(at.distance, group.tie_forward);
+        const int other = at.row + (forward ? 1 : -1), size = group.vertical ? 64 : 48;
+        if (std::min(at.row, other) < 0 || std::max(at.row, other) >= size || shares.first == 0)
+          return;
+        const int x = group.vertical ? at.row : group.column,
+                  y = group.vertical ? group.column : at.row;
+        CandidateToken& c = wanted.emplace_back();
+        c.candidates = 1;
+        c.block_x = static_cast<std::uint16_t>(x / 4);
+        c.block_y = static_cast<std::uint16_t>(y / 4);
+        c.vertical = group.vertical;
+        c.forward = forward;
+        c.seconds = shares.second != 0;
+        c.place[0] = static_cast<std::uint8_t>(4 * (y % 4) + x % 4);
+        c.coverage[0] = static_cast<std::uint8_t>(shares.first);
+        c.second[0] = static_cast<std::uint8_t>(shares.second);
+        candidates += 1 + c.seconds;
+      };
+      for (int distance = -32768; distance < 32768; ++distance)
+        add(CoverageBench::group(false, 7, distance), 0);
+      for (const int magnitude : rule == CoverageRule::kArea ? slopes : std::vector{1 << 24})
+        for (const int slope : {magnitude, -magnitude}) {
+          std::vector<int> distances = {-32767, -1, 0, 1, 128, 129, 16384, 32640, 32641, 32767};
+          for (int distance = -32768; distance < 32768; distance += 61)
+            distances.push_back(distance);
+          const int edge = (65536 - (magnitude >> 8)) / 2;
+          for (const int distance : {edge, edge + 1, -edge, -edge - 1, edge - 1})
+            if (std::abs(distance) < 32768) distances.push_back(distance);
+          for (const int distance : distances) add(CoverageBench::group(false, 7, distance), slope);
         }
-        if (first == 0) continue;
-        ASSERT_LT(at, b.ends.sink.taken.size());
-        const CandidateToken& got = b.ends.sink.taken[at++].token;
-        ASSERT_EQ(got.coverage[0], first) << slope << " at " << distance;
-        ASSERT_EQ(got.seconds != 0, second != 0) << slope << " at " << distance;
-        if (second == 0) continue;
-        ++seconds;
-        far_seconds += first == second;
-        ASSERT_EQ(got.second[0], second) << slope << " at " << distance;
+      for (const bool vertical : {false, true})
+        for (const int row : {-1, 0, 1, 2, 46, 47, 48, 62, 63, 64})
+          for (const int distance : {-32768, -30'000, -900, 0, 900, 30'000})
+            for (const bool tie : {false, true})
+              add(CoverageBench::group(vertical, row, distance, tie), 1 << 24);
+      b.clock.run(groups + 10);
+      EXPECT_EQ(b.ends.sink.taken.size(), wanted.size());
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const CandidateToken& token = b.ends.sink.taken.at(i).token;
+        if (first_lane_of(token) != first_lane_of(wanted[i]))
+          return std::to_string(i) + ": " + rtl::payload_difference(wanted[i], token);
       }
-      ASSERT_EQ(at, b.ends.sink.taken.size());
-    }
-  EXPECT_GT(seconds, 10'000u);
-  EXPECT_GT(far_seconds, 30u);
-}
-// With coverage = distance a line cuts one pixel of a column, and no table is read.
-TEST(CoverageUnit, DistancesReadNoTable) {
-  Parameters p;
-  p.coverage = spec::geometric::CoverageRule::kDistance;
-  CoverageBench b(p);
-  for (int distance = -32768; distance < 32768; distance += 300) {
-    GroupToken group = CoverageBench::group(false, 7, distance);
-    group.slope = 1 << 24;
-    b.ends.source.add(group);
+      EXPECT_EQ(b.unit.candidates.value(), candidates);
+      if (rule == CoverageRule::kDistance)
+        rtl::for_each<rtl::PortedMemory>(b.unit, [](rtl::PortedMemory& memory) {
+          EXPECT_EQ(memory.reads(), 0u) << memory.name();
+        });
+      return std::string();
+    });
+    EXPECT_EQ(got, "") << static_cast<int>(rule);
   }
-  b.clock.run(300);
-  EXPECT_GT(b.ends.sink.taken.size(), 200u);
-  for (const auto& taken : b.ends.sink.taken) EXPECT_EQ(taken.token.seconds, 0u);
-  rtl::for_each<rtl::PortedMemory>(
-      b.unit, [](rtl::PortedMemory& memory) { EXPECT_EQ(memory.reads(), 0u) << memory.name(); });
-}
-// Both pixels lie in the frame where the first is a candidate, and both count.
-TEST(CoverageUnit, SecondCandidatesAtTheBordersAndInTheCount) {
-  CoverageBench b(CoverageBench::area());
-  const auto steep = [](bool vertical, int row, int distance) {
-    GroupToken group = CoverageBench::group(vertical, row, distance);
-    group.slope = 1 << 24;
-    return group;
-  };
-  EXPECT_EQ(b.one(steep(false, 0, -30'000)), "");
-  EXPECT_EQ(b.one(steep(false, 47, 30'000)), "");
-  EXPECT_EQ(b.unit.candidates.value(), 0u);
-  EXPECT_EQ(b.one(steep(false, 0, 30'000)), "+" + std::to_string(area_of(32, 29)));
-  EXPECT_EQ(b.ends.sink.taken[0].token.seconds, 1u);
-  EXPECT_EQ(b.unit.candidates.value(), 2u);
-  EXPECT_EQ(b.one(steep(true, 63, -30'000)), "-" + std::to_string(area_of(32, 29)));
-  EXPECT_EQ(b.unit.candidates.value(), 4u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.second[0], area_of(32, 34));
 }
 // While the link is full the areas stay on the tables' output registers.
 TEST(CoverageUnit, AreasWaitForRoom) {
@@ -710,7 +526,9 @@ TEST(CoverageUnit, AreasWaitForRoom) {
     GroupToken group = CoverageBench::group(false, 7, 10'000 + 1000 * i);
     group.slope = 1 << 24;
     b.ends.source.add(group);
-    wanted.push_back(area_of(32, (10'000 + 1000 * i) / 1024));
+    wanted.push_back(
+        golden::geometric::shares(spec::geometric::CoverageRule::kArea, 10'000 + 1000 * i, 1 << 24)
+            .first);
   }
   b.clock.run(120);
   ASSERT_EQ(b.ends.sink.taken.size(), wanted.size());
@@ -784,27 +602,6 @@ TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
   EXPECT_EQ(spread(b.ends), 6u * 4);
   EXPECT_EQ(b.unit.misses.value(), 56u);
 }
-// Eight groups of one line, seven of two, and so on.
-TEST(DepthTest, CountsTheLinesOfEachGroup) {
-  DepthBench b(DepthBench::raster());
-  for (int lines = 1; lines <= 8; ++lines) {
-    // Two of each pixel at the left side of its block, one of a pixel further in.
-    CandidateToken token = DepthBench::column(4, lines);
-    const auto pixels = static_cast<std::size_t>(lines + 1) / 2;
-    token.candidates = static_cast<std::uint8_t>((1u << pixels) - 1);
-    if (lines % 2) ++token.place[pixels - 1];
-    for (int i = 0; i < 9 - lines; ++i) b.ends.source.add(token);
-  }
-  finish(b, b.ends, 36);
-  EXPECT_EQ(text_of(b.unit.group_lines), "1 x 8, 2 x 7, 3 x 6, 4 x 5, 5 x 4, 6 x 3, 7 x 2, 8 x 1");
-  EXPECT_EQ(b.unit.lookups.value(), 8u + 14 + 18 + 20 + 20 + 18 + 14 + 8);
-  // The end is no group.
-  CandidateToken end{};
-  end.end = true;
-  b.ends.source.add(end);
-  finish(b, b.ends, 37);
-  EXPECT_EQ(b.unit.group_lines.count(), 36u);
-}
 TEST(DepthTest, APairTakesAClockWithAMiss) {
   // Two lines each, the pixel's and that of the block to its left, which the group before brought.
   DepthBench b;
@@ -830,163 +627,109 @@ TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
   // The next group begins when the one before has left its places: M + 6 and eight lines.
   EXPECT_LE(spread(b.ends), 8u * (26 + 8 + 8));
 }
-TEST(DepthTest, PassesAtEqualityForEachBias) {
-  for (int bias = 1; bias <= 24; ++bias) {
-    const std::string got = in_child([bias] {
-      Parameters p;
-      p.depth_bias = bias;
-      DepthBench b(p);
-      constexpr std::uint32_t kDepth = 11'000'007;
-      std::vector<std::uint8_t> line;
-      for (int i = 0; i < 16; ++i)
-        for (int byte = 0; byte < 4; ++byte)
-          line.push_back(static_cast<std::uint8_t>((kDepth | 0xAA000000u) >> (8 * byte)));
-      b.memory.preload(0, line);
-      const std::uint32_t least = kDepth - (kDepth >> bias);
-      std::vector<bool> passed;
-      b.unit.observer = [&](const spec::geometric::Candidate& c) { passed.push_back(c.passed); };
-      for (const std::uint32_t depth : {least - 1, least, least + 1})
-        b.ends.source.add(DepthBench::pixel(0, 0, depth));
-      finish(b, b.ends, 2);
-      b.clock.run(10);
-      return std::string(passed == std::vector<bool>{false, true, true} ? "right" : "wrong");
-    });
-    EXPECT_EQ(got, "right") << bias;
-  }
-}
 
-// What lies behind a crease by more than its depth's share is none of its business: a depth on
-// either side of the limit, for each limit; that of the pixel or of the neighbour, whichever is
-// farther; and other lines are not limited.
-TEST(DepthTest, ACreaseIsLimitedInDepth) {
-  using spec::geometric::DepthTest;
-  constexpr std::uint32_t kDepth = 11'000'007;
-  for (const DepthTest rule : {DepthTest::kFarther, DepthTest::kOwn, DepthTest::kOff})
-    for (int limit = 0; limit <= 24; ++limit) {
-      const std::string got = in_child([&] {
-        Parameters p;
-        p.depth_test = rule;
-        p.crease_depth = limit;
-        DepthBench b(p);
-        const std::uint32_t least = limit == 0 ? 1000 : kDepth - (kDepth >> limit);
-        std::string text;
-        b.unit.observer = [&](const spec::geometric::Candidate& c) {
-          text += c.passed ? '1' : '0';
-        };
-        for (int block = 0; block < 3; ++block) {
-          // Of the block, rows 0, 2 have the least depth, or one beside it, and 1, 3 are nearer.
-          std::vector<std::uint8_t> line;
-          for (int i = 0; i < 16; ++i)
-            for (int byte = 0; byte < 4; ++byte)
-              line.push_back(static_cast<std::uint8_t>(
-                  (i / 4 % 2 ? kDepth + 5 : least - 1 + block) >> (8 * byte)));
-          b.memory.preload(64 * block, line);
-          for (const bool crease : {true, false})
-            for (const int place : {9, 5}) {  // takes from above: rows 2 and 1
-              CandidateToken token = DepthBench::pixel(block % 2, block / 2, kDepth);
-              token.vertical = false;
-              token.crease = crease;
-              token.place[0] = static_cast<std::uint8_t>(place);
-              b.ends.source.add(token);
-            }
+// Depths at the limit of every bias and every crease depth and beside it, by every test; what is
+// shown of each candidate, second ones with the first, and which of both pixels is nearer.
+TEST(DepthTest, PassesAsGolden) {
+  using spec::geometric::Candidate;
+  namespace gold = golden::geometric;
+  for (const Layout layout : {Layout::kTiled, Layout::kRaster}) {
+    const std::string got = in_child([layout] {
+      Parameters p;
+      p.layout = layout;
+      DepthBench b(p);
+      Random random(static_cast<std::uint64_t>(layout), "depths");
+      std::vector<std::uint32_t> depths(256 * 256);
+      for (std::uint32_t& depth : depths)
+        depth = random.chance(300) ? 11'000'007 : random.word() >> random.between(8, 31);
+      std::vector<std::uint8_t> bytes =
+          platform::depth_buffer(platform::PixelLayout(layout, 256, 256), depths);
+      for (std::size_t i = 3; i < bytes.size(); i += 4) bytes[i] = 0xAA;  // ignored
+      b.memory.preload(0, bytes);
+      std::vector<Candidate> shown, wanted;
+      b.unit.observer = [&](const Candidate& c) { shown.push_back(c); };
+      std::uint64_t passed = 0;
+      FrameConfiguration configuration = decode(b.control);
+      for (int rule = 0; rule < 3 * 25; ++rule) {
+        p.depth_test = static_cast<spec::geometric::DepthTest>(rule % 3);
+        p.depth_bias = 1 + rule / 3 % 24;
+        p.crease_depth = rule / 3;
+        configuration.depth_test = p.depth_test;
+        configuration.depth_bias = static_cast<std::uint32_t>(p.depth_bias);
+        configuration.crease_depth = static_cast<std::uint32_t>(p.crease_depth);
+        b.configuration.drive(b.clock.cycle() - 1, configuration);
+        std::vector<std::array<unsigned, 4>> tokens;
+        for (int i = 0; i < 60; ++i) {
+          CandidateToken token{};
+          const bool crease = random.chance(500), vertical = random.chance(500);
+          token.block_x = static_cast<std::uint16_t>(random.between(1, 3));
+          token.block_y = static_cast<std::uint16_t>(random.between(1, 3));
+          token.crease = crease;
+          token.vertical = vertical;
+          token.candidates = static_cast<std::uint8_t>(random.between(1, 15));
+          token.forward = static_cast<std::uint8_t>(random.below(16));
+          token.seconds = static_cast<std::uint8_t>(token.candidates & random.below(16));
+          std::array<unsigned, 4> out{};  // candidates, seconds, nearer, farther
+          for (unsigned lane = 0; lane < 4; ++lane) {
+            if (!(token.candidates >> lane & 1)) continue;
+            const bool forward = token.forward >> lane & 1;
+            const int place = random.between(0, 15), step = forward ? 1 : -1;
+            const int x = 4 * token.block_x + place % 4, y = 4 * token.block_y + place / 4,
+                      nx = x + (vertical ? step : 0), ny = y + (vertical ? 0 : step);
+            const auto depth_at = [&](int column, int row) {
+              return depths[static_cast<std::size_t>(256 * row + column)] & 0xFFFFFF;
+            };
+            const std::uint32_t own = depth_at(x, y), other = depth_at(nx, ny),
+                                f = gold::compared_depth(p, own, other),
+                                share = p.crease_depth ? f / ((1u << p.crease_depth) - 1) : f;
+            const std::int64_t limit = random.chance(500) ? std::int64_t{f} - (f >> p.depth_bias)
+                                                          : std::int64_t{f} + share;
+            const auto depth = static_cast<std::uint32_t>(
+                std::clamp<std::int64_t>(limit + random.between(-2, 2), 0, 0xFFFFFF));
+            token.place[lane] = static_cast<std::uint8_t>(place);
+            token.coverage[lane] = static_cast<std::uint8_t>(random.between(1, 128));
+            token.second[lane] = static_cast<std::uint8_t>(random.between(1, 64));
+            token.depth[lane] = depth;
+            const bool passes = gold::passes(p, crease, depth, own, other);
+            const bool second = token.seconds >> lane & 1;
+            const auto to = gold::direction(
+                vertical ? spec::geometric::Axis::kVertical : spec::geometric::Axis::kHorizontal,
+                forward);
+            wanted.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), to,
+                              token.coverage[lane], depth, passes});
+            if (second)
+              wanted.push_back({static_cast<std::uint16_t>(nx), static_cast<std::uint16_t>(ny),
+                                gold::opposite(to), token.second[lane], depth, passes});
+            if (!passes) continue;
+            passed += second ? 2 : 1;
+            out[0] |= 1u << lane;
+            out[1] |= unsigned{second} << lane;
+            out[2] |= unsigned{gold::is_nearer(p, own, other)} << lane;
+            out[3] |= unsigned{gold::is_nearer(p, other, own)} << lane;
+          }
+          b.ends.source.add(token);
+          if (out[0] != 0) tokens.push_back(out);
         }
-        b.clock.run(200);
-        return text;
-      });
-      // The pixel of place 5 is nearer, and has the other above it.
-      const bool limited = limit != 0 && rule != DepthTest::kOff;
-      const char first = limited ? '0' : '1',
-                 second = limited && rule == DepthTest::kFarther ? '0' : '1';
-      EXPECT_EQ(got, std::string(1, first) + second + "11" + "1111" + "1111")
-          << "limit " << limit << ", rule " << static_cast<int>(rule);
-    }
-}
-
-// Which of both is nearer, for each lane; equal depths are neither. Only `farther` reads both.
-TEST(DepthTest, SaysWhichOfBothIsNearer) {
-  using spec::geometric::DepthTest;
-  for (const DepthTest rule : {DepthTest::kFarther, DepthTest::kOwn, DepthTest::kOff}) {
-    const std::string got = in_child([rule] {
-      Parameters p;
-      p.depth_test = rule;
-      DepthBench b(p);
-      // Columns of 7 over 9, of 9 over 7, of 8 over 8, of 0 over 1.
-      const std::array<std::uint32_t, 8> depths = {7, 9, 8, 0, 9, 7, 8, 1};
-      std::vector<std::uint8_t> line;
-      for (std::size_t i = 0; i < 16; ++i)
-        for (int byte = 0; byte < 4; ++byte)
-          line.push_back(static_cast<std::uint8_t>(depths[i % 8] >> (8 * byte)));
-      b.memory.preload(0, line);
-      CandidateToken token{};
-      token.candidates = 15;
-      token.forward = 15;  // from below
-      token.place = {0, 1, 2, 3};
-      token.depth = {99, 99, 99, 99};
-      b.ends.source.add(token);
-      finish(b, b.ends, 1);
-      const WeightToken& got_token = b.ends.sink.taken[0].token;
-      return std::to_string(got_token.nearer) + " " + std::to_string(got_token.farther);
+        b.clock.run(700);
+        EXPECT_EQ(b.ends.sink.taken.size(), tokens.size());
+        for (std::size_t i = 0; i < tokens.size(); ++i) {
+          const WeightToken& token = b.ends.sink.taken.at(i).token;
+          const unsigned here = token.candidates;
+          EXPECT_EQ((std::array<unsigned, 4>{here, token.seconds & here, token.nearer & here,
+                                             token.farther & here}),
+                    tokens[i])
+              << rule;
+        }
+        b.ends.sink.taken.clear();
+      }
+      EXPECT_EQ(shown, wanted);
+      EXPECT_EQ(b.unit.passed.value(), passed);
+      EXPECT_GT(passed, wanted.size() / 4);
+      EXPECT_LT(passed, wanted.size());
+      return std::string("compared");
     });
-    EXPECT_EQ(got, rule == DepthTest::kFarther ? "2 9" : "0 0") << static_cast<int>(rule);
+    EXPECT_EQ(got, "compared");
   }
-}
-
-// A second candidate passes with the first one and looks nothing up.
-TEST(DepthTest, SecondCandidatesPassWithTheFirst) {
-  DepthBench b;
-  std::vector<spec::geometric::Candidate> shown;
-  b.unit.observer = [&](const spec::geometric::Candidate& c) { shown.push_back(c); };
-  std::vector<std::uint8_t> line;
-  for (int i = 0; i < 16; ++i)
-    for (const int byte : {100, 0, 0, 0}) line.push_back(static_cast<std::uint8_t>(byte));
-  b.memory.preload(0, line);
-  CandidateToken token{};
-  token.candidates = 7;
-  token.forward = 5;
-  token.seconds = 6;
-  token.place = {4, 5, 6, 0};  // row 1
-  token.coverage = {90, 80, 70, 0};
-  token.second = {99, 8, 7, 0};
-  token.depth = {100, 99, 100, 0};  // lane 1 lies behind
-  b.ends.source.add(token);
-  finish(b, b.ends, 1);
-  using spec::geometric::Direction;
-  const std::vector<spec::geometric::Candidate> wanted = {{0, 1, Direction::kDown, 90, 100, true},
-                                                          {1, 1, Direction::kUp, 80, 99, false},
-                                                          {1, 0, Direction::kDown, 8, 99, false},
-                                                          {2, 1, Direction::kDown, 70, 100, true},
-                                                          {2, 2, Direction::kUp, 7, 100, true}};
-  EXPECT_EQ(shown, wanted);
-  EXPECT_EQ(b.unit.passed.value(), 3u);
-  EXPECT_EQ(b.unit.lookups.value(), 1u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.candidates, 5u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.seconds, 4u);
-}
-
-// What it tells the scoreboard of a candidate, of every pixel of a block and every direction.
-TEST(DepthTest, ShowsEachCandidate) {
-  DepthBench b;
-  std::vector<spec::geometric::Candidate> shown, wanted;
-  b.unit.observer = [&](const spec::geometric::Candidate& c) { shown.push_back(c); };
-  for (int direction = 0; direction < 4; ++direction)
-    for (int place = 0; place < 16; ++place) {
-      CandidateToken token{};
-      token.block_x = 7;
-      token.block_y = 9;
-      token.vertical = direction >= 2;
-      token.candidates = 4;
-      token.forward = direction % 2 ? 4 : 0;
-      token.place[2] = static_cast<std::uint8_t>(place);
-      token.coverage[2] = static_cast<std::uint8_t>(1 + place);
-      token.depth[2] = static_cast<std::uint32_t>(1000 + place);
-      b.ends.source.add(token);
-      wanted.push_back({static_cast<std::uint16_t>(28 + place % 4),
-                        static_cast<std::uint16_t>(36 + place / 4),
-                        static_cast<spec::geometric::Direction>(direction), token.coverage[2],
-                        token.depth[2], true});
-    }
-  finish(b, b.ends, wanted.size());
-  EXPECT_EQ(shown, wanted);
 }
 
 // ---- WeightCombiner
@@ -1017,67 +760,35 @@ void push_out(CombinerBench& b) {
 // Second candidates in the group's block are drawn with it; those in the next one across the line a
 // clock later, whose index is another.
 TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
-  for (const bool vertical : {false, true})
-    for (const bool forward : {false, true}) {
-      const std::string got = in_child([&] {
-        CombinerBench b;
-        WeightToken t{};
-        t.block_x = t.block_y = 1;
-        t.vertical = vertical;
-        t.candidates = 3;
-        t.forward = forward ? 3 : 0;
-        // Lane 0 at the side to which it goes, lane 1 a pixel before it.
-        const int at = forward ? 3 : 0, inside = forward ? 2 : 1;
-        const auto place = [&](int across, int along) {
-          return static_cast<std::uint8_t>(vertical ? 4 * along + across : 4 * across + along);
-        };
-        t.place = {place(at, 0), place(inside, 1)};
-        t.coverage = {50, 60};
-        t.seconds = 2;
-        t.second = {9, 7};
-        const Cycle inside_only = [&] {
-          for (int i = 0; i < 50; ++i) b.source.add(t);
-          const std::uint64_t from = b.in.pops();
-          const Cycle begin = b.clock.cycle();
-          b.clock.run_until([&] { return b.in.pops() == from + 50; }, 1000);
-          return b.clock.cycle() - begin;
-        }();
-        t.seconds = 3;
-        const Cycle both = [&] {
-          for (int i = 0; i < 50; ++i) b.source.add(t);
-          const std::uint64_t from = b.in.pops();
-          const Cycle begin = b.clock.cycle();
-          b.clock.run_until([&] { return b.in.pops() == from + 50; }, 1000);
-          return b.clock.cycle() - begin;
-        }();
-        if (b.unit.misses.value() != 2) return std::string("misses");
-        if (b.unit.lookups.value() < 145) return std::string("look-ups");
-        push_out(b);
-        std::string text;
-        const auto weight = [&](int across, int along) {
-          const spec::geometric::Weights w = vertical ? weights_at(b, 4 + across, 4 + along)
-                                                      : weights_at(b, 4 + along, 4 + across);
-          for (const std::uint8_t v : w) text += std::to_string(v) + " ";
-          text += "| ";
-        };
-        const int step = forward ? 1 : -1;
-        weight(at, 0);
-        weight(at + step, 0);
-        weight(inside, 1);
-        weight(inside + step, 1);
-        return std::to_string((both - inside_only + 25) / 50) + ": " + text;
-      });
-      const auto weights = [&](bool to, int value) {
-        std::array<int, 4> w{};
-        w[2u * vertical + to] = value;
-        std::string text;
-        for (const int v : w) text += std::to_string(v) + " ";
-        return text + "| ";
+  for (const unsigned to : {0u, 1u, 2u, 3u}) {
+    const std::string got = in_child([to] {
+      const bool vertical = to & 2, forward = to & 1;
+      CombinerBench b;
+      WeightToken t{};
+      t.block_x = t.block_y = 1;
+      t.vertical = vertical;
+      t.candidates = 3;
+      t.forward = forward ? 3 : 0;
+      // Lane 0 at the side to which it goes, lane 1 a pixel before it.
+      t.place[0] = static_cast<std::uint8_t>((forward ? 3 : 0) * (vertical ? 1 : 4));
+      t.place[1] = static_cast<std::uint8_t>((forward ? 2 : 1) * (vertical ? 1 : 4));
+      t.coverage = {50, 60};
+      t.second = {9, 7};
+      const auto cycles_of_fifty = [&](std::uint8_t seconds) {
+        t.seconds = seconds;
+        for (int i = 0; i < 50; ++i) b.source.add(t);
+        const std::uint64_t from = b.in.pops();
+        const Cycle begin = b.clock.cycle();
+        b.clock.run_until([&] { return b.in.pops() == from + 50; }, 1000);
+        return b.clock.cycle() - begin;
       };
-      EXPECT_EQ(got, "1: " + weights(forward, 50) + weights(!forward, 9) + weights(forward, 60) +
-                         weights(!forward, 7))
-          << vertical << forward;
-    }
+      const Cycle inside_only = cycles_of_fifty(2), both = cycles_of_fifty(3);
+      EXPECT_EQ(b.unit.misses.value(), 2u);
+      EXPECT_GE(b.unit.lookups.value(), 145u);
+      return std::to_string((both - inside_only + 25) / 50);
+    });
+    EXPECT_EQ(got, "1") << to;
+  }
 }
 
 // What has a weight in this block and one in the block after it.
@@ -1118,43 +829,6 @@ TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
   b.until_drawn();
   EXPECT_EQ(b.unit.edge_latency.count(), 2u);
   EXPECT_GE(b.unit.edge_latency.max(), b.unit.edge_latency.min() + 50);
-}
-// The smallest weight of a pixel that is nearer than its neighbour, and the largest of others, in
-// whichever order they come; the second candidate's pixel is nearer where the first one's is
-// farther; with `max` and `last` neither counts.
-TEST(WeightCombiner, OutermostKeepsTheSmallestOfWhatIsNearer) {
-  using spec::geometric::Combine;
-  for (const Combine rule : {Combine::kMax, Combine::kLast, Combine::kOutermost})
-    for (const unsigned which : {0u, 1u, 2u}) {  // neither, the pixel, the neighbour nearer
-      const std::string got = in_child([&] {
-        Parameters p;
-        p.combine = rule;
-        CombinerBench b(p);
-        for (const int coverage : {40, 90, 20, 60}) {
-          WeightToken t{};
-          t.block_x = t.block_y = 1;
-          t.candidates = t.seconds = t.forward = 2;
-          t.nearer = which == 1 ? 2 : 0;
-          t.farther = which == 2 ? 2 : 0;
-          t.place[1] = 5;
-          t.coverage[1] = static_cast<std::uint8_t>(coverage);
-          t.second[1] = static_cast<std::uint8_t>(coverage / 2);
-          b.source.add(t);
-        }
-        push_out(b);
-        return std::to_string(weights_at(b, 5, 5)[1]) + " " +
-               std::to_string(weights_at(b, 5, 6)[0]);
-      });
-      const bool outermost = rule == Combine::kOutermost;
-      const int first = rule == Combine::kLast    ? 60
-                        : outermost && which == 1 ? 20
-                                                  : 90,
-                second = rule == Combine::kLast    ? 30
-                         : outermost && which == 2 ? 10
-                                                   : 45;
-      EXPECT_EQ(got, std::to_string(first) + " " + std::to_string(second))
-          << static_cast<int>(rule) << " " << which;
-    }
 }
 TEST(WeightCombiner, ABlockThatComesBackWaitsForItsWrite) {
   CombinerBench b;

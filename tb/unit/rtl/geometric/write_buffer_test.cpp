@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The write buffer of the WeightCombiner: which blocks go over the port and in which order, and in
-// which clock, as docs/reference/geometric/memory.md has them.
-#include <map>
-#include <set>
+// The write buffer of the WeightCombiner: in which clock blocks go over the port, as
+// docs/reference/geometric/traffic.md has it. Which blocks, and in which order: compared with the
+// golden model by tb/system/geometric_system_test.cpp.
+#include <functional>
 
-#include "rtl_model/geometric/common/block_pixels.h"
-#include "tb/base/random.h"
 #include "tb/unit/rtl/geometric/combiner_bench.h"
 
 namespace deburr::tb::geometric_rtl::write_buffer_test {
@@ -15,7 +13,6 @@ using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::CacheLines;
 using spec::geometric::Weights;
 using testing::ElementsAre;
-using testing::ElementsAreArray;
 
 // Sixteen blocks in the cache: (0, 0), (4, 0), (8, 0), ... have the same index.
 Parameters with_buffer(int places, int fills = 0) {
@@ -56,144 +53,6 @@ struct Port {
   std::vector<Cycle> sent, got;
   Cycle drawn = 0;
 };
-
-// ---- which blocks
-
-TEST(WriteBuffer, AHitLeavesItsPlaceToWhatItReplaces) {
-  CombinerBench b(with_buffer(2));
-  // 4 puts 0 into place 0, 8 puts 4 into place 1; 0 is a hit and leaves its place to 8; 12 puts 0
-  // into the next place, which is place 0 still: 8 leaves.
-  draw(b, {0, 4, 8, 0, 12});
-  b.until_drawn();
-  EXPECT_EQ(b.unit.buffer_hits.value(), 1u);
-  EXPECT_EQ(b.unit.blocks_read.value(), 0u);
-  EXPECT_THAT(b.memory.lines_read(), testing::IsEmpty());
-  // Then what is left, from the next place on, which is place 1.
-  EXPECT_THAT(b.memory.lines_written(), ElementsAre(address_of(8), address_of(4), address_of(0)));
-  EXPECT_EQ(b.unit.blocks_written.value(), 3u);
-  EXPECT_EQ(text_of(b.unit.buffered_blocks), "2 x 1");
-}
-TEST(WriteBuffer, EmptyPlacesAreLeftOut) {
-  CombinerBench b(with_buffer(8));
-  draw(b, {0, 4, 8, 12});
-  b.until_drawn();
-  EXPECT_THAT(b.memory.lines_written(), ElementsAre(address_of(0), address_of(4), address_of(8)));
-  EXPECT_EQ(text_of(b.unit.buffered_blocks), "3 x 1");
-}
-TEST(WriteBuffer, ABlockThatHasLeftIsRead) {
-  CombinerBench b(with_buffer(1));
-  draw(b, {0, 4, 8, 0});
-  b.until_drawn();
-  EXPECT_EQ(b.unit.buffer_hits.value(), 0u);
-  EXPECT_THAT(b.memory.lines_read(), ElementsAre(address_of(0)));
-  EXPECT_THAT(b.memory.lines_written(), ElementsAre(address_of(0), address_of(4), address_of(8)));
-}
-
-// The rule of the page, in words of its own: a list of blocks in the order in which they came.
-class Rule {
- public:
-  using Block = std::pair<int, int>;
-  Rule(int cache_bits, std::size_t places)
-      : low_((cache_bits + 1) / 2), high_(cache_bits - low_), ring_(places) {}
-  void look_up(Block x) {
-    const int index = x.first % (1 << low_) + (x.second % (1 << high_) << low_);
-    const auto there = cache.find(index);
-    if (there != cache.end() && there->second == x) return;
-    const bool touched = !touched_.insert(x).second;
-    const auto place = std::find(ring_.begin(), ring_.end(), std::optional(x));
-    if (place != ring_.end()) {
-      ++hits;
-      *place = there->second;
-    } else {
-      if (touched) reads.push_back(address_of(x.first, x.second));
-      if (there != cache.end()) {
-        if (ring_.empty()) {
-          write(there->second);
-        } else {
-          if (ring_[next_]) write(*ring_[next_]);
-          ring_[next_] = there->second;
-          next_ = (next_ + 1) % ring_.size();
-        }
-      }
-    }
-    cache[index] = x;
-  }
-  void end() {
-    for (std::size_t i = 0; i < ring_.size(); ++i)
-      if (const auto& block = ring_[(next_ + i) % ring_.size()]) write(*block);
-  }
-  std::vector<std::uint64_t> reads, writes;
-  std::uint64_t hits = 0;
-  std::map<int, Block> cache;
-
- private:
-  void write(Block block) { writes.push_back(address_of(block.first, block.second)); }
-  int low_, high_;
-  std::vector<std::optional<Block>> ring_;
-  std::size_t next_ = 0;
-  std::set<Block> touched_;
-};
-
-// Random groups, of which some have second candidates in the block below, with a memory that is
-// near, far, and taken by others for a while.
-std::string random_blocks(int places, std::uint32_t latency, int fills, std::uint64_t seed) {
-  Random random(seed, "blocks");
-  CombinerBench b(with_buffer(places, fills), latency);
-  Rule rule(4, static_cast<std::size_t>(places));
-  std::map<std::pair<int, int>, std::array<std::uint8_t, 64>> weights;
-  const int across = random.between(5, 60);
-  for (int i = 0; i < 800; ++i) {
-    WeightToken t = CombinerBench::token(random.between(0, across), random.between(0, 2));
-    t.place[0] = static_cast<std::uint8_t>(random.between(0, 15));
-    t.coverage[0] = static_cast<std::uint8_t>(random.between(1, 128));
-    t.forward = 1;
-    const auto set = [&](int by, int place, int direction, std::uint8_t coverage) {
-      std::uint8_t& weight =
-          weights[{t.block_x, by}][static_cast<std::size_t>(4 * place + direction)];
-      weight = std::max(weight, coverage);
-    };
-    rule.look_up({t.block_x, t.block_y});
-    set(t.block_y, t.place[0], 1, t.coverage[0]);
-    if (random.chance(200)) {
-      t.seconds = 1;
-      t.second[0] = static_cast<std::uint8_t>(random.between(1, 64));
-      const bool below = t.place[0] >= 12;
-      if (below) rule.look_up({t.block_x, t.block_y + 1});
-      set(t.block_y + below, (t.place[0] + 4) % 16, 0, t.second[0]);
-    }
-    b.source.add(t);
-  }
-  rule.end();
-  b.source.add(CombinerBench::end());
-  while (!b.drawn->read(b.clock.cycle())) {
-    if (random.chance(300)) b.requests.hold_push(b.clock.cycle());
-    if (random.chance(200)) b.in.hold_pop(b.clock.cycle());
-    b.clock.run(1);
-  }
-  std::string wrong;
-  if (b.memory.lines_read() != rule.reads) wrong += "reads ";
-  if (b.memory.lines_written() != rule.writes) wrong += "writes ";
-  if (b.unit.buffer_hits.value() != rule.hits) wrong += "hits ";
-  std::set<std::pair<int, int>> cached;
-  for (const auto& [index, block] : rule.cache) cached.insert(block);
-  for (const auto& [block, bytes] : weights)
-    if (!cached.contains(block) && b.memory.dump(address_of(block.first, block.second), 64) !=
-                                       std::vector<std::uint8_t>(bytes.begin(), bytes.end()))
-      wrong += "weights ";
-  if (places > 0 && places < 100 && rule.hits == 0) wrong += "nothing was hit";
-  return wrong;
-}
-TEST(WriteBuffer, RandomBlocksByTheRule) {
-  for (const int places : {0, 1, 2, 3, 8, 64, 128})
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
-      const std::uint32_t latency = std::array{1u, 20u, 100u}[seed % 3];
-      const int fills = seed % 2 == 0 ? 8 : 0;
-      EXPECT_EQ(in_child([&] { return random_blocks(places, latency, fills, seed); }), "")
-          << places << " places, seed " << seed;
-    }
-}
-
-// ---- in which clock
 
 // Two blocks of one index in turn: each is a hit in the place that the one before has just taken.
 TEST(WriteBuffer, AHitAClock) {

@@ -69,7 +69,6 @@ inline VectorFrame vector_frame() {
 // Bits of records and depth words that memory.md ignores. In the frame of special cases they are 1.
 inline constexpr std::array<std::uint32_t, 4> kIgnoredOfEdge = {0xFF000000, 0xFF000000, 0xF0000000,
                                                                 0xFF000000};
-inline constexpr std::array<std::uint32_t, 4> kIgnoredOfVertex = {0, 0, 0xFF000000, 0xFFFFFFFE};
 inline constexpr std::uint32_t kIgnoredOfDepth = 0xFF000000;
 
 // Ignored bits are 1 where a packet holds them; the others, of the indices and of `usable`, whoever
