@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours that are kept: in which clock a line that is kept can be used, as
-// docs/reference/geometric/traffic.md has it. Which lines the resolve reads is compared with the
+// docs/reference/geometric/memory.md has it. Which lines the resolve reads is compared with the
 // golden model by tb/system/geometric_system_test.cpp.
 #include <deque>
 #include <set>

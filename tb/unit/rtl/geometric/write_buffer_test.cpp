@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The write buffer of the WeightCombiner: in which clock blocks go over the port, as
-// docs/reference/geometric/traffic.md has it. Which blocks, and in which order: compared with the
+// docs/reference/geometric/memory.md has it. Which blocks, and in which order: compared with the
 // golden model by tb/system/geometric_system_test.cpp.
 #include <functional>
 
