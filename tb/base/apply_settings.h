@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parameters by the names and values of their description (spec/parameters.h), for test vectors and
-// benches; the command has a ParameterSet.
+// Sets parameters by the names and values of their description (spec/parameters.h), for test
+// vectors and benchmarks. The command uses a ParameterSet instead.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace deburr::tb {
 
-// A visitor of spec/parameters.h that sets one parameter.
+// Visitor of spec/parameters.h that sets one parameter.
 class SetByName {
  public:
   SetByName(std::string_view name, std::string_view value) : name_(name), value_(value) {}
@@ -48,7 +48,7 @@ class SetByName {
   bool found_ = false;
 };
 
-// "walkers=1 mark=true", by the names and values of describe().
+// Applies "walkers=1 mark=true", with the names and values of describe().
 template <class Parameters>
 void apply_settings(Parameters& parameters, std::string_view settings) {
   while (!settings.empty()) {

@@ -31,7 +31,7 @@ const char* remedy(int reason) {
   }
 }
 
-// A file that removes itself unless it was renamed to its final place.
+// Temporary file that is removed unless it has been renamed to its final path.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target) {
@@ -57,7 +57,8 @@ class TemporaryFile {
     }
   }
 
-  // Delayed allocation and network file systems report a full disk only here.
+  // fsync() is needed: with delayed allocation or a network file system a full disk is reported
+  // only here.
   void finish(std::size_t expected_size) {
     if (::fsync(descriptor_) != 0) fail("flush");
     struct stat status {};

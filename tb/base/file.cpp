@@ -22,7 +22,7 @@ namespace {
 using spec::FileError;
 namespace fs = std::filesystem;
 
-// Closes on every path out of a scope; used for reading, where a failing close loses nothing.
+// Closes the descriptor on every path. For reading only, so a failing close() loses no data.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
@@ -64,7 +64,7 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
-// Calls take(bytes, size) over what is left of an open file.
+// Calls take(bytes, size) for the rest of an open file.
 template <class Take>
 void read_chunks(const fs::path& file, int descriptor, Take take) {
   std::vector<char> buffer(1 << 16);
@@ -77,10 +77,10 @@ void read_chunks(const fs::path& file, int descriptor, Take take) {
   }
 }
 
-// The same over the content of a regular file.
+// As above for the content of a regular file.
 template <class Take>
 void read_chunks(const fs::path& file, Take take) {
-  // Without O_NONBLOCK a pipe would be waited for until someone writes into it.
+  // O_NONBLOCK: opening a pipe would otherwise wait for a writer.
   const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (in.value() < 0) fail(file, "open", errno);
   struct stat info {};
@@ -90,7 +90,7 @@ void read_chunks(const fs::path& file, Take take) {
   read_chunks(file, in.value(), take);
 }
 
-// Takes chunks into a text, up to a size.
+// Appends chunks to a text, up to a size limit.
 auto take_into(std::string& text, const fs::path& file, std::size_t max_bytes) {
   return [&text, &file, max_bytes](const char* bytes, std::size_t size) {
     if (text.size() + size > max_bytes)

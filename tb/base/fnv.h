@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FNV-1a in 64 bits: whether two runs, pictures or texts are the same, no secret.
+// 64-bit FNV-1a, to compare runs, images or texts. Not cryptographic.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,17 @@
 namespace deburr::tb {
 
 inline constexpr std::uint64_t kFnvStart = 0xCBF29CE484222325;
-// With a byte it is FNV-1a; a word at a time is faster and reaches the lower bits less.
+// FNV-1a if `value` is a byte. A whole word per step is faster but mixes its upper bits less into
+// the lower ones.
 constexpr std::uint64_t fnv_step(std::uint64_t hash, std::uint64_t value) {
   return (hash ^ value) * 0x100000001B3;
 }
 
-// Over bytes in order.
+// Hash over a sequence of bytes.
 class FnvHash {
  public:
   constexpr explicit FnvHash(std::uint64_t start = kFnvStart) : value_(start) {}
-  // Its lowest eight bits.
+  // Adds the lowest eight bits of `value`.
   constexpr void byte(std::uint64_t value) { value_ = fnv_step(value_, value & 255); }
   constexpr void lowest_first(std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) byte(value >> (8 * i));

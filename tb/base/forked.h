@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a simulation in a process of its own, so that one test can compare several: SystemC
-// elaborates once a process. Call it before the test itself elaborates anything.
+// Runs a simulation in a child process, so that one test can compare several: SystemC elaborates
+// once per process. Call it before the test itself elaborates anything.
 #pragma once
 
 #include <sys/wait.h>
@@ -14,17 +14,17 @@
 #include <string>
 #include <type_traits>
 
-// Of libgcov, in a build that counts lines: a process that ends by _Exit() leaves no counts else.
+// From libgcov, in coverage builds: without it a process that ends with _Exit() loses its counts.
 extern "C" [[gnu::weak]] void __gcov_dump();
 
 namespace deburr::tb {
 
-// Whether an expectation of the test has failed; null where no test calls. In a child it would be
-// forgotten with the child (forked_expectations.cpp).
+// Returns whether an expectation of the test has failed; null outside tests. Without it, failures
+// in a child would be lost (forked_expectations.cpp).
 inline bool (*expectation_failed)() = nullptr;
 
-// The text that `work` returns; what it throws comes back as a runtime_error with its text, and so
-// does an expectation that failed.
+// Runs `work` in a child process and returns its text. An exception in it, or a failed expectation,
+// is rethrown as a runtime_error with the same text.
 inline std::string forked_text(const std::function<std::string()>& work) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("pipe() failed");
@@ -66,7 +66,7 @@ inline std::string forked_text(const std::function<std::string()>& work) {
   return text;
 }
 
-// The same for a plain value.
+// As above for a trivially copyable value.
 template <class Result>
 Result forked(const std::function<Result()>& work) {
   static_assert(std::is_trivially_copyable_v<Result>, "it comes back through a pipe");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one line of an error's text that follows "RESULT:".
+// The line of an error text that is shown after "RESULT:".
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace deburr::tb {
 
-// A text is a message and, after an empty line, what only the error stream shows (the state of
-// every link, the first mismatches). The message may have lines of its own, such as the names to
-// choose from; they are joined by commas.
+// An error text is a message, optionally followed by an empty line and details for the error stream
+// (link states, first mismatches). If the message has several lines, such as a list of names, they
+// are joined by commas.
 std::string headline(std::string_view text);
 
 }  // namespace deburr::tb

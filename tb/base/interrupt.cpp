@@ -11,12 +11,12 @@
 namespace deburr::tb {
 namespace {
 
-// The one piece of global state: a signal handler can reach nothing else.
+// Global, because a signal handler can access nothing else.
 volatile std::sig_atomic_t interrupt_requested = 0;
 
 extern "C" void on_interrupt(int) { interrupt_requested = 1; }
 
-// What is still to be said must not fail because the terminal is gone.
+// Redirects a descriptor whose terminal is gone to /dev/null, so that later output cannot fail.
 void leave_terminal(int descriptor) {
   termios settings{};
   if (::tcgetattr(descriptor, &settings) == 0 || errno != EIO) return;
@@ -26,7 +26,7 @@ void leave_terminal(int descriptor) {
   ::close(nowhere);
 }
 
-// Calls nothing but what POSIX allows in a handler.
+// Calls only async-signal-safe functions (POSIX).
 extern "C" void on_hangup(int) {
   const int before = errno;
   interrupt_requested = 1;
@@ -35,8 +35,8 @@ extern "C" void on_hangup(int) {
   errno = before;
 }
 
-// A shell that ends sends it to its jobs, and the kernel to those in front: the second one is not
-// another one's wish. One that is ignored (nohup) stays ignored.
+// On hangup both the shell and the kernel may send SIGHUP, so a second one is not a request to
+// kill. An ignored SIGHUP (nohup) stays ignored.
 void catch_hangups() {
   struct sigaction action {};
   if (sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) return;
@@ -56,7 +56,7 @@ void catch_interrupts() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second signal acts as if never caught
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal has its default effect
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   catch_hangups();

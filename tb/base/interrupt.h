@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C in a run: the first one asks for a clean end, the second one kills. So does SIGTERM; a
-// terminal that is closed (SIGHUP) asks for a clean end, however often.
+// Signals during a run. The first SIGINT (Ctrl-C) or SIGTERM requests a clean end; the second one
+// kills. SIGHUP, sent when the terminal closes, always requests a clean end.
 #pragma once
 
 #include <exception>
 
 namespace deburr::tb {
 
-// Lets a write beyond a file size limit fail instead of killing.
+// Makes a write beyond a file size limit fail instead of killing the process.
 void let_full_files_fail();
-// Lets a write into a pipe that nobody reads fail instead of killing.
+// Makes a write to a pipe without a reader fail instead of killing the process.
 void let_broken_pipes_fail();
-// Takes over SIGINT, SIGTERM and SIGHUP, for commands that ask interrupted() while they work.
+// Handles SIGINT, SIGTERM and SIGHUP, for commands that poll interrupted() while they work.
 void catch_interrupts();
 bool interrupted();
 
-// Thrown where work was given up because someone asked for it, and nothing of it is of use.
+// Thrown when work was abandoned on request without a usable result.
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-// Exit code of a run that was interrupted but left its partial result (as a shell reports SIGINT).
+// Exit code of an interrupted run with a partial result (as shells report SIGINT).
 inline constexpr int kInterruptedExit = 130;
 
 }  // namespace deburr::tb

@@ -38,20 +38,20 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::vector<std::string> near_matches(std::string_view name,
                                       const std::vector<std::string>& candidates) {
   constexpr std::size_t kMaxName =
-      100;  // longer is not a typing error, and the search is quadratic
+      100;  // longer texts are not typing errors, and the search is quadratic
   std::vector<std::pair<int, std::string>> ranked;
   if (name.empty() || name.size() > kMaxName) return {};
   if (const std::optional<std::string> now = renamed(name, candidates)) return {*now};
   const auto last_part = [](std::string_view text) { return text.substr(text.rfind('.') + 1); };
   for (const std::string& candidate : candidates) {
     int distance = edit_distance(name, candidate);
-    // Capitals alone are no difference.
+    // Differences in case are ignored.
     distance =
         std::min(distance, std::max(1, edit_distance(lower_case(name), lower_case(candidate))));
-    // The right leaf under a wrong or missing prefix is a likely meaning too.
+    // The right last part after a wrong or missing prefix is also a likely meaning.
     if (last_part(candidate) == last_part(name)) distance = std::min(distance, 2);
     if (candidate.ends_with("." + std::string(name))) distance = 1;
-    // So is a name that was not finished.
+    // So is an incomplete name.
     if (candidate.starts_with(name)) distance = std::min(distance, 2);
     if (distance <= std::max<int>(1, static_cast<int>(name.size()) / 3))
       ranked.emplace_back(distance, candidate);

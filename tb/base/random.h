@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reproducible noise: the same seed gives the same numbers on every machine and compiler, which the
-// distributions of <random> do not promise.
+// Reproducible random numbers: a seed gives the same numbers on every machine and compiler, which
+// the distributions of <random> do not guarantee.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@ namespace deburr::tb {
 
 class Random {
  public:
-  // Distance of two states: the sequence begins one number later at a seed that is larger by it.
+  // Increment of the state per number; a seed larger by it gives the same sequence, one number
+  // later.
   static constexpr std::uint64_t kStride = 0x9E3779B97F4A7C15ULL;
 
   explicit Random(std::uint64_t seed) : state_(seed) {}
-  // A stream of its own for each name under one seed, whatever the order of construction.
+  // An independent stream per name under one seed, whatever the order of construction.
   Random(std::uint64_t seed, std::string_view name) : state_(seed) {
     for (const char c : name)
       state_ = (state_ ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL + kStride;
   }
-  // splitmix64: every 64-bit number once in its period.
+  // splitmix64: each 64-bit value occurs once per period.
   std::uint64_t next() {
     std::uint64_t z = (state_ += kStride);
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;

@@ -11,7 +11,7 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-// Instances: at the start of a part between dots, or after an underscore.
+// Instance names: match at the start of a dotted part, optionally after an engine's name.
 constexpr std::array kInstances{Pair{"derivative", "derivative_unit"},
                                 Pair{"footprint", "footprint_unit"},
                                 Pair{"axis", "axis_unit"},
@@ -33,7 +33,7 @@ constexpr std::array kInstances{Pair{"derivative", "derivative_unit"},
                                 Pair{"area", "area_unit"},
                                 Pair{"diagonals", "diagonal_unit"}};
 
-// Words anywhere in a name, between dots, underscores and slashes.
+// Words: match anywhere in a name, between dots, underscores and slashes.
 constexpr std::array kWords{Pair{"cycles", "cycles"},
                             Pair{"bytes_per_cycle", "bytes_per_cycle"},
                             Pair{"pixels_per_clock", "pixels_per_cycle"},
@@ -72,7 +72,7 @@ std::string with_words_of_today(std::string name) {
   return name;
 }
 
-// Whether `now` is `before` with instances renamed: part by part.
+// Whether `now` is `before` with renamed instances, compared part by part.
 bool is_renamed(std::string_view before, std::string_view now) {
   for (;;) {
     const std::size_t b = before.find('.'), n = now.find('.');

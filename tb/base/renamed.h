@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names that version 0.4.0 changed: parameters, keys of result.json, instances and registers.
+// Names changed in version 0.4.0: parameters, keys of result.json, instances and registers.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace deburr::tb {
 
-// The name among `known` that `name` had before 0.4.0, or nothing.
+// The current name, among `known`, of a parameter, key, instance or register called `name` before
+// 0.4.0; empty if none.
 std::optional<std::string> renamed(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace deburr::tb

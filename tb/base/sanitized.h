@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether AddressSanitizer is there, which GCC and clang say in different ways.
+// Whether AddressSanitizer is enabled; GCC and Clang report it differently.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-// All of them; with sanitizers, which look for other faults and are ten times slower, every third.
+// All elements. Sanitized builds are ten times slower and look for other faults, so they take every
+// third.
 template <class Range>
 auto third_if_sanitized(const Range& all) {
   std::vector<typename Range::value_type> some;

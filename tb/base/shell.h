@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Command lines as a shell takes them back.
+// Formats command lines for a shell.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace deburr::tb {
 
-// The word as it is, or in single quotes where a shell would read something else.
+// The word, in single quotes if a shell would otherwise interpret it.
 std::string shell_quoted(std::string_view word);
 
-// The exit code of a child whose program could not be started, as a shell's.
+// Exit code for a program that could not be started, as in a shell.
 inline constexpr int kNoSuchProgram = 127;
 
 }  // namespace deburr::tb

@@ -17,10 +17,10 @@ constexpr std::size_t kUsualColumns = 80;
 
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
-// One line, without its end.
+// Wraps one line, without its newline.
 void wrap_line(std::string_view line, std::size_t columns, std::size_t indent, std::string& out) {
   std::size_t column = 0;
-  bool begun = false;  // a word stands in this row
+  bool begun = false;  // the row already has a word
   while (!line.empty()) {
     const std::size_t found = std::min(line.find_first_not_of(' '), line.size());
     const std::size_t blanks = begun ? found : std::min(found, indent);
@@ -65,7 +65,7 @@ std::size_t columns_of(std::string_view text) {
 
 std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent) {
   if (columns == 0) return std::string(text);
-  // Half of a narrow terminal is for what is said.
+  // In a narrow terminal half of the width is reserved for text.
   const std::size_t inside = std::min(indent, columns / 2);
   std::string out;
   while (!text.empty()) {

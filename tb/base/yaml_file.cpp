@@ -21,8 +21,8 @@ using spec::ConfigError;
 
 namespace {
 
-// Reads a text once without keeping it: what YAML::Load() and those who walk its nodes would never
-// come back from is known then.
+// Scans a text before it is loaded, without keeping it: finds alias expansion that would make
+// YAML::Load() or a walk through its nodes endless.
 class Surveyor final : public YAML::EventHandler {
  public:
   explicit Surveyor(const std::filesystem::path& file) : file_(file) {}
@@ -34,7 +34,7 @@ class Surveyor final : public YAML::EventHandler {
                 const std::string&) override {
     leaf(anchor);
   }
-  // yaml-cpp rejects aliases of what no anchor has named before.
+  // yaml-cpp itself rejects aliases of unknown anchors.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = nodes_behind_.find(anchor);
     if (named == nodes_behind_.end()) fail(mark, "an alias of what it is a part of");
@@ -59,7 +59,7 @@ class Surveyor final : public YAML::EventHandler {
  private:
   struct Collection {
     YAML::anchor_t anchor;
-    std::uint64_t nodes;  // so far, with itself and what its aliases stand for
+    std::uint64_t nodes;  // nodes so far, including this one and those that its aliases stand for
   };
 
   void add(std::uint64_t nodes) {
@@ -89,17 +89,17 @@ class Surveyor final : public YAML::EventHandler {
   std::uint64_t aliased_ = 0;
 };
 
-// Reads no further than the second one: before a ',' that belongs to nothing yaml-cpp begins one
-// empty document after another, and YAML::LoadAll() never comes back.
+// Stops at the second document: before a stray ',' yaml-cpp starts one empty document after
+// another, so YAML::LoadAll() never returns.
 bool has_several_documents(const std::string& text, Surveyor& surveyor) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
   return parser.HandleNextDocument(surveyor) && parser.HandleNextDocument(surveyor);
 }
 
-// The line in which bytes stand that are not UTF-8; 0: there are none. yaml-cpp takes them, and
-// whoever writes JSON of them fails. A mark at the begin says that it is UTF-16 or 32, which it
-// reads.
+// Line of the first bytes that are not UTF-8; 0: none. yaml-cpp accepts them, but JSON made from
+// them fails. Text with a byte order mark of UTF-16 or UTF-32 is accepted, because yaml-cpp decodes
+// it.
 std::size_t line_that_is_not_utf8(std::string_view text) {
   using namespace std::string_view_literals;
   for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv})
@@ -113,7 +113,7 @@ std::size_t line_that_is_not_utf8(std::string_view text) {
     const std::size_t more = first < 0x80 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
     bool good = first < 0x80 || (first >= 0xC2 && first < 0xF5);
     for (std::size_t k = 1; k <= more; ++k) good = good && (byte(k) & 0xC0U) == 0x80;
-    // Longer than needed, half of a pair, beyond the last one.
+    // Overlong encodings, surrogates, and code points above U+10FFFF.
     if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
         (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F))
       good = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A YAML file that a user wrote. What cannot be meant is a ConfigError with file and line.
+// A user's YAML file. An invalid entry is a ConfigError with file and line.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,13 +20,14 @@ class YamlFile {
  public:
   static constexpr std::size_t kMaxBytes = 64u << 20;
 
-  // A few lines of aliases of aliases stand for more than anyone can walk through.
+  // Limit of nodes after alias expansion: a few lines of nested aliases can stand for an
+  // unmanageable number.
   static constexpr std::uint64_t kMostAliasedNodes = 1'000'000;
 
-  // FileError for a file that cannot be read, or has more bytes; ConfigError for what is no YAML,
-  // for more than one document, and for aliases without an end.
+  // Throws FileError for a file that cannot be read or exceeds `most` bytes; ConfigError for
+  // invalid YAML, several documents or excessive alias expansion.
   explicit YamlFile(const std::filesystem::path& file, std::size_t most = kMaxBytes);
-  // The same of a text that was read already.
+  // As above, for text already read.
   YamlFile(std::filesystem::path file, const std::string& text);
 
   const YAML::Node& root() const { return root_; }
@@ -38,7 +39,7 @@ class YamlFile {
   // "a list", "an empty map"
   static const char* kind(const YAML::Node& node);
 
-  // Each key of a map is one of these, once.
+  // Requires each key of a map to be one of `known` and to occur once.
   void require_keys(const YAML::Node& map, const std::vector<std::string>& known) const;
   std::string scalar(const YAML::Node& node, std::string_view what) const;
   bool boolean(const YAML::Node& node, std::string_view what) const;
@@ -59,7 +60,7 @@ class YamlFile {
       fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
     return value;
   }
-  // 1..most
+  // Range 1..most.
   std::uint64_t count(const YAML::Node& node, std::string_view what, std::uint64_t most) const;
 
  private:

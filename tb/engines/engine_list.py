@@ -7,8 +7,8 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 
 
 def loaded(path):
-    import yaml  # not of those that want the names of engines alone
-    with open(path, encoding="utf-8") as file:  # by its C library, where that is there: ten times as fast
+    import yaml  # imported here, as callers that need only the names do not need it
+    with open(path, encoding="utf-8") as file:  # the C loader, if available: ten times as fast
         return yaml.load(file, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
 
@@ -36,7 +36,7 @@ def testplan(path):
     for pattern in plan.pop("include", []):
         files = [path.parent / pattern.replace("*", name) for name in engines()] if "*" in pattern else [path.parent / pattern]
         parts = [loaded(file) for file in files]
-        for key in ("coverage", "unmet"):  # of the whole plan
+        for key in ("coverage", "unmet"):  # merged over the whole plan
             if more := [entry for part in parts for entry in part.get(key, [])]:
                 plan[key] = plan.get(key, []) + more
         for feature in (f for part in parts for f in part["features"]):

@@ -37,7 +37,8 @@ void look(Scene& scene, const CameraParameters& p) {
   Camera camera = scene.camera;
   if (!p.eye.empty()) {
     camera.eye = parse_vector("scene.eye", p.eye);
-    camera.near_plane = Camera{}.near_plane;  // the scene's own was chosen for its own eye
+    // The scene's near plane was chosen for its own eye position.
+    camera.near_plane = Camera{}.near_plane;
   }
   if (!p.target.empty()) camera.target = parse_vector("scene.target", p.target);
   if (p.fov > 0) camera.fov_y = p.fov;

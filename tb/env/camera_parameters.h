@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another camera than the scene's own, as parameters.
+// Parameters that replace the scene's camera.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ void describe(CameraParameters& p, Visitor& v) {
          "Turns the camera clockwise about its view direction.");
 }
 
-// The scene seen by that camera. ConfigError for what is no position, or nothing to look at.
+// Applies the camera to the scene. Throws ConfigError for an invalid position or a missing target.
 void look(Scene& scene, const CameraParameters& parameters);
 
 }  // namespace deburr::tb

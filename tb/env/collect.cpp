@@ -11,8 +11,8 @@
 namespace deburr::tb {
 namespace {
 
-// Answers of memory are on their way and there is nothing else to do: latency that is hidden. It
-// costs nothing, so it counts as idle; what it costs is the stall of the unit that needs the line.
+// Only waiting for memory responses: hidden latency. It counts as idle; its cost shows as the stall
+// of the unit that needs the line.
 bool only_waits(const rtl::Unit& unit, std::string_view cause) {
   return cause == "wait_memory" ||
          (cause == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The testbench half of an engine's declaration: parameters, input files, registers, coverage,
+// Testbench half of an engine's declaration: parameters, input files, registers, coverage,
 // statistics and datasheets. Usable without the command, whose half derives from it
 // (tool/run/engine.h).
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace deburr::tb {
 
-// Of an engine whose rules are registers.
+// How an engine gets its programmable configuration: by register writes or as reset values.
 enum class Program : std::uint8_t { kRegisters, kReset };
 inline constexpr std::array<std::string_view, 2> kProgramNames = {"registers", "reset"};
 
@@ -37,15 +37,16 @@ void describe(ProgramParameters& p, Visitor& v) {
            "change results.");
 }
 
-// Of docs/reference/datasheets.md: an engine's units.
+// An engine's section of docs/reference/datasheets.md: its units.
 struct DatasheetSection {
-  std::string module;  // as its page calls it; empty: the engine has no units of its own
+  std::string module;  // as on its page; empty: the engine has no units of its own
   std::vector<rtl::Datasheet> sheets;
 };
 
-// Of docs/reference/coverage.md: every bin of an engine, those too that only directed tests meet.
+// An engine's section of docs/reference/coverage.md: all bins, including those that only directed
+// tests hit.
 struct CoverageSection {
-  std::string title;  // of its table; empty: the engine has no bins of its own
+  std::string title;  // title of the table; empty: the engine has no bins of its own
   Coverage bins;
   std::span<const CoverageGroup> groups;
 };
@@ -54,19 +55,20 @@ class EngineTestbench {
  public:
   virtual ~EngineTestbench() = default;
   virtual std::string_view name() const = 0;
-  // The clock of rates and times unless run.clock_mhz is given. Default: the texture paper's.
+  // Clock of rates and times unless run.clock_mhz is given. The default is that of the texture
+  // paper.
   virtual double clock_mhz() const { return 166.67; }
-  // Includes the rules that say what can be built (ParameterSet::check_build).
+  // Also adds the build constraints (ParameterSet::check_build).
   virtual void add_parameters(ParameterSet& set) = 0;
-  // Every file that a run opens, or looks for in vain, named by a parameter or by another file: a
-  // result is kept under a key of their contents. Called after Engine::resolve().
+  // Every file that a run opens or tries to open, named by a parameter or by another file. Results
+  // are cached under a key of their contents. Call it after Engine::resolve().
   virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
-  // Names of build parameters that change the golden result, as a cache's size changes its misses.
-  // Runs that agree in these, in rules and in inputs are checked with one golden result.
+  // Build parameters that change the golden result, as a cache's size changes its misses. Runs that
+  // agree in these, in configuration and in inputs share one golden result.
   virtual std::vector<std::string_view> built_for_golden() const { return {}; }
-  // Every counter, stall cause and fault of a run of this engine, for
-  // docs/reference/statistics.md. It elaborates the environment, so it is called at most once per
-  // process, and not in a process that runs.
+  // Every counter, stall cause and fault of a run of this engine, for docs/reference/statistics.md.
+  // It elaborates the environment, so call it at most once per process and not in a process that
+  // runs a simulation.
   virtual void describe_statistics(Result& result) = 0;
   virtual rtl::RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }

@@ -132,7 +132,7 @@ void FigureScoreboard::check(const rtl::Engine& engine, const rtl::MemoryPort& p
   check(engine, port.reads, memory.reads());
   check(engine, port.writes, memory.writes());
   check(engine, port.bytes_read, memory.bytes_read());
-  if (memory.errors() > 0) return;  // a write that fails writes nothing
+  if (memory.errors() > 0) return;  // failed writes leave memory unchanged
   check(engine, port.bytes_written, memory.bytes_written());
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// An engine with everything around it that makes a run: unit, memory, register host, golden model,
-// scoreboards, faults, figures. A Simulation runs one; a composition of several is an environment
-// again (frame_composition.h).
+// An engine with everything that a run needs: memory, register host, golden model, scoreboards,
+// faults, figures. A Simulation runs one environment; a composition of several is itself an
+// environment (frame_composition.h).
 //
-// An environment that stands alone has no name, and its figures and faults are called as they are.
-// In a composition it has one ("painter"), which stands in front of them: work.painter_fragments,
-// --fault painter.flip-bit.
+// A single environment has no name. In a composition each has one ("painter"), which prefixes its
+// figures and faults: work.painter_fragments, --fault painter.flip-bit.
 #pragma once
 
 #include <fmt/format.h>
@@ -36,7 +35,7 @@
 
 namespace deburr::tb {
 
-// What a run is counted in: for the progress shown and for the error of --max-cycles.
+// Unit of a run's progress, for the progress display and the error of --max-cycles.
 struct Amount {
   std::uint64_t delivered = 0, taken = 0, total = 0;
   std::string_view unit;  // "pixel"
@@ -44,17 +43,17 @@ struct Amount {
 
 class RegisterScoreboard;
 
-// Figures of a run that have a second source: what a unit counted, against what memory or the
-// golden model says.
+// Checks counters against a second source: memory or the golden model.
 class FigureScoreboard {
  public:
   void check(const std::string& name, std::uint64_t counted, std::uint64_t expected);
-  // Of a counter of this engine, unless its unit is replaced and nobody counts for it.
+  // Checks a counter of this engine, unless its unit is replaced by an RTL counterpart that does
+  // not count.
   void check(const rtl::Engine& engine, const rtl::Counter& counter, std::uint64_t expected);
-  // What it asked of memory that nobody else uses.
+  // Checks the requests of an engine to memory that no other client uses.
   void check(const rtl::Engine& engine, const rtl::MemoryPort& port,
              const platform::MemoryModel& memory);
-  // A fault: each counter is one too large.
+  // Fault: every counter reads one too many.
   void miscount() { too_many_ = 1; }
   ScoreboardBase& board() { return board_; }
   const ScoreboardBase& board() const { return board_; }
@@ -73,54 +72,53 @@ class Environment {
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
 
-  // ---- the run, as Simulation leads it
-  // After a reset: identification, and registers that stay for the whole run.
+  // ---- phases of a run, in the order in which Simulation calls them
+  // After a reset: checks identification and writes the registers that stay for the whole run.
   virtual void configure() = 0;
-  // Begins a piece of work (a frame of several) that is done before the next begins; false: there
-  // are no more.
+  // Starts piece `piece` of the work (a frame of several), which ends before the next starts.
+  // Returns false if there are no more.
   virtual bool begin(std::size_t piece) = 0;
-  // Between cycles: checks what has been recorded meanwhile.
+  // Between cycles: checks everything recorded since the last call.
   virtual void watch() {}
-  // Everything of this piece was sent and nothing is inside any more.
+  // Whether the piece is complete: all input was sent and nothing is in flight.
   virtual bool done() const = 0;
-  // A piece is done and its links are empty.
+  // Called when a piece is done and its links are empty.
   virtual void end() = 0;
-  // After a reset within a piece, and configure(): what came of it counts no more, it begins again.
+  // Restarts a piece after a reset within it and configure(). Its earlier output is discarded.
   virtual void restart() = 0;
-  // All pieces are done: counters are checked.
+  // Called when all pieces are done: checks counters.
   virtual void finish() = 0;
-  // SimulationError if memory answered with errors. After finish(), so that what they did to the
-  // outputs has been checked.
+  // Throws SimulationError if memory answered with errors. Called after finish(), so their effects
+  // on the output have been checked.
   virtual void reject_memory_errors() = 0;
-  // ConfigError if a range of memory was to answer with errors and nobody asked for it.
+  // Throws ConfigError if memory errors were configured for a range that was never accessed.
   virtual void reject_unused_errors() const = 0;
   virtual Amount amount() const = 0;
-  // Memory has answered, and written, everything that it was asked.
+  // Whether memory has answered every request and completed every write.
   virtual bool memory_at_rest() const = 0;
 
   // ---- checking
   using Boards = std::vector<const ScoreboardBase*>;
   virtual Boards outputs() const = 0;   // pixels, colours
-  virtual Boards traffic() const = 0;   // accesses of memory
-  virtual Boards counters() const = 0;  // the engine's own, which echo what went wrong before
-  // Throws Mismatch where the golden model ran and something differs, or a scoreboard compared less
-  // than the run has: finish() says how much that is.
+  virtual Boards traffic() const = 0;   // memory accesses
+  virtual Boards counters() const = 0;  // the engine's own counters, which only echo earlier errors
+  // With a golden model, throws Mismatch if anything differs or a scoreboard compared less than
+  // finish() requires.
   void check() const;
 
-  // ---- results, also of a run that was broken off
-  // Units, memories, bytes and counters, with this environment's name in front.
+  // ---- results, also of an aborted run
+  // Adds units, memories, bytes and counters, prefixed by this environment's name.
   virtual void collect(Result& result) const = 0;
-  // Every part that a run can be watched by, under the names of collect().
+  // Shows every observable part under its name from collect().
   virtual void show_parts(Observer& observer) const = 0;
-  // What was done for each pixel, with SimulationOptions::maps; of the last frame.
+  // Per-pixel maps of the last frame; requires SimulationOptions::maps.
   virtual std::vector<PictureMap> maps() const = 0;
-  // What happened to SimulationOptions::pixel, of the last frame; nothing: no part of it keeps
-  // that.
+  // History of SimulationOptions::pixel in the last frame; empty if no part records one.
   virtual std::optional<PixelHistory> pixel_history() const { return std::nullopt; }
-  // Functional coverage: every bin of its engines, with what was met so far. With
+  // Functional coverage: every bin of its engines with its hits. Requires
   // SimulationOptions::coverage and a golden model.
   virtual Coverage coverage() const = 0;
-  // Throughput, latency, figures and bottleneck: of the one environment that the run is about.
+  // Throughput, latency, headline figures and bottleneck; called for the main environment only.
   virtual void collect_headline(Result& result) const = 0;
 
  protected:
@@ -128,8 +126,8 @@ class Environment {
       : simulation_(simulation), name_(std::move(name)) {}
 
   Simulation& simulation() const { return simulation_; }
-  // After a reset, runs until memory is at rest: a write of before that came later would spoil what
-  // is loaded next.
+  // Runs until memory is idle after a reset: a late write of an earlier request would corrupt newly
+  // loaded data.
   void drain_memory() const;
   bool golden() const { return simulation_.options().golden; }
   bool programs() const { return simulation_.options().program; }
@@ -141,17 +139,19 @@ class Environment {
   bool injected(std::string_view fault) const {
     return simulation_.faults().injected(name_, fault);
   }
-  // memory_faults(), and the range of `error_address`.
+  // Declares memory_faults() and applies the range of `error_address`.
   void inject_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
-  // `blind-NAME` for each scoreboard of this run: it compares nothing, which is no pass.
+  // Declares `blind-NAME` for each scoreboard of this run: it compares nothing, so the run must not
+  // pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
-  // `miscount-NAME` for each register that is checked: the engine counted one too many or too few.
+  // Declares `miscount-NAME` for each register that is checked: the engine counts one too many or
+  // too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
-  // `wrong-figures`: all counters that are checked a second time are one too large.
+  // Declares `wrong-figures`: all counters with a second source are one too large.
   void let_miscount(FigureScoreboard& board);
-  // `misdecode-REGISTER-FIELD` for each field of these registers: of what software writes there the
-  // hardware takes a choice for the next one, a number for its half, and 0 for all ones. It reads
-  // back as it was written. `needs`: why none can be injected in this run.
+  // Declares `misdecode-REGISTER-FIELD` for each field of these registers: hardware decodes a
+  // choice as the next one, a number as its half, and 0 as all ones, but reads return the written
+  // value. `needs`: why these faults cannot be injected in this run.
   void let_misdecode(rtl::ControlRegisters& control, std::span<const std::uint32_t> offsets,
                      const std::string& needs);
   static void reject_untouched(const platform::MemoryModel& memory,
@@ -164,13 +164,13 @@ class Environment {
   std::string name_;
 };
 
-// An engine's counters, read as a driver would, against the golden model's.
+// Compares an engine's counters, read as a driver reads them, with those of the golden model.
 class RegisterScoreboard {
  public:
   explicit RegisterScoreboard(std::span<const spec::RegisterInfo> table);
   void check(platform::RegisterBus& registers,
              std::span<const std::pair<std::uint32_t, std::uint64_t>> expected);
-  // A fault: the register of this offset reads wrong by its lowest bit.
+  // Fault: inverts the lowest bit when the register at this offset is read.
   void misread(std::uint32_t offset) { misread_ = offset; }
   std::string_view name_of(std::uint32_t offset) const;
   ScoreboardBase& board() { return board_; }
@@ -186,7 +186,7 @@ class RegisterScoreboard {
   Scoreboard<Status> board_;
 };
 
-// To compare runs that must not differ: FNV-1a of words, mixed after each.
+// FNV-1a over 64-bit words, to compare runs whose outputs must be identical.
 class OutputHash {
  public:
   void add(std::uint64_t value) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults by name (`--fault NAME`), looked up in one place for every engine and every composition of
-// engines; docs/reference/tests.md says what must catch each.
+// Looks up faults by name (`--fault NAME`) for every engine and composition.
+// docs/reference/tests.md says which check must detect each.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +11,31 @@
 
 namespace deburr::tb {
 
-// What an environment can plant. With a link fault the harness plants it (fault_injector.h), else
-// the environment does.
+// A fault that an environment can inject. With a link_fault, the harness injects it
+// (fault_injector.h).
 struct InjectedFault {
   std::string name, meaning, link_fault{};
   std::string needs{};  // why it cannot be injected in this run; empty: it can
 };
 
-// What a memory can do wrong with request kFaultyRequest: `lost-response` and `memory-error`.
+// Faults of a memory in request kFaultyRequest: `lost-response` and `memory-error`.
 inline constexpr std::uint64_t kFaultyRequest = 20;
 std::vector<InjectedFault> memory_faults(const std::string& needs = {});
 
-// The faults that a run was given, against those that its environments know. An environment that
-// has a name of its own in the simulation ("painter") may be named in front: painter.flip-bit.
+// Matches the requested faults with those that environments declare. A name may be prefixed by the
+// environment's name in the simulation ("painter"): painter.flip-bit.
 class FaultPlan {
  public:
   explicit FaultPlan(std::vector<std::string> given) : given_(std::move(given)) {}
 
   void know(std::string_view environment, std::vector<InjectedFault> faults);
-  // Before all environments are known too, since hardware is built with it: a name that turns out
-  // to mean two faults is rejected by link_faults().
+  // May be called before all environments have declared their faults, because hardware is built
+  // with it. link_faults() rejects a name that turns out to be ambiguous.
   bool injected(std::string_view environment, std::string_view name) const;
-  // All that environments know, in their order.
+  // All declared faults, in the order of environments.
   std::vector<std::string> known_names() const;
-  // What the harness plants. ConfigError for a name that nobody knows, that two environments know,
-  // or whose fault cannot be injected.
+  // Faults that the harness injects. Throws ConfigError for an unknown name, a name that two
+  // environments declare, or a fault that cannot be injected in this run.
   std::vector<std::string> link_faults() const;
 
  private:
@@ -50,10 +50,10 @@ class FaultPlan {
   std::vector<Known> known_;
 };
 
-// Base of what an engine's environment can plant: its list, and hardware and inputs with them.
+// Base of an engine's faults: their list, and the modified hardware and inputs.
 class EngineFaults {
  public:
-  // The plan must outlive it.
+  // `plan` must outlive it.
   EngineFaults(const FaultPlan& plan, std::string environment)
       : plan_(plan), environment_(std::move(environment)) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory behind an engine's TLM-2.0 socket, as parameters by name.
+// Parameters of the memory model at an engine's TLM-2.0 socket.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct MemoryTiming {
   std::int32_t outstanding = 256;
 };
 
-// What goes wrong reads as zero, so it changes pixels.
+// Failing reads return zero, so errors change pixels.
 struct MemoryErrors {
   std::int64_t error_address = -1, error_bytes = 64;
 };
@@ -73,14 +73,14 @@ inline platform::MemoryModelParameters memory_model_parameters(const MemoryParam
   return m;
 }
 
-// What it takes at most, for a line of so many bytes.
+// Upper bound of the cycles that the memory takes for a line of this size.
 inline rtl::MemoryCycles memory_cycles(const MemoryTiming& p, std::int32_t line_bytes) {
   const std::int32_t transfer =
       p.bytes_per_cycle == 0 ? 1 : std::max(1, line_bytes / p.bytes_per_cycle);
   return {std::max(p.latency, p.latency_max), transfer};
 }
 
-// Bytes that answer with an error: [from, to).
+// Byte addresses that answer with an error: [from, to).
 struct ErrorRange {
   std::uint64_t from, to;
   bool touches(std::uint64_t address, std::uint64_t bytes) const {

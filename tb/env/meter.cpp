@@ -33,7 +33,7 @@ void Meter::add(Result& result, std::string_view name, const rtl::MemoryBase& me
 
 namespace {
 
-// What is inside a FIFO is shown under the FIFO's name, which its memory has.
+// A link inside a FIFO is shown under the FIFO's name, which its memory has.
 const sc_core::sc_object& fifo_or_link(const rtl::Engine& engine, const rtl::LinkBase& link) {
   for (const rtl::MemoryBase* memory : engine.memories())
     if (memory->high_water() && link.name() == std::string(memory->name()) + "_entries")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Base of what takes an engine's figures for a result: units, memories, counters and numbers of its
-// own, under the name that its environment has in a composition.
+// Base class that collects an engine's figures for a result: units, memories, counters and own
+// values, under its environment's name in a composition.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace deburr::tb {
 
 class Meter {
  public:
-  // That of the environment; empty: it stands alone.
+  // `name`: of the environment; empty outside a composition.
   explicit Meter(std::string name) : name_(std::move(name)) {}
 
   std::vector<PictureMap> named(std::vector<PictureMap> maps) const;
@@ -37,12 +37,12 @@ class Meter {
   void add(Result& result, std::string_view name, const rtl::Unit& unit) const;
   void add(Result& result, std::string_view name, const rtl::MemoryBase& memory, int width) const;
   static void add(Result& result, const platform::MemoryModel& memory);
-  // Units and memories of the engine, for frames of this width; 0: nothing goes with a width.
+  // Adds units and memories of the engine, for frames of this width; 0: no size depends on a width.
   void add_parts(Result& result, const rtl::Engine& engine, int width) const;
   void add_counters(Result& result, const rtl::Engine& engine) const;
-  // Units, counters, links and memory ports below it.
+  // Shows all units, counters, links and memory ports of the engine.
   void show(Observer& observer, const rtl::Engine& engine) const;
-  // A link outside of every engine, by the port that it is bound to.
+  // Shows a link outside every engine, named by the port that it is bound to.
   void show(Observer& observer, std::string_view port, const rtl::LinkBase& link) const {
     observer.see(figure(port), link);
   }
@@ -54,7 +54,7 @@ class Meter {
 inline double number(std::uint64_t value) { return static_cast<double>(value); }
 inline double ratio(double a, double b) { return b > 0 ? a / b : 0.0; }
 inline double ratio(std::uint64_t a, std::uint64_t b) { return ratio(number(a), number(b)); }
-// The clock that 60 frames a second need, in MHz.
+// Clock for 60 frames per second, in MHz.
 inline double clock_for_60(std::uint64_t frame_cycles) { return number(frame_cycles) * 60 / 1e6; }
 
 }  // namespace deburr::tb

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scoreboard of a frame that is known before it comes: compares in raster order with values that
-// stay where they are, so that a frame of millions of pixels costs neither copies nor a queue.
+// Scoreboard for a frame that is known in advance. Compares in raster order with values in place,
+// so a frame of millions of pixels needs neither copies nor a queue.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +23,8 @@ class RasterScoreboard final : public ScoreboardBase {
   RasterScoreboard(std::string name, Describe describe)
       : ScoreboardBase(std::move(name), 0), describe_(std::move(describe)) {}
 
-  // The next frame, which must stay until it has come; what is left of the one before never came.
+  // Sets the next frame, which must outlive its checks. Pixels of the previous frame that have not
+  // come count as lost.
   void expect(std::span<const Value> frame, int width) {
     if (blind()) return;
     lost_ += leftovers_here();
@@ -31,7 +32,7 @@ class RasterScoreboard final : public ScoreboardBase {
     width_ = static_cast<std::size_t>(width);
     at_ = 0;
   }
-  // The frame begins again (after a reset); comparisons so far count.
+  // Restarts the frame after a reset; comparisons so far count.
   void restart() { at_ = 0; }
 
   void got(const Value& value, std::uint64_t cycle) {
@@ -48,13 +49,14 @@ class RasterScoreboard final : public ScoreboardBase {
             describe_(value)});
     ++at_;
   }
-  // About the frame around the pixels.
+  // Reports a framing error rather than a wrong pixel.
   void complain(std::uint64_t cycle, std::size_t position, std::string field, std::string expected,
                 std::string got) {
     fail({"", fmt::format("cycle {}", cycle), pixel(position), std::move(field),
           std::move(expected), std::move(got)});
   }
-  // Goes on with another pixel: the order is broken, which is a complaint, not so many mismatches.
+  // Resynchronises at another pixel after a framing error, which then counts as one mismatch and
+  // not as many.
   void go_on_at(std::size_t position) { at_ = std::min(position, frame_.size()); }
   std::uint64_t leftovers() const override { return lost_ + leftovers_here(); }
   std::size_t position() const { return at_; }

@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// f2 before f10.
+// Natural sort order: f2 before f10.
 bool in_order(std::string_view a, std::string_view b) {
   while (!a.empty() && !b.empty()) {
     if (!is_digit(a.front()) || !is_digit(b.front())) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames in a row: a camera that moves, or files and cameras that parameters list.
+// Frame sequences: a moving camera, or files and cameras given as lists.
 #pragma once
 
 #include <cstdint>
@@ -35,25 +35,26 @@ void describe(SequenceParameters& p, Visitor& v) {
            "Camera motion: zoom (1 % per frame), roll (3 degrees), pan (1/400 of the view).");
 }
 
-// What stands between the entries of a list.
+// Separates entries of a list.
 inline constexpr char kListSeparator = ';';
 
-// Entries of a list; a text without a separator is its only one.
+// Splits a list; a text without a separator is a single entry.
 std::vector<std::string> listed(std::string_view text);
-// The same of names of files, where a pattern with *, ? or [ ] stands for the files that it
-// matches, in the order of their names, numbers in them by value. ConfigError for a pattern that
-// matches nothing. What is there under its whole name is neither list nor pattern.
+// As listed(), for file names. A pattern with *, ? or [ ] expands to the matching files in natural
+// order. Throws ConfigError for a pattern without a match. A text that is the name of an existing
+// file is neither split nor expanded.
 std::vector<std::string> listed_files(std::string_view parameter, const std::string& text);
 
-// What parameters say of each frame.
+// Per-frame values of list parameters.
 class FrameLists {
  public:
-  // ConfigError for two lists that are not equally long, and for an empty entry.
+  // Throws ConfigError if two lists differ in length, and for an empty entry.
   void add(std::string parameter, std::vector<std::string> entries);
-  // Of a parameter in a frame: its entry, or the only one.
+  // Value of a parameter in a frame: its entry, or the only one.
   const std::string& at(std::string_view parameter, int frame) const;
   int frames() const { return frames_; }
-  const std::string& longest() const { return longest_; }  // name of a list; empty: there is none
+  // Name of a list parameter; empty if there is none.
+  const std::string& longest() const { return longest_; }
 
  private:
   std::map<std::string, std::vector<std::string>, std::less<>> entries_;
@@ -61,7 +62,8 @@ class FrameLists {
   int frames_ = 1;
 };
 
-// Every file of all frames, by lists_of(), in_frame() and frame_files() of an engine's parameters.
+// Every file of all frames, using lists_of(), in_frame() and frame_files() for an engine's
+// parameters.
 template <class Parameters>
 std::vector<std::filesystem::path> files_of_frames(const Parameters& parameters,
                                                    MeshFiles& meshes) {
@@ -73,11 +75,11 @@ std::vector<std::filesystem::path> files_of_frames(const Parameters& parameters,
   return files;
 }
 
-// Eye and target of a camera under "scene.": lists too.
+// Adds eye and target of a camera, parameters "scene.*", which may be lists.
 void add_camera(FrameLists& lists, const CameraParameters& camera);
 void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame);
 
-// Counters of a run of several frames: of the golden model's pictures, and of the input.
+// Adds flicker counters of a run of several frames: of the golden model's output and of its input.
 void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before);
 
 }  // namespace deburr::tb

@@ -15,7 +15,7 @@ namespace {
 
 constexpr rtl::Cycle kResetCycles = 4;
 constexpr rtl::Cycle kReportPeriod = 4096;
-constexpr std::size_t kLostInterval = 2;  // of the fault lose-window, counted from 0
+constexpr std::size_t kLostInterval = 2;  // interval that the fault lose-window drops, from 0
 constexpr rtl::Cycle kNoLimit = rtl::Cycle{1} << 50;
 
 sc_core::sc_time clock_period(double mhz) {  // rounded to picoseconds
@@ -48,7 +48,7 @@ ScoreboardFigures& figures_named(const std::string& name, std::vector<Scoreboard
   return found != all.end() ? *found : all.emplace_back(ScoreboardFigures{name});
 }
 
-// Adds the host's time between its construction and its end, however that comes.
+// Adds the host time between construction and destruction, also if an exception ends the scope.
 class HostClock {
  public:
   HostClock(double& seconds, double& cpu_seconds) : seconds_(seconds), cpu_seconds_(cpu_seconds) {}
@@ -185,7 +185,7 @@ void Simulation::collect(Result& result) const {
   const auto sum = [&](const Environment::Boards& boards, std::uint64_t& comparisons,
                        std::uint64_t& mismatches) {
     for (const ScoreboardBase* board : boards) {
-      // What never came differs too, once all of it could have come.
+      // In a complete run, items that never came count as mismatches.
       const std::uint64_t wrong = board->mismatches() + (complete_ ? board->leftovers() : 0);
       comparisons += board->comparisons();
       mismatches += wrong;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One simulation, whatever engine it is of: clock, reset, random stalls, injected faults, waves,
-// progress, limits and time.
+// One simulation of any engine: clock, reset, random stalls, injected faults, waveforms, progress,
+// limits and times.
 //
 //   Simulation simulation(options);
 //   SomeEnvironment environment(simulation, scene, setup);
-//   simulation.elaborate(environment);    // after everything that it is made of
+//   simulation.elaborate(environment);    // after all parts have been constructed
 //   simulation.run();
 //   environment.check();
 //   simulation.collect(result);
@@ -32,30 +32,30 @@ class Environment;
 struct SimulationOptions {
   double clock_mhz = 166.67;
   std::uint64_t seed = 1;
-  std::uint32_t stall_permille = 0;  // on both sides of every link
+  std::uint32_t stall_permille = 0;  // at both ends of every link, per 1000 cycles
   bool golden = true;                // compare with the golden model
   bool shuffle = false;
   bool fast_path = true;
   bool check_links = true;
-  bool poison = false;  // fields that nobody wrote hold noise
-  // Rules are written to registers after each reset, over others that the engine is built with;
-  // else they are its reset values.
+  bool poison = false;  // fill unwritten fields with noise
+  // True: the engine is built with a different configuration, and the wanted one is written to
+  // registers after each reset. False: the wanted configuration is the reset value.
   bool program = true;
   rtl::Cycle max_cycles = 0;  // 0: no limit
   rtl::Cycle patience = 20000;
-  // Names that an environment knows, or faults of the harness (fault_injector.h).
+  // Faults of an environment by name, or faults of the harness (fault_injector.h).
   std::vector<std::string> faults;
-  rtl::Cycle reset_after = 0;  // resets once, so many cycles into the first piece; 0: never
+  rtl::Cycle reset_after = 0;  // cycle of the first piece in which one reset happens; 0: never
   std::string trace_file, trace_scope;  // empty: none
   rtl::Cycle trace_from = 0, trace_to = 2000;
-  rtl::Cycle interval_cycles = 0;  // 0: no windows
-  bool maps = false;               // pixel by pixel, what was done
-  bool coverage = false;           // bins of functional coverage, with their hits
+  rtl::Cycle interval_cycles = 0;  // length of sampling intervals; 0: none
+  bool maps = false;               // record per-pixel maps
+  bool coverage = false;           // collect functional coverage
   std::optional<TimelineOptions> timeline;
-  std::optional<PixelAddress> pixel;  // whose history is kept
+  std::optional<PixelAddress> pixel;  // pixel whose history is recorded
 };
 
-// One a process: SystemC elaborates once.
+// One per process, because SystemC elaborates once.
 class Simulation {
  public:
   explicit Simulation(const SimulationOptions& options);
@@ -65,27 +65,27 @@ class Simulation {
   rtl::ClockDomain& clock() { return clock_; }
   FaultPlan& faults() { return faults_; }
 
-  // The environment that the run is about, which must outlive the last call of anything here. The
-  // design is complete. ConfigError for faults and waves of what does not exist.
+  // Call after the design is complete. `environment` is the main one and must outlive the last call
+  // of any function here. Throws ConfigError for faults and waveform scopes that do not exist.
   void elaborate(Environment& environment);
 
-  // Called every few thousand cycles with what was delivered and taken (Environment::amount());
-  // false ends the run early.
+  // Called every few thousand cycles with the delivered and taken amounts (Environment::amount());
+  // returning false ends the run early.
   using GoOn = std::function<bool(std::uint64_t delivered, std::uint64_t taken)>;
-  // Resets, and runs every piece of work to its end. Does not throw on mismatches: that is
-  // Environment::check(). SimulationError for memory errors and broken protocols, DeadlockError for
-  // no progress, OutOfCycles for max_cycles.
+  // Resets the design and runs every piece of work to its end. Mismatches do not throw here: see
+  // Environment::check(). Throws SimulationError for memory errors and protocol violations,
+  // DeadlockError for lack of progress, OutOfCycles for max_cycles.
   void run(const GoOn& go_on = {});
 
-  bool complete() const { return complete_; }  // false when ended early
-  // Cycles of all pieces so far; of one that a reset broke off, only those behind the reset.
+  bool complete() const { return complete_; }  // false if ended early
+  // Total cycles of all pieces so far. A piece restarted by a reset counts from the reset.
   rtl::Cycle cycles() const;
-  rtl::Cycle begun() const { return begun_; }  // the clock in which the last piece began
+  rtl::Cycle begun() const { return begun_; }  // start cycle of the last piece
   std::uint64_t activations() const { return clock_.activations(); }
-  // nullptr unless asked for. Complete once run() is over, however it ended.
+  // nullptr unless enabled. Complete after run(), also after an exception.
   const IntervalRecorder* intervals() const { return intervals_.get(); }
   const Timeline* timeline() const { return timeline_.get(); }
-  // Everything measured so far, also after an exception from run().
+  // Collects all measurements so far, also after an exception from run().
   void collect(Result& result) const;
 
  private:
@@ -107,8 +107,7 @@ class Simulation {
   bool running_ = false, stopped_ = false, complete_ = false;
 };
 
-// For EngineTestbench::describe_statistics(): what an environment reports, and its faults, without
-// a run.
+// For EngineTestbench::describe_statistics(): figures and faults of an environment, without a run.
 void describe(Simulation& simulation, Environment& environment, Result& result);
 
 }  // namespace deburr::tb

@@ -16,7 +16,7 @@
 namespace deburr::tb {
 namespace {
 
-// A scope that chooses nothing is a misspelt one: the wave would come out empty.
+// A scope that matches nothing is probably misspelt: reject it instead of writing an empty trace.
 void check_scopes(const rtl::ClockDomain& clock, const rtl::TraceOptions& trace) {
   const std::vector<std::string> names = rtl::Trace::names(clock);
   for (const std::string& scope : trace.scopes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every simulation of this repository has around its design: link checkers and a watchdog
-// always; random stalls, injected faults, poison, shuffled evaluation and waves if asked for.
+// Test harness around a design. Link checkers and a watchdog are always active; random stalls,
+// injected faults, poison, shuffled evaluation order and waveform traces are optional.
 //
 //   MyDesign design("design"); Driver..., Sink..., bindings
 //   Bench bench(clock, options);               // after the design
@@ -25,28 +25,28 @@
 namespace deburr::tb {
 
 struct BenchOptions {
-  std::uint32_t stall_permille = 0;      // on both sides of every link, cycles of 1000
-  std::uint64_t seed = 1;                // of the stalls
-  std::optional<std::uint64_t> shuffle;  // evaluate units in random order, by this seed
-  rtl::Cycle patience = 100'000;         // cycles without a beat until the watchdog ends the run
-  bool check_links = true;               // protocol checkers on every link
-  bool check_widths = false;             // and every field fits its width, beat by beat
-  bool poison = false;                   // fields that nobody wrote hold noise, by the seed
+  std::uint32_t stall_permille = 0;      // stalls at both ends of every link, in cycles per 1000
+  std::uint64_t seed = 1;                // for the stalls
+  std::optional<std::uint64_t> shuffle;  // seed of a random evaluation order
+  rtl::Cycle patience = 100'000;         // cycles without any beat before the watchdog aborts
+  bool check_links = true;               // protocol checker on every link
+  bool check_widths = false;             // also check that every field fits its width
+  bool poison = false;                   // fill unwritten fields with noise (uses `seed`)
   bool fast_path = true;
   std::vector<std::string> faults;  // see Fault::parse
   std::optional<rtl::TraceOptions> trace;
-  // How far the run came and what to raise, for the error when the limit of cycles is reached.
+  // Added to the OutOfCycles error: progress so far and which limit to raise.
   std::function<std::string()> at_limit;
 };
 
 class Bench {
  public:
-  // ConfigError for faults on links and scopes of waves that do not exist.
+  // Throws ConfigError for a fault or a trace scope that matches no link or object.
   Bench(rtl::ClockDomain& clock, const BenchOptions& options = {});
 
-  // Until `done`, at most `limit` cycles; OutOfCycles if it is not done by then. Then the links
-  // must be empty (unless `drained` is false), the accounts right, and every injected fault
-  // reached. Returns the cycles it took.
+  // Runs until `done` returns true; throws OutOfCycles after `limit` cycles. Afterwards checks that
+  // links are empty (unless `drained` is false), that cycle accounts add up and that every injected
+  // fault fired. Returns the number of cycles.
   rtl::Cycle run(const std::function<bool()>& done, rtl::Cycle limit, bool drained = true);
 
   const LinkChecker* links() const { return checker_.get(); }

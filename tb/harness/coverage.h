@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage: named bins that are declared before they are hit, so that a hole is a bin
-// with no hits and not a bin that nobody thought of. A merge of runs is a sum.
+// Functional coverage. Bins are declared before they are hit, so a coverage hole shows as a bin
+// with zero hits. Runs merge by addition.
 //
-// Names are paths, "texture/cache/miss": the engine, a group of bins that look at the same thing,
-// and the bin.
+// Bin names are paths such as "texture/cache/miss": engine, coverage group, bin.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace deburr::tb {
 
-// The beginning that names of bins share, "texture/cache", and what they look at.
+// Common prefix of the group's bins ("texture/cache") and the property that the bins observe.
 struct CoverageGroup {
   std::string_view name, meaning;
 };
@@ -25,7 +24,7 @@ class Coverage {
  public:
   void declare(const std::string& bin) { bins_.emplace(bin, 0); }
 
-  // Throws CheckFailed for a bin that was not declared.
+  // Throws CheckFailed for an undeclared bin.
   void hit(const std::string& bin, std::uint64_t times = 1) {
     const auto found = bins_.find(bin);
     DEBURR_CHECK(found != bins_.end(), "coverage bin '" + bin + "' was not declared");

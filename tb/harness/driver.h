@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The two ends of a test: a Driver feeds a link, a Sink empties one, both with stalls at random.
-// A reset starts both from the beginning, with the same stalls again if they are of the seed.
+// Endpoints of a test: a Driver feeds a link and a Sink drains one, both with optional random
+// stalls. A reset restarts both, with the same stalls if these come from the seed.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace deburr::tb {
 
-// Both ends stall in `stall_permille` of 1000 cycles, by a stream of random numbers of their own.
+// Stalls in `stall_permille` of 1000 cycles. Each endpoint has its own random stream.
 struct EndOptions {
   std::uint32_t stall_permille = 0;
   std::uint64_t seed = 1;
-  // Instead: the cycles in which an end stalls, so that two benches have the same ones.
+  // Replaces random stalls by a schedule, so that two benches can stall in the same cycles.
   std::function<bool(rtl::Cycle)> stalls_at = {};
 };
 
-// The stalls of an end.
+// Stall generator of an endpoint.
 class EndStalls {
  public:
   EndStalls(EndOptions options, const char* name)
@@ -44,7 +44,7 @@ template <class T>
 class Driver final : public rtl::Unit {
  public:
   rtl::Out<T> beats_out{"beats_out"};
-  // Fills in beat number `index`; false if there is none: the end.
+  // Fills in beat number `index`; returns false at the end.
   using Generator = std::function<bool(std::uint64_t index, T& beat)>;
 
   Driver(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, EndOptions options = {})
@@ -52,10 +52,10 @@ class Driver final : public rtl::Unit {
         stalls_(std::move(options), this->name()),
         stalled_(declare_stall("random", "stalled on purpose")) {}
 
-  // Either a list, which may grow meanwhile, or a generator.
+  // Send either a list of beats, which may grow during the run, or a generator.
   void send(const T& beat) { list_.push_back(beat); }
   void send(const std::vector<T>& beats) { list_.insert(list_.end(), beats.begin(), beats.end()); }
-  // One after another that has ended goes on with the next index.
+  // A new generator continues with the next index once the previous one has ended.
   void send(Generator generator) {
     generator_ = std::move(generator);
     ended_ = false;
@@ -63,7 +63,8 @@ class Driver final : public rtl::Unit {
 
   bool done() const { return ended_ || (!generator_ && sent_ == list_.size()); }
   std::uint64_t sent() const { return sent_; }
-  std::function<void(rtl::Cycle, const T&)> on_send;  // at each push, before the link has it
+  // Called at each push, before the link takes the beat.
+  std::function<void(rtl::Cycle, const T&)> on_send;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
     if (done()) return rtl::kIdle;
@@ -107,7 +108,7 @@ class Sink final : public rtl::Unit {
         stalled_(declare_stall("random", "stalled on purpose")) {}
 
   std::function<void(rtl::Cycle, const T&)> on_beat;
-  // Keeps the beats and their cycles; on by default, off for long runs.
+  // Whether to keep all beats and their cycles. Default: on; turn it off for long runs.
   void keep(bool on) { keep_ = on; }
 
   std::uint64_t received() const { return received_; }

@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: MIT
-// A Kit: how the tests of an engine build it, give it work and see what comes of it. An engine
-// declares one, and register_suites<Kit>() (tb/unit/rtl/engine_suites.h) gives its test program the
-// suites over it: reset_suite.h, register_suite.h, stress_suite.h, register_noise.h,
-// tb/unit/rtl/token_suite.h.
+// Kit: the interface by which the shared test suites build an engine, give it work and collect the
+// outcome. Each engine declares one; register_suites<Kit>() (tb/unit/rtl/engine_suites.h)
+// instantiates the suites for it: reset_suite.h, register_suite.h, stress_suite.h,
+// register_noise.h, tb/unit/rtl/token_suite.h.
 //
-//   class Kit : public EngineKit {           // below: what it may leave out
+//   class Kit : public EngineKit {           // EngineKit has defaults of optional members
 //    public:
-//     struct Build;                          // one kind of build, of constants alone
+//     struct Build;                          // one build configuration, a literal type
 //     static const std::array<Build, N> kBuilds;
 //     static std::string text_of(const Build&);
-//     explicit Kit(const Build&, const Disturbance& = {});  // as new: without a reset
-//     explicit Kit(Random&);                 // any build, for register noise
+//     explicit Kit(const Build&, const Disturbance& = {});  // new, not yet reset
+//     explicit Kit(Random&);                 // random build, for register noise
 //     rtl::ClockDomain& clock();
 //     platform::RegisterHost& bus();
 //     rtl::Engine& engine();
 //     rtl::RegisterSection section() const;  // with the reset values of the build
 //     Bench& bench();
-//     void start(Job);                       // after a reset, or after a job that is done
-//     bool done();                           // all of it has come out
+//     void start(Job);                       // after a reset or a finished job
+//     bool done();                           // all output has been delivered
 //     Outcome outcome();                     // of the last job
-//     void expect_enough(Job);               // it has done what it is there for
+//     void expect_enough(Job);               // checks that the job met its purpose
 //     void reset(rtl::Cycle cycles);
-//     // What sticks is set, everything has counted; registers that are not to be inverted then.
+//     // Sets every sticky bit and makes every counter non-zero. kKept: registers that the
+//     // suite must not invert afterwards.
 //     void spoil();
 //     static constexpr std::array kKept;
-//     // Of register noise: accesses, cycles between two of them at most, offsets; what is done
-//     // after one: work, starts, whatever comes in.
+//     // Register noise: number of accesses, most cycles between two of them, largest offset;
+//     // disturb() runs after each access: input data, starts.
 //     static constexpr int kAccesses;
 //     static constexpr std::uint32_t kCycles, kMostOffset;
 //     static constexpr std::uint64_t kNoiseSeeds;
 //     void disturb(Random&);
-//     // Tokens of the links inside; how many of their fields have a number format, at least; a
-//     // header with a figure; builds that pages show (token_suite.h).
+//     // token_suite.h: tokens of internal links, least number of fields with a number format,
+//     // header with the pipeline figure, builds that the pages show.
 //     using Engine, Tokens = TokenList<...>;
 //     static constexpr int kFormats;
 //     static constexpr const char* kHeader;
@@ -53,46 +54,49 @@
 
 namespace deburr::tb {
 
-// kWhole is compared; kBroken is longer, and is what resets break off.
+// kWhole is compared; kBroken is longer and is interrupted by resets.
 enum class Job { kWhole, kBroken };
 
-// What a bench has around the engine.
+// Disturbances that the bench applies to the engine.
 struct Disturbance {
   BenchOptions bench = {};
-  std::uint32_t scatter = 0;  // answers of memory come up to so many cycles later
-  // The driver writes the rules after each reset to an engine that is built with others
-  // (other_configuration.h); else they are its reset values.
+  std::uint32_t scatter = 0;  // memory answers up to this many cycles late
+  // True: the engine is built with a different configuration (other_configuration.h) and the driver
+  // writes the wanted one after each reset. False: the wanted configuration is the reset value.
   bool program = false;
   sc_core::sc_time period = unit_bench::period();
 };
 
-// What a kit may leave out.
+// Defaults of optional members of a Kit.
 struct EngineKit {
-  // Its rules are registers, which Disturbance::program writes.
+  // Whether the configuration is held in registers, written if Disturbance::program is set.
   static constexpr bool kPrograms = false;
-  // Offsets beside those of the engine's table.
+  // Register offsets in addition to those in the engine's table.
   static std::vector<std::uint32_t> more_registers() { return {}; }
-  // Between the cycles at which resets are tried; after a long reset memory owes nothing.
+  // Distance of the cycles in which resets are tried. After a long reset no memory response is
+  // pending.
   static constexpr rtl::Cycle kStep = 1;
   static constexpr rtl::Cycle short_reset() { return 1; }
   static constexpr rtl::Cycle long_reset() { return 1; }
-  // Kinds of jobs that the engine does not take; starts one, runs, expects what is to be seen.
+  // Number of job kinds that the engine must reject; the function starts one, runs it and checks
+  // the rejection.
   static constexpr int kRejected = 0;
   void reject(int /*kind*/, rtl::Cycle /*cycles*/) {}
-  // These come: their input may wait in front.
+  // Announces the next jobs: their input may already wait at the engine.
   void queue(std::span<const Job> /*jobs*/) {}
-  // Of register noise; memory has answered all that garbage asked after kNoiseReset.
+  // For register noise: a reset this long outlasts every memory request that noise may have caused.
   static constexpr rtl::Cycle kNoiseReset = 2000;
   void noise_begins() {}
-  static std::string noise_ends() { return ""; }  // what is wrong by now
-  void restore() {}  // after a reset: what it leaves as the noise has loaded it
-  // The page with tables of links, wires and memories; the page with the figure, and the headers
-  // of what it draws further in.
+  // Error found at the end of a noise run; empty: none.
+  static std::string noise_ends() { return ""; }
+  void restore() {}  // after a reset: reloads state that reset keeps and noise may have changed
+  // Page with the tables of links, wires and memories; page with the pipeline figure, and the
+  // headers of sub-units that the figure shows.
   static constexpr const char *kTables = "", *kFigure = "";
   static std::vector<std::string> below() { return {}; }
 };
 
-// A list of whatever a job leaves, under a name that a failed comparison says.
+// A named list of words produced by a job; the name appears in a failed comparison.
 class NamedWords {
  public:
   explicit NamedWords(std::string name) : name_(std::move(name)) {}
@@ -100,7 +104,7 @@ class NamedWords {
   NamedWords(std::string name, const List& list) : name_(std::move(name)) {
     for (const auto& item : list) add(item);
   }
-  // Every field of a payload, an array, a number.
+  // Adds every field of a payload, an array or a number.
   template <class T>
   void add(const T& value) {
     if constexpr (rtl::HasFields<T>) {
@@ -113,9 +117,9 @@ class NamedWords {
     }
   }
   bool empty() const { return words_.empty(); }
-  // How many, and a hash.
+  // Number of words and a hash.
   std::string text() const;
-  // The first one that differs; empty if none does.
+  // Describes the first word that differs; empty if the lists are equal.
   static std::string difference(const NamedWords& was, const NamedWords& is);
   friend bool operator==(const NamedWords&, const NamedWords&) = default;
 
@@ -139,16 +143,17 @@ class NamedWords {
   std::vector<std::uint64_t> words_;
 };
 
-// What came of a job.
+// Observations of a job, grouped by their dependence on timing and history.
 struct Outcome {
-  std::vector<NamedWords> data;     // whatever was before it, and however slow things were
-  std::vector<NamedWords> counted;  // the same after any reset: sums since then, and what caches do
-  std::vector<NamedWords> cycles;   // when, from its start on, with nothing left of before
+  std::vector<NamedWords> data;     // independent of earlier jobs and of timing
+  std::vector<NamedWords> counted;  // same after any reset: counts since then, cache behaviour
+  // Cycles from the start of the job; comparable only if no earlier state remains.
+  std::vector<NamedWords> cycles;
 };
 
 enum class Compared { kData, kCounted, kAll };
 
-// What differs up to there; empty if nothing does.
+// Describes differences in all categories up to `what`; empty if equal.
 std::string difference(const Outcome& was, const Outcome& is, Compared what);
 std::string text_of(const Outcome& outcome, Compared what);
 
@@ -157,7 +162,7 @@ std::vector<std::string> state_of(Kit& kit) {
   return engine_state(kit.engine(), kit.bus(), kit.more_registers());
 }
 
-// A job from its start to its end.
+// Runs a job from start to end.
 template <class Kit>
 Outcome run_job(Kit& kit, Job job) {
   kit.start(job);

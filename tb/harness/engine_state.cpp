@@ -10,7 +10,7 @@
 namespace deburr::tb {
 namespace {
 
-// Without the name of the engine.
+// The object's name without the engine's name.
 std::string inner_name(const rtl::Engine& engine, const sc_core::sc_object& object) {
   return std::string(object.name()).substr(std::string(engine.name()).size() + 1);
 }

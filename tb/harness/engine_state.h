@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// All that can be read of an engine, to compare two of them, or one after a reset with a new one:
-// registers, counters, histograms, every unit's account of cycles, beats of links, levels of wires,
-// how full memories have been.
+// All readable state of an engine: registers, counters, histograms, cycle accounts of units, beats
+// of links, wire levels, memory high-water marks. Used to compare two engines, or one after reset
+// with a new one.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@
 
 namespace deburr::tb {
 
-// "units.filter_pipeline.busy = 12", in an order that two engines share. `more_registers` are
-// offsets beside those of the engine's table. Reads over the bus, so it changes nothing that a
-// driver could see.
+// Lines such as "units.filter_pipeline.busy = 12", in the same order for equal engines.
+// `more_registers` are offsets in addition to those in the engine's table. Registers are read over
+// the bus, so nothing that a driver can see changes.
 std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers = {});
 
-// The lines that differ, "was" first; empty if nothing does.
+// Lines that differ, those of `was` first; empty if none.
 std::string state_difference(const std::vector<std::string>& was,
                              const std::vector<std::string>& is);
 
-// Of the cycles at which resets are tried, sanitizers, which look for other faults and are ten
-// times slower, take every ninth: odd ones and even ones.
+// Sanitized builds are ten times slower and look for other faults, so they try every ninth reset
+// cycle. Nine is odd, so even and odd cycles are both covered.
 inline constexpr int kCyclesApart = kSanitized ? 9 : 1;
 
 }  // namespace deburr::tb

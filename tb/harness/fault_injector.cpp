@@ -86,7 +86,7 @@ bool FaultInjector::act(const Injected& injected, rtl::Cycle cycle) {
     link.hold_push(cycle);
     return true;
   }
-  // One push a cycle, so the beat is the newest in the link in the cycle after its push.
+  // A link takes one push per cycle, so in the cycle after its push the beat is still the newest.
   if (link.pushes() != fault.at + 1 || link.empty()) return false;
   if (fault.kind == Fault::Kind::kDrop) return link.drop_newest();
   if (fault.kind == Fault::Kind::kFlip) {
@@ -94,7 +94,7 @@ bool FaultInjector::act(const Injected& injected, rtl::Cycle cycle) {
     return true;
   }
   if (link.duplicate_newest(cycle)) return true;
-  link.hold_push(cycle);  // no room: keep it the newest until there is
+  link.hold_push(cycle);  // no space for the duplicate: block pushes until there is
   return false;
 }
 

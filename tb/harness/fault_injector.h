@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Injected faults on named links, to show that the checks can fail. A fault acts between two
-// cycles, on a beat that has been pushed and that the consumer has not seen.
+// Injects faults on named links to show that checks can fail. A fault acts between two cycles, on a
+// beat that has been pushed and that the consumer has not yet seen.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,25 @@ struct Fault {
   Kind kind;
   std::string link;  // full name
   std::uint64_t at =
-      0;  // number of the beat, from 0; kStuckReady: the cycle from which ready is low
-  std::string bit = {};  // kFlip: a field, one of its bits or the number of a bit: Payload::bit()
+      0;  // number of the beat, from 0; kStuckReady: cycle from which ready stays low
+  std::string bit = {};  // kFlip: a field, "field.bit", or a bit number: Payload::bit()
 
-  // "drop:<link>:<beat>", "duplicate:<link>:<beat>", "flip:<link>:<beat>:<field>[.<bit>]" or
-  // "flip:<link>:<beat>:<bit>", "stuck_ready:<link>:<cycle>". ConfigError if it is none of these.
+  // Parses "drop:<link>:<beat>", "duplicate:<link>:<beat>", "flip:<link>:<beat>:<field>[.<bit>]",
+  // "flip:<link>:<beat>:<bit>" or "stuck_ready:<link>:<cycle>". Throws ConfigError for anything
+  // else.
   static Fault parse(const std::string& text);
 };
 
 class FaultInjector final : public rtl::Clocked {
  public:
-  // ConfigError if there is no such link, or no such field or bit in it. Construct it after the
-  // design.
+  // Construct it after the design. Throws ConfigError if the link, or the field or bit in it, does
+  // not exist.
   FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& faults);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override {}
   std::size_t fired() const;
-  // Throws SimulationError if a fault was never reached: such a run has shown nothing.
+  // Throws SimulationError if a fault never fired: the run then proves nothing.
   void check_fired() const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linked into every test: what a test expects in a child process (forked.h) fails the test.
+// Linked into every test program: a failed expectation in a child process (forked.h) fails the
+// test.
 #include <gtest/gtest.h>
 
 #include "tb/base/forked.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Several simulations in one test: SystemC elaborates once a process.
+// Runs several simulations in one test; SystemC allows one elaboration per process.
 #pragma once
 
 #include <exception>
@@ -10,7 +10,7 @@
 
 namespace deburr::tb {
 
-// The text that a simulation in a process of its own gives back, its exceptions included.
+// Runs `simulation` in a child process and returns its text, or the text of its exception.
 inline std::string in_child(const std::function<std::string()>& simulation) {
   try {
     return forked_text(simulation);

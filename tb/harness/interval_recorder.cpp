@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Puts a value where its dotted key says: "units.filter_pipeline.busy".
+// Stores a value under a dotted key such as "units.filter_pipeline.busy".
 void put(Json& root, const std::string& key, Json value) {
   Json* node = &root;
   std::size_t from = 0;
@@ -36,7 +36,7 @@ IntervalRecorder::IntervalRecorder(rtl::ClockDomain& clock, const IntervalOption
   clock.add_after(*this);
 }
 
-// ---- what is watched ----------------------------------------------------------------------------
+// ---- setup --------------------------------------------------------------------------------------
 
 void IntervalRecorder::add(std::string key, std::string unit,
                            std::function<std::uint64_t()> total) {
@@ -50,7 +50,7 @@ void IntervalRecorder::add_largest(std::string key, std::string unit, std::uint6
 void IntervalRecorder::see(const std::string& name, const rtl::Unit& unit,
                            const std::vector<std::string>& activities) {
   rtl::check_owned(clock_, unit);
-  // Several codes may count as the same.
+  // Key by activity code; several codes may share a key.
   std::vector<std::string> keys;
   for (const std::string& key : activities)
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
@@ -176,7 +176,7 @@ void IntervalRecorder::reset() {
   begin_ = end_ = 0;
 }
 
-// ---- what was seen ------------------------------------------------------------------------------
+// ---- results ------------------------------------------------------------------------------------
 
 std::vector<IntervalRecorder::Series> IntervalRecorder::series() const {
   std::vector<Series> all;

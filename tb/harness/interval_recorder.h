@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Cuts a run into windows of equal length and keeps what was counted in each: every activity of
-// every unit, every counter, beats and occupancy of links, transactions in flight. From the
-// counters that are there anyway, by their difference from one window's end to the next; only
-// occupancy is looked at in every clock.
+// Divides a run into sampling intervals of equal length and records the counts of each: activities
+// of units, counters, beats and occupancy of links, memory transactions in flight. Counts are
+// differences of existing counters between interval ends; only occupancy is sampled every cycle.
 //
 //   IntervalRecorder recorder(clock, {.cycles = 1000});   // after the design
 //   environment.show_parts(recorder);
 //   ... run ...
 //   recorder.finish();
 //
-// Memory is bounded: with `most` windows, neighbours become one and windows are twice as long from
-// then on. A reset of the clock domain forgets all windows, as it forgets all counters.
+// Memory is bounded: when `most` intervals are full, neighbours are merged and later intervals are
+// twice as long. A reset of the clock domain clears all intervals, as it clears all counters.
 #pragma once
 
 #include <cstddef>
@@ -29,19 +28,19 @@ namespace deburr::tb {
 
 struct IntervalOptions {
   rtl::Cycle cycles = 1000;
-  std::size_t most = 1024;          // windows; even
-  std::optional<std::size_t> lose;  // a fault: forgets what this window counted
+  std::size_t most = 1024;          // largest number of intervals; even
+  std::optional<std::size_t> lose;  // fault: discards the counts of this interval
 };
 
 class IntervalRecorder final : public rtl::Clocked, public Observer {
  public:
-  // What was counted in each window under a key, "units.tag_stage.stalls.fifo_full".
+  // Counts of each interval under one key, such as "units.tag_stage.stalls.fifo_full".
   struct Series {
     std::string key, unit;
-    bool largest = false;  // the largest value in the window, else a sum
+    bool largest = false;  // maximum over the interval instead of a sum
     std::vector<std::uint64_t> values;
   };
-  // Of a link: cycles by the number of beats inside at their end, from 0 to its depth.
+  // For a link: number of cycles by occupancy at the end of the cycle, from 0 to its depth.
   struct Occupancy {
     std::string name, full_name;
     std::uint64_t beats = 0;  // pushed
@@ -59,23 +58,23 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
-  // The run is over: the last window is as long as it is. Once.
+  // Ends the run and closes the last, possibly shorter interval. Call once.
   void finish();
 
   rtl::Cycle interval_cycles() const { return interval_; }
   const std::vector<rtl::Cycle>& from() const { return from_; }
   const std::vector<rtl::Cycle>& cycles() const { return cycles_; }
-  // Without counters that are no sums: a largest value, or one that begins anew within the run.
+  // Excludes counters that are not sums: maxima, and counters that restart within a run.
   std::vector<Series> series() const;
   std::vector<Occupancy> occupancy() const;
-  // The file intervals.json (docs/reference/statistics.md).
+  // Content of intervals.json (docs/reference/statistics.md).
   nlohmann::ordered_json json() const;
 
  private:
   struct Counted {
     Series series;
     std::function<std::uint64_t()> total;  // since reset
-    std::uint64_t before = 0;              // the total at the end of the last window
+    std::uint64_t before = 0;              // total at the end of the previous interval
     const rtl::Counter* counter = nullptr;
     bool restarts = false;
   };
@@ -83,13 +82,13 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
     const rtl::LinkBase* link;
     std::string name;
     std::uint64_t occupied = 0;  // beats x cycles
-    std::uint64_t most = 0;      // in this window
+    std::uint64_t most = 0;      // in this interval
     std::vector<std::uint64_t> cycles;
   };
   struct WatchedPort {
     const rtl::MemoryPort* port;
     std::uint64_t outstanding = 0;  // transactions x cycles
-    std::uint64_t most = 0;         // in this window
+    std::uint64_t most = 0;         // in this interval
   };
   struct Largest {
     Series series;
@@ -102,11 +101,11 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
 
   const rtl::ClockDomain& clock_;
   IntervalOptions options_;
-  rtl::Cycle interval_, begin_ = 0, end_ = 0;  // of the window that is being counted
+  rtl::Cycle interval_, begin_ = 0, end_ = 0;  // of the current interval
   bool begun_ = false;
   std::vector<Counted> counted_;
   std::vector<Largest> largest_;
-  // Places are kept: what is counted refers to them.
+  // Held by pointer: observers keep references to the elements.
   std::vector<std::unique_ptr<WatchedLink>> links_;
   std::vector<std::unique_ptr<WatchedPort>> ports_;
   std::vector<ThroughputSeries> throughput_;

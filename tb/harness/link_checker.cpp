@@ -30,7 +30,7 @@ inline Word word(const std::byte* at) {
   return value;
 }
 
-// kBytes, a multiple of 4.
+// Compares kBytes bytes; kBytes is a multiple of 4.
 template <std::size_t kBytes>
 inline bool differ(const std::byte* a, const std::byte* b) {
   std::uint64_t difference = 0;
@@ -41,7 +41,7 @@ inline bool differ(const std::byte* a, const std::byte* b) {
   return difference != 0;
 }
 
-constexpr std::size_t kLargest = 128;  // bytes of the beats that have a follower of their own
+constexpr std::size_t kLargest = 128;  // largest payload, in bytes, with its own template instance
 
 }  // namespace
 
@@ -62,7 +62,7 @@ LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool 
     watched.copies = std::make_unique<std::byte[]>(ring_bytes);
     watched.follow = widths ? &LinkChecker::follow<true> : follower_of(link.payload_bytes());
     adopt(watched);
-    // A beat that is there already is taken as it is.
+    // A beat that is already in the link is recorded as it is.
     for (std::uint64_t n = link.pops(); n < link.pushes(); ++n)
       std::memcpy(&watched.copies[place_of(watched, n)], link.beat(n), link.payload_bytes());
     watched_.push_back(std::move(watched));
@@ -130,7 +130,7 @@ void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
       before + pushed > link.depth() || before < popped)
     reject_counts(w, cycle);
   if (popped) {
-    // All bytes first: the list of fields is needed for the text only.
+    // Compare raw bytes first; fields are listed only for the error message.
     if (std::memcmp(w.expected(), w.oldest(), link.payload_bytes()) != 0) reject_change(w, cycle);
     w.head = w.after(w.head);
     ++w.pops;
@@ -143,7 +143,7 @@ void LinkChecker::follow(Watched& w, rtl::Cycle cycle) {
   }
 }
 
-// The places of the next push and pop are the same if the link is empty, or if it is full.
+// The next push and the next pop use the same slot if the link is empty or full.
 template <std::size_t kBytes>
 void LinkChecker::follow_beats(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
@@ -164,8 +164,7 @@ void LinkChecker::follow_beats(Watched& w, rtl::Cycle cycle) {
   }
 }
 
-// A beat comes and another one goes: then the link was neither empty nor full, so that the places
-// of the two are different ones.
+// A push and a pop in the same cycle: the link was neither empty nor full, so their slots differ.
 template <std::size_t kBytes>
 void LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;
@@ -183,8 +182,8 @@ void LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
 rtl::Activity LinkChecker::tick(rtl::Cycle cycle) {
   for (Watched& watched : watched_) {
     const rtl::LinkBase& link = *watched.link;
-    // Most links rest in most cycles, and nothing has happened to those behind anyone's back. A
-    // push may have been in the place of a beat that was taken back; a pop always counts.
+    // Most links are idle in most cycles. A push that replaces a revoked beat leaves the count
+    // unchanged, so last_push() is checked too; a pop always counts.
     const bool rests =
         link.pushes() == watched.pushes && link.pops() == watched.pops && link.last_push() != cycle;
     if (!rests) watched.follow(watched, cycle);

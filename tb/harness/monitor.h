@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Watches one link without touching it: calls back at each push and pop, at the end of the cycle.
+// Passive monitor of one link: calls back for each push and pop at the end of the cycle.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a design shows to whoever watches it run: its units, counters, links and memory ports, each
-// under the name that results know it by. An environment lists them once
-// (Environment::show_parts()), for all who watch.
+// Interface by which a design presents its observable parts: units, counters, links and memory
+// ports, each under its name in the results. Environment::show_parts() lists them once for all
+// observers.
 #pragma once
 
 #include <string>
@@ -14,17 +14,16 @@
 
 namespace deburr::tb {
 
-// A rate that a reader looks at: what a counter counts, over cycles.
+// A rate to plot: increments of a counter per cycle.
 struct ThroughputSeries {
   std::string label, counter, unit;  // counter: its name; unit: of the rate
-  double bound = 0;                  // a clock; 0: no such bound
+  double bound = 0;                  // upper bound per cycle; 0: none
 };
 
 class Observer {
  public:
   virtual ~Observer() = default;
-  // `activities`: by activity code, what results count such a cycle as: "busy", "idle" or
-  // "stalls.CAUSE".
+  // `activities`: result key for each activity code: "busy", "idle" or "stalls.CAUSE".
   virtual void see(const std::string& /*name*/, const rtl::Unit&,
                    const std::vector<std::string>& /*activities*/) {}
   virtual void see(const std::string& /*name*/, const rtl::Counter&) {}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Other rules than those of a run: an engine whose rules are to be programmed is built with them,
-// so that a rule shows that software does not write, or that a unit takes from its constructor.
+// Builds a configuration that differs from the wanted one in every parameter. An engine built with
+// it exposes a register that software does not write, and a unit that takes a value from its
+// constructor.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +13,8 @@
 
 namespace deburr::tb {
 
-// A visitor of describe() (spec/parameters.h): every parameter gets another value of its range, but
-// those in `kept`, by their names.
+// Visitor of describe() (spec/parameters.h): gives every parameter not named in `kept` another
+// value of its range.
 class OtherConfiguration {
  public:
   explicit OtherConfiguration(std::span<const std::string_view> kept = {}) : kept_(kept) {}

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Linked into every test: each TEST of a process gets a simulation context of its own, where ctest
-// starts a process for several of them (cmake/discover_tests.py) or a debugger runs a whole
-// program. IEEE 1666 knows one elaboration a process; Debian's kernel makes a context where there
-// is none.
+// Linked into every test program: gives each TEST its own simulation context when several run in
+// one process (cmake/discover_tests.py, or a debugger). IEEE 1666 allows one elaboration per
+// process; Debian's kernel creates a new context if none exists.
 #include <gtest/gtest.h>
 
 #include <vector>
 
-// As <sysc/kernel/sc_simcontext.h> declares them; null addresses in a program without SystemC.
+// As declared in <sysc/kernel/sc_simcontext.h>; null addresses in a program without SystemC.
 namespace sc_core {
 class sc_simcontext;
 extern sc_simcontext* sc_curr_simcontext __attribute__((weak));
@@ -19,9 +18,9 @@ namespace {
 
 class OwnSimulation : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo& /*info*/) override {
-    // Kept, with its processes and events, as at the end of a process: LeakSanitizer reports what
-    // none holds. What SystemC keeps elsewhere lasts: counts and actions of reports, the mode of
-    // sc_stop(), the last process made.
+    // Ended contexts are kept with their processes and events, as at process exit; otherwise
+    // LeakSanitizer reports them. Other SystemC state persists: counts and actions of reports, the
+    // mode of sc_stop(), the last process created.
     static auto& ended = *new std::vector<sc_core::sc_simcontext*>;
     ended.push_back(sc_core::sc_curr_simcontext);
     sc_core::sc_curr_simcontext = nullptr;

@@ -26,7 +26,7 @@ void Poison::fill_empty(Poisoned& p) {
     link.payload().fill(link.beat(beat), p.random.next());
 }
 
-// Between two cycles: the slots whose beats have been popped in the last one.
+// Between cycles: poisons the slots of beats popped in the last cycle.
 rtl::Activity Poison::tick(rtl::Cycle) {
   for (Poisoned& p : poisoned_)
     for (; p.pops < p.link->pops(); ++p.pops, ++slots_)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Fills what nobody has written: a slot of a link carries a bad pattern in every field, masked to
-// the field's width, from the clock after its beat was popped until it is refilled. A producer that
-// leaves a field out, or a consumer that looks at a beat once more after its pop, then reads noise
-// that changes with every beat and field instead of a plausible old value. A link whose payload
-// does not list its fields is rejected.
+// Fills unwritten link slots with noise: from the cycle after a beat is popped until the slot is
+// refilled, every field holds a bad pattern, masked to its width. A producer that omits a field, or
+// a consumer that reads a beat after its pop, then sees noise instead of a plausible old value.
+// Rejects a link whose payload does not list its fields.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +17,19 @@ namespace deburr::tb {
 
 class Poison final : public rtl::Clocked {
  public:
-  // All links whose full name matches the glob and that exist now: construct it after the design,
-  // and before anything else that acts on links.
+  // Covers all existing links whose full name matches the glob. Construct it after the design and
+  // before anything else that modifies links.
   Poison(rtl::ClockDomain& clock, std::uint64_t seed, const std::string& glob = "*");
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
-  std::uint64_t slots() const { return slots_; }  // filled so far
+  std::uint64_t slots() const { return slots_; }  // poisoned so far
 
  private:
   struct Poisoned {
     rtl::LinkBase* link;
     Random random;
-    std::uint64_t pops = 0;  // of the beats whose slots are poisoned
+    std::uint64_t pops = 0;  // pops whose slots are already poisoned
   };
   void fill_empty(Poisoned& poisoned);
   std::uint64_t seed_;

@@ -41,7 +41,7 @@ ProtocolTarget::Attributes ProtocolTarget::attributes_of(const Payload& payload)
           payload.get_byte_enable_length()};
 }
 
-// ---- what the initiator sends ---------------------------------------------------------------
+// ---- initiator to target -------------------------------------------------------------------
 
 tlm::tlm_sync_enum ProtocolTarget::forward(Payload& payload, tlm::tlm_phase& phase,
                                            sc_time& delay) {
@@ -63,7 +63,7 @@ tlm::tlm_sync_enum ProtocolTarget::forward(Payload& payload, tlm::tlm_phase& pha
   return tlm::TLM_COMPLETED;
 }
 
-// False for what no memory can be asked.
+// Returns false for a request that no memory can serve.
 bool ProtocolTarget::check_payload(const Payload& payload) {
   const std::size_t before = violations_.size();
   if (!payload.has_mm())
@@ -84,7 +84,7 @@ bool ProtocolTarget::check_payload(const Payload& payload) {
 void ProtocolTarget::check_unchanged(const Payload& payload, const Transaction& transaction) {
   if (attributes_of(payload) != transaction.attributes)
     complain(payload, "attributes changed before the response");
-  if (payload.get_ref_count() < 2)  // one is the target's
+  if (payload.get_ref_count() < 2)  // the target holds one reference itself
     complain(payload, "the initiator gave its reference up before the response");
 }
 
@@ -141,7 +141,7 @@ tlm::tlm_sync_enum ProtocolTarget::begin(Payload& payload, tlm::tlm_phase& phase
   return tlm::TLM_ACCEPTED;
 }
 
-// ---- what the target sends ------------------------------------------------------------------
+// ---- target to initiator ---------------------------------------------------------------------
 
 void ProtocolTarget::due(Payload& payload, const tlm::tlm_phase& when) {
   if (when == tlm::END_REQ) {

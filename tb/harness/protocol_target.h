@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A front of a memory for tests: a target that answers in a chosen one of the ways of TLM-2.0's
-// base protocol, and checks that its initiator keeps to that protocol.
+// Memory front end for tests: a TLM-2.0 target that answers in a chosen legal style of the base
+// protocol and checks that the initiator follows the protocol.
 //
 //   engine ─► ProtocolTarget ─► MemoryModel (b_transport: data, status and latency)
 //
-// All that it sends is legal: one response at a time, none before the last one has ended. A target
-// must accept every end of a response that the protocol allows, and many do not. One that does not
-// accept an end ignores it: the response stays open, and no other one ever begins.
+// Everything it sends is legal: one response at a time, none before the previous one has ended. A
+// target must accept every way of ending a response that the protocol allows, but many do not.
+// `AcceptedEnds` models one that ignores some: the response then stays open and no other begins.
 #pragma once
 
 #include <tlm_utils/peq_with_cb_and_phase.h>
@@ -27,14 +27,14 @@ namespace deburr::tb {
 
 enum class Answer : std::uint8_t {
   kFourPhases,     // END_REQ and BEGIN_RESP by calls
-  kEndRequest,     // END_REQ in the return from BEGIN_REQ, BEGIN_RESP by a call
-  kNoEndRequest,   // BEGIN_RESP by a call, which ends the request too
-  kAnnotated,      // the same, called early with a delay
-  kBeginResponse,  // BEGIN_RESP in the return from BEGIN_REQ; END_RESP must be a call
+  kEndRequest,     // END_REQ as return from BEGIN_REQ, BEGIN_RESP by a call
+  kNoEndRequest,   // BEGIN_RESP by a call, which also ends the request
+  kAnnotated,      // as kNoEndRequest, but called early with an annotated delay
+  kBeginResponse,  // BEGIN_RESP as return from BEGIN_REQ; END_RESP must be a call
   kComplete        // TLM_COMPLETED from BEGIN_REQ
 };
 
-// Ends of a response that was begun by a call.
+// Accepted ways to end a response that was begun by a call.
 struct AcceptedEnds {
   bool updated = true;    // TLM_UPDATED with END_RESP
   bool completed = true;  // TLM_COMPLETED
@@ -44,7 +44,7 @@ struct AcceptedEnds {
 struct ProtocolTargetParameters {
   Answer answer = Answer::kFourPhases;
   AcceptedEnds accepts{};
-  sc_core::sc_time request_time{};  // from BEGIN_REQ to END_REQ, where END_REQ is sent
+  sc_core::sc_time request_time{};  // from BEGIN_REQ to END_REQ, if END_REQ is sent
 };
 
 class ProtocolTarget final : public sc_core::sc_module {
@@ -57,9 +57,9 @@ class ProtocolTarget final : public sc_core::sc_module {
   std::uint64_t begun() const { return begun_times_.size(); }
   std::uint64_t ended() const { return ended_; }
   const std::vector<sc_core::sc_time>& begun_times() const { return begun_times_; }
-  // What the initiator did against the protocol, a sentence each.
+  // Protocol violations by the initiator, one sentence each.
   const std::vector<std::string>& violations() const { return violations_; }
-  // Payloads to which somebody still holds a reference. The initiator must still have all of them.
+  // Number of payloads with references still held. The initiator must still own all of them.
   std::size_t referenced() const;
 
  private:
@@ -92,11 +92,12 @@ class ProtocolTarget final : public sc_core::sc_module {
 
   ProtocolTargetParameters parameters_;
   tlm_utils::peq_with_cb_and_phase<ProtocolTarget> queue_{this, &ProtocolTarget::due};
-  std::map<const Payload*, Transaction> transactions_;  // from BEGIN_REQ to their end
+  // From BEGIN_REQ to the end of the transaction.
+  std::map<const Payload*, Transaction> transactions_;
   std::set<const Payload*> seen_;
   const Payload* requesting_ = nullptr;  // BEGIN_REQ without END_REQ
   Payload* responding_ = nullptr;        // BEGIN_RESP without END_RESP
-  std::deque<Payload*> ready_;           // wait until a response may begin
+  std::deque<Payload*> ready_;           // waiting for their response phase
   sc_core::sc_time request_free_, response_free_, response_begun_;
   sc_core::sc_event response_may_begin_;
   std::vector<sc_core::sc_time> begun_times_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A host gone wild: writes and reads of any registers with any values, in any clock. What an engine
-// does with them is its own affair, but it must not crash, nor break a protocol, and a reset must
-// bring it back.
+// Random register accesses: reads and writes of any register with any value in any cycle. The
+// engine's results are not checked, but it must not crash or violate a protocol, and a reset must
+// restore it.
 #pragma once
 
 #include <unistd.h>
@@ -30,13 +30,13 @@ class RegisterNoise {
                 std::uint32_t most_offset)
       : random_(seed), table_(table), most_offset_(most_offset) {}
 
-  // One access. Most go to registers that exist.
+  // One access, mostly to a register that exists.
   void access(platform::RegisterHost& host) {
     const std::uint32_t at = offset();
     if (random_.chance(150)) {
       try {
         host.read(at);
-      } catch (const spec::SimulationError&) {  // no such register: rejected, as it should be
+      } catch (const spec::SimulationError&) {  // no such register: rejected as expected
       }
       return;
     }
@@ -74,8 +74,8 @@ class RegisterNoise {
   std::uint32_t most_offset_;
 };
 
-// What every engine must do with such a host: crash never, hang never, and after a reset do its
-// work as a new engine does. Its Kit (engine_kit.h) is drawn from a Random.
+// Requirements for every engine under register noise: no crash, no hang, and after a reset the same
+// results as a new engine. The Kit (engine_kit.h) is constructed from a Random.
 template <class Kit>
 std::string left_by_noise(std::uint64_t seed) {
   Random random(seed);
@@ -101,9 +101,9 @@ std::string left_by_noise(std::uint64_t seed) {
   return again == fresh ? "" : "expected\n" + fresh + "got\n" + again;
 }
 
-// `work` for one seed after another, each in a process of its own, until it says something: at
-// least `seeds`, and on until DEBURR_FUZZ_SECONDS are over where that is set; with DEBURR_FUZZ_SEED
-// for that one alone. Returns the first complaint with its seed; a crash and a hang are complaints.
+// Runs `work` for consecutive seeds, each in its own process, until one returns a complaint: at
+// least `seeds` of them, or for DEBURR_FUZZ_SECONDS if that is set. DEBURR_FUZZ_SEED selects a
+// single seed. Returns the first complaint with its seed; a crash or a hang is a complaint.
 inline std::string first_complaint(std::uint64_t seeds,
                                    const std::function<std::string(std::uint64_t)>& work) {
   using Clock = std::chrono::steady_clock;

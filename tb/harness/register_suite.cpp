@@ -20,12 +20,12 @@ namespace {
 
 using Response = tlm::tlm_response_status;
 
-// ---- the file
+// ---- SystemRDL file
 
 struct FileField {
   std::string name;
   unsigned high = 0, low = 0;
-  std::set<std::string> properties;  // without those that are texts
+  std::set<std::string> properties;  // without text properties
   std::optional<std::uint32_t> reset;
 
   bool has(const std::string& property) const { return properties.contains(property); }
@@ -62,7 +62,7 @@ struct FileRegister {
   std::uint32_t changing() const {
     return bits([](auto& f) { return f.hardware_writes(); });
   }
-  // What a write of `value` makes of what a read gave before it.
+  // Value read after a write of `value`, given the value read before.
   std::uint32_t after(std::uint32_t before, std::uint32_t value) const {
     const std::uint32_t kept = writable() & readable() & ~commands() & ~cleared();
     return (before & ~kept & ~(value & cleared())) | (value & kept);
@@ -93,7 +93,7 @@ FileField field_of(const std::smatch& match) {
 
 const std::regex kField(R"( *field \{ (.*) \} \\?(\w+)\[(\d+):(\d+)\]( = \d+'h([0-9A-F]+))?;)");
 
-// One address map, a line at a time, as it is printed.
+// Parses one address map, line by line, as it is printed.
 FileMap read_file(const std::string& text) {
   static const std::regex kRegister(R"( *\} (\w+) @ 0x([0-9A-F]+);)"),
       kRepeated(R"( *\} (\w+)\[(\d+)\] @ 0x([0-9A-F]+) \+= 0x([0-9A-F]+);)");
@@ -142,9 +142,9 @@ class Comparison {
       else
         try_writes(offset, info);
       try_widths(offset, info);
-      if (!wrong_.empty()) return wrong_;  // the first register that differs
+      if (!wrong_.empty()) return wrong_;  // stop at the first register that differs
     }
-    // A reset takes every register back from another value.
+    // A reset restores every register from another value.
     for (const auto& [offset, info] : map_)
       if (info.writable() != 0) write(offset, info, ~read(offset, info) & ~info.commands());
     hardware_.reset();
@@ -170,7 +170,7 @@ class Comparison {
     if (expected != got)
       say(info, fmt::format("{}: {:#x} by the file, {:#x} in the hardware", when, expected, got));
   }
-  // A register with nothing to read rejects a read, and counts as 0.
+  // A register without readable fields rejects a read; counts as 0.
   std::uint32_t read(std::uint32_t offset, const FileRegister& info) {
     try {
       const std::uint32_t value = hardware_.read(offset);
@@ -199,7 +199,7 @@ class Comparison {
     }
   }
 
-  // Where the file has no register, there is none.
+  // Offsets that the file does not list have no register.
   void find_holes() {
     for (std::uint32_t offset = 0; offset < map_.rbegin()->first + 64; offset += 4)
       if (!map_.contains(offset) && hardware_.write(offset, 0) != tlm::TLM_ADDRESS_ERROR_RESPONSE)
@@ -211,7 +211,7 @@ class Comparison {
     for (const std::uint32_t value : {~std::uint32_t{0}, std::uint32_t{0}, ~before}) {
       const Response response = hardware_.write(offset, value);
       expect(info, "after a write to what is read only", before, read(offset, info));
-      // A register of something that is not built takes writes and reads 0.
+      // A register of an option that is not built accepts writes and reads 0.
       if (response != tlm::TLM_COMMAND_ERROR_RESPONSE &&
           (response != tlm::TLM_OK_RESPONSE || before != 0))
         say(info, fmt::format("read only by the file; a write is answered with {}",
@@ -226,13 +226,13 @@ class Comparison {
     const bool shared = (info.changing() & info.writable()) != 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::uint32_t value = values[i] & ~info.commands(), before = read(offset, info);
-      // Of the others too, at first, and always where hardware joins in.
+      // Compare the other registers in the first rounds, and always where hardware may change them.
       const bool all = i < 2 || shared;
       const std::map<std::uint32_t, std::uint32_t> others = all ? read_others(offset) : kNone;
       write(offset, info, value);
       const auto changed = all ? compare_others(info, others) : kNone;
       const std::uint32_t expected = info.after(before, value);
-      // What hardware has changed with the write is put back, so that what was written can be read.
+      // Undo changes by hardware, so that the written value can be read back.
       if (read(offset, info) != expected)
         for (const auto& [other, was] : changed) write(other, map_.at(other), was);
       expect(info, fmt::format("after a write of {:#x}", value), expected, read(offset, info));
@@ -252,7 +252,8 @@ class Comparison {
       if (other != offset) values[other] = read(other, info);
     return values;
   }
-  // A write changes others where hardware may: those that software can put back, as they were.
+  // Checks that a write changes no other register, except where hardware may; restores those that
+  // software can.
   std::map<std::uint32_t, std::uint32_t> compare_others(
       const FileRegister& written, const std::map<std::uint32_t, std::uint32_t>& before) {
     std::map<std::uint32_t, std::uint32_t> changed;
@@ -267,7 +268,7 @@ class Comparison {
     return changed;
   }
 
-  // Words alone, and no byte enables.
+  // Only aligned words without byte enables are accepted.
   void try_widths(std::uint32_t offset, const FileRegister& info) {
     const std::uint32_t before = read(offset, info);
     const auto answered = [&](unsigned bytes, bool enables, std::uint32_t at, Response expected) {
@@ -287,13 +288,13 @@ class Comparison {
     const std::uint32_t before = read(offset, info);
     write(offset, info, before | field.mask());
     expect(info, fmt::format("after the command {}", field.name), before, read(offset, info));
-    // It is over with the write, and does not stay.
+    // The pulse lasts only for the write and is not stored.
     expect(info, fmt::format("for the hardware after {}", field.name), 0,
            hardware_.seen(offset) & field.mask());
     hardware_.reset();
   }
 
-  // Whatever hardware sets stays until a one is written to it, alone; the interrupt says so.
+  // A bit set by hardware stays set until a one is written to it; the interrupt follows it.
   void try_sticky(std::uint32_t offset, const FileRegister& info, const FileField& field) {
     hardware_.reset();
     const std::uint32_t idle = read(offset, info);
@@ -314,7 +315,7 @@ class Comparison {
            info.after(set, field.mask()), read(offset, info));
     if (hardware_.interrupt() != (sets && !field.clears()))
       say(info, fmt::format("the interrupt with {} cleared", field.name));
-    // A one clears no other.
+    // Writing a one clears no other bit.
     const std::uint32_t all = info.bits([](auto& f) { return f.has("hwset"); });
     hardware_.set_sticky(all);
     write(offset, info, field.mask());
@@ -358,7 +359,7 @@ class Comparison {
     }
   }
 
-  // Of what is read only hardware changes what the file says; of the rest, what sticks.
+  // After every hardware event, read-only fields have changed only where the file allows it.
   void try_provoked() {
     hardware_.reset();
     const std::map<std::uint32_t, std::uint32_t> before = read_others(~std::uint32_t{0});
@@ -403,8 +404,7 @@ std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& 
       if (const std::size_t found = line.find(before); found != std::string::npos)
         add(std::string(line).replace(found, before.size(), after));
     };
-    // A command reads as 0 like a field that is not read; of what is read only and 0 no bit is
-    // seen.
+    // A command field reads as 0, like a write-only one. A read-only field that is 0 shows no bits.
     const bool is_command = field.has("singlepulse"),
                is_zero = !field.software_writes() && !field.reset.value_or(0);
     replaced("sw = rw;", "sw = r;");
@@ -422,7 +422,7 @@ std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& 
       add(std::string(line).replace(static_cast<std::size_t>(match.position(6)),
                                     static_cast<std::size_t>(match.length(6)),
                                     fmt::format("{:X}", *field.reset ^ 1)));
-    // Nothing sets the bit of memory's errors in a build without memory.
+    // In a build without memory nothing sets the memory_error bit.
     if (!is_zero && !is_command && field.name != "memory_error") add("");
   }
   return wrong;
@@ -463,7 +463,7 @@ std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(
       return right.write(offset, offset == status ? 0 : value);
     };
   });
-  // Reads of what `takes` gives what was written last.
+  // Makes reads of the registers that `takes` selects return the last written value.
   const auto shadowed = [&](RegisterHardware& h, const auto& takes, std::uint32_t bits) {
     const auto last = std::make_shared<std::map<std::uint32_t, std::uint32_t>>();
     h.write = [right, last, takes](std::uint32_t offset, std::uint32_t value) {

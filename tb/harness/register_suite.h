@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The registers of an engine against the SystemRDL that is exported of them: a reader of the file's
-// text and a host at the bus try each field's access, reset value and side effects in every build
-// of a Kit (engine_kit.h). Neither reads the rows of spec/, of which file and hardware are made.
+// Checks the registers of an engine against its exported SystemRDL file. A parser of the file and a
+// host at the bus check access, reset value and side effects of each field, in every build of a Kit
+// (engine_kit.h). Neither uses the tables in spec/ from which file and hardware are made.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,30 +20,30 @@
 
 namespace deburr::tb {
 
-// The hardware as software and the units of the engine have it.
+// The hardware's registers as software and as the engine's units see them.
 struct RegisterHardware {
-  std::function<std::uint32_t(std::uint32_t offset)> read;  // SimulationError: rejected
+  std::function<std::uint32_t(std::uint32_t offset)> read;  // throws SimulationError if rejected
   std::function<tlm::tlm_response_status(std::uint32_t offset, std::uint32_t value)> write;
-  // A write of so many bytes, with or without byte enables.
+  // A write of `bytes` bytes, with or without byte enables.
   std::function<tlm::tlm_response_status(std::uint32_t offset, unsigned bytes, bool enables)>
       write_bytes;
   std::function<void()> reset;
   std::function<void()> begin_job;
   std::function<bool(const std::function<bool()>& done)> run_until;
-  std::function<void()> provoke;                            // whatever sticks, and counts
-  std::function<void(std::uint32_t bits)> set_sticky;       // of STATUS
-  std::function<std::uint32_t(std::uint32_t offset)> seen;  // by the units, after a write
+  std::function<void()> provoke;  // sets every sticky bit and advances every counter
+  std::function<void(std::uint32_t bits)> set_sticky;       // in STATUS
+  std::function<std::uint32_t(std::uint32_t offset)> seen;  // value seen by units after a write
   std::function<bool()> interrupt;
 };
 
-// What the hardware does that the file does not say, and the other way round; empty: nothing. The
-// fields that were tried are counted.
+// Differences between hardware and file, in either direction; empty if they agree. Also counts the
+// fields checked.
 std::vector<std::string> register_differences(const std::string& systemrdl,
                                               const RegisterHardware& hardware, int& fields);
-// The file with one thing wrong in a line that declares a field, with that line: bits, access, side
-// effects, reset value, or the line is not there. Left out is what nobody can see.
+// Mutants of the file, each with one error in the line of a field (bits, access, side effects,
+// reset value, or line removed) and that line. Unobservable mutants are omitted.
 std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& systemrdl);
-// The hardware with one thing wrong at its bus, with what it is.
+// Mutants of the hardware, each with one error at its bus and a description.
 std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(const std::string& systemrdl,
                                                                      const RegisterHardware& right);
 
@@ -57,7 +57,8 @@ class RegisterSuite {
     EXPECT_EQ(difference(file(), hardware(), &fields), "");
     EXPECT_GE(fields, 9);
   }
-  // Whatever is wrong with either is seen. Each is tried in a process of its own, by a new engine.
+  // Every mutant of file and hardware is detected. Each is tried on a new engine in its own
+  // process.
   void a_wrong_file_is_seen() {
     EXPECT_EQ(in_child([&] { return difference(file(), hardware()); }), "");
     const auto files = wrong_files(file());
@@ -90,7 +91,7 @@ class RegisterSuite {
   Kit kit_;
 };
 
-// One write of `bytes` over a host's socket.
+// One write of `bytes` bytes over the host's socket.
 tlm::tlm_response_status write_bytes(platform::RegisterHost& host, std::uint32_t offset,
                                      unsigned bytes, bool enables);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reset of an engine, of every build of its Kit (engine_kit.h): what comes after it is, to the bit
-// and to the clock, what comes of a new engine; every register, counter, histogram and account of
-// cycles is as new. And a job after another is what it is by itself.
+// Reset tests for every build of an engine's Kit (engine_kit.h). After a reset the engine behaves
+// as a new one, bit and cycle exact, and every register, counter, histogram and cycle account has
+// its initial value. A job after another one has the same outcome as on a new engine.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ class ResetSuite {
  public:
   explicit ResetSuite(const typename Kit::Build& build) : kit_(build) {}
 
-  // A reset in half of the cycles that are tried, odd and even ones; `half`, 0 or 1, says in which.
+  // Resets in half of the cycles that are tried: even or odd ones, selected by `half` (0 or 1).
   void any_clock_of_a_job_may_be_the_last(rtl::Cycle half) {
     const Outcome fresh = first();
     kit_.expect_enough(Job::kWhole);
@@ -94,7 +94,7 @@ class ResetSuite {
   }
 
  private:
-  // A whole job behind a reset, and the states before and after it.
+  // A whole job after a reset, with the states before and after it.
   Outcome first() {
     kit_.reset(kit_.long_reset());
     at_reset_ = state_of(kit_);
@@ -108,14 +108,14 @@ class ResetSuite {
     ASSERT_TRUE(kit_.engine().idle());
     ASSERT_EQ(state_difference(at_reset_, state_of(kit_)), "");
     const Outcome again = run_job(kit_, Job::kWhole);
-    // What memory still owes takes its data bus for a while.
+    // After a short reset, outstanding memory responses still occupy the data bus for a while.
     const bool all = long_reset || kit_.long_reset() == kit_.short_reset();
     ASSERT_EQ(difference(fresh, again, all ? Compared::kAll : Compared::kCounted), "");
     if (all) {
       ASSERT_EQ(state_difference(after_, state_of(kit_)), "");
     }
   }
-  // Every writable register has another value, too.
+  // Also gives every writable register another value.
   void spoil() {
     kit_.spoil();
     for (const spec::RegisterInfo& info : kit_.engine().control.registers.table())

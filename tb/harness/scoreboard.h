@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Compares what came with what was expected. A run passes only if everything expected came, nothing
-// else did, and there were at least as many comparisons as the test promised.
+// Compares outputs with expectations. A run passes only if every expected item came, no other item
+// came, and the promised minimum number of comparisons was made.
 //
-// One item that is lost, comes twice or comes late is one mismatch: what follows it is compared
-// with what belongs to it again.
+// A lost, duplicated or late item is one mismatch: the scoreboard resynchronises on the items after
+// it.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,13 +27,13 @@
 
 namespace deburr::tb {
 
-// One mismatch, for people: where in the run ("cycle 812"), which item ("item 100", "pixel (3,
-// 4)"), which of its fields, and what they should have been.
+// One mismatch: position in the run ("cycle 812"), item ("item 100", "pixel (3, 4)"), field,
+// expected and actual value.
 struct Difference {
   std::string check, where, item, field, expected, got;
 };
 
-// The part that does not depend on what is compared.
+// The part that is independent of the item type.
 class ScoreboardBase {
  public:
   ScoreboardBase(std::string name, std::uint64_t minimum)
@@ -41,18 +41,18 @@ class ScoreboardBase {
   virtual ~ScoreboardBase() = default;
 
   const std::string& name() const { return name_; }
-  // No verdict with fewer comparisons, where that is known only in the run.
+  // Raises the minimum number of comparisons, if it is known only during the run.
   void require(std::uint64_t minimum) { minimum_ = std::max(minimum_, minimum); }
-  // A fault: it sees neither what is expected nor what comes, and finds nothing wrong.
+  // Fault: ignores all items and finds nothing wrong.
   void look_away() { blind_ = true; }
 
   std::uint64_t comparisons() const { return comparisons_; }
   std::uint64_t mismatches() const { return mismatches_; }
-  virtual std::uint64_t leftovers() const = 0;  // expected, but they never came
+  virtual std::uint64_t leftovers() const = 0;  // expected items that never came
   bool passed() const { return mismatches_ == 0 && leftovers() == 0 && comparisons_ >= minimum_; }
   // The first few.
   const std::vector<Difference>& differences() const { return differences_; }
-  // Throws Mismatch with the first few differences unless passed().
+  // Throws Mismatch with the first few differences unless passed() is true.
   void check() const;
 
  protected:
@@ -69,7 +69,8 @@ class ScoreboardBase {
   std::vector<Difference> differences_;
 };
 
-// In order by default; with a key, in any order between keys and in order within one.
+// Without a key, items are compared in order; with a key, in order per key and in any order between
+// keys.
 template <class T>
 class Scoreboard final : public ScoreboardBase {
  public:
@@ -81,7 +82,7 @@ class Scoreboard final : public ScoreboardBase {
         describe_(std::move(describe)),
         key_(std::move(key)) {}
 
-  // What an item is called ("pixel (3, 4)") instead of its number.
+  // Replaces the item number in messages by a name such as "pixel (3, 4)".
   void call_items(Describe name) { name_ = std::move(name); }
 
   void expect(const T& value) {
@@ -89,7 +90,7 @@ class Scoreboard final : public ScoreboardBase {
     queue_of(value).waiting.push_back({value, number_++});
     ++waiting_;
   }
-  // `where`: the place in the run, or its clock.
+  // `where`: position in the run or cycle.
   void got(const T& value, const std::string& where = {}) {
     if (!came(value)) compare(value, where);
   }
@@ -97,7 +98,7 @@ class Scoreboard final : public ScoreboardBase {
     if (!came(value)) compare(value, fmt::format("cycle {}", cycle));
   }
   std::uint64_t leftovers() const override { return waiting_; }
-  // After a reset: what was expected will not come; comparisons so far count.
+  // After a reset: discards pending expectations and keeps the comparisons so far.
   void restart() {
     all_ = {};
     by_key_.clear();
@@ -105,7 +106,7 @@ class Scoreboard final : public ScoreboardBase {
   }
 
  private:
-  // As far as is looked for an item that came at a wrong time.
+  // Search distance for an item that came out of order.
   static constexpr std::size_t kLookAhead = 64;
   struct Expected {
     T value;
@@ -114,10 +115,10 @@ class Scoreboard final : public ScoreboardBase {
   };
   struct Queue {
     std::deque<Expected> waiting, lost;
-    std::optional<Expected> last;  // that came
+    std::optional<Expected> last;  // last item that came
   };
   Queue& queue_of(const T& value) { return key_ ? by_key_[key_(value)] : all_; }
-  // It is what comes next.
+  // Returns true if the item is the next expected one.
   bool came(const T& value) {
     if (blind()) return true;
     count();
@@ -128,11 +129,11 @@ class Scoreboard final : public ScoreboardBase {
     --waiting_;
     return true;
   }
-  // It is not.
+  // Handles an item that is not the next expected one.
   [[gnu::noinline]] void compare(const T& value, const std::string& where) {
     Queue& queue = queue_of(value);
     auto& waiting = queue.waiting;
-    // Out of step: it may have come before, or be one of those that are missing, or come early.
+    // Out of order: a duplicate, a missing item that came late, or one that came early.
     if (const auto late = std::find(queue.lost.begin(), queue.lost.end(), value);
         late != queue.lost.end()) {
       fail({"", where, item(*late), "order", "it earlier", text(value)});
@@ -198,7 +199,7 @@ class Scoreboard final : public ScoreboardBase {
 
   Describe describe_, name_;
   Key key_;
-  Queue all_;  // without a key
+  Queue all_;  // used without a key
   std::map<std::uint64_t, Queue> by_key_;
   std::uint64_t number_ = 0, waiting_ = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random stalls on any link, as MatchLib's RAND_STALL: in a cycle that is drawn, the link shows
-// itself not ready to its producer, or not valid to its consumer. Data must not change, only time.
-// A link that no injector holds pays nothing.
+// Random stalls on any link, like MatchLib's RAND_STALL: in a drawn cycle the link appears not
+// ready to its producer or not valid to its consumer. Only timing may change, not data. Links
+// without an injector have no overhead.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ namespace deburr::tb {
 class StallInjector final : public rtl::Clocked {
  public:
   struct Options {
-    std::uint32_t push_permille = 0;  // cycles of 1000 in which the link is not ready
-    std::uint32_t pop_permille = 0;   // cycles of 1000 in which the link is not valid
-    std::uint64_t seed = 1;           // each link draws from a stream of its own under this seed
+    std::uint32_t push_permille = 0;  // cycles per 1000 in which the link is not ready
+    std::uint32_t pop_permille = 0;   // cycles per 1000 in which the link is not valid
+    std::uint64_t seed = 1;           // each link has its own random stream derived from it
     std::string glob = "*";           // full names of links
   };
-  // On the links that exist now: construct it after the design.
+  // Applies to the links that exist now: construct it after the design.
   StallInjector(rtl::ClockDomain& clock, const Options& options);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
-  void reset() override;  // the same stalls again
+  void reset() override;  // restarts the same stalls
   std::size_t links() const { return stalled_.size(); }
   std::uint64_t stalls() const { return stalls_; }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that a clock domain of a design measures, as JSON, from one walk through its
-// hierarchy: nothing is listed twice.
+// All measurements of a clock domain as JSON, collected in one walk through the design hierarchy.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,8 +13,8 @@ namespace deburr::tb {
 // {"cycles", "units": {name: {busy, idle, stalls: {cause: cycles}}}, "counters": {name: {value,
 // unit, meaning}}, "histograms": {name: see below}, "memories": {name: {kind, ports, logical_bits,
 // physical_bits}}, "links": {name: {depth, payload_bits, beats}}, "wires": {name: {bits, changes,
-// high}}}; high: cycles in which it was not zero. Names are full, without `prefix`
-// and a dot if they begin with it; objects outside of `prefix` are left out.
+// high}}}; high: cycles in which the wire was not zero. Names are full names without `prefix` and
+// the dot after it; objects outside `prefix` are omitted.
 nlohmann::ordered_json statistics(const rtl::ClockDomain& clock, const std::string& prefix = "");
 
 // {unit, meaning, count, sum, min, p50, p95, p99, max, histogram: [[low, high, count], ...]}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What must not change a bit of what an engine does, of every build of its Kit (engine_kit.h):
-// stalls on every link, memory that answers late and in any order, the order of evaluation, the
-// fast path, checkers, noise in what nobody wrote, whether rules are reset values or written after
-// a reset. A simulation each, in a process of its own.
+// Checks that results are bit-identical under disturbances, for every build of an engine's Kit
+// (engine_kit.h): stalls on every link, late and reordered memory responses, evaluation order, the
+// fast path, checkers, noise in unwritten fields, configuration by reset values or by register
+// writes. Each simulation runs in its own process.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class StressSuite {
   void order_fast_path_checkers_and_noise_are_invisible() {
     for (const std::uint32_t permille : {0u, 200u}) {
       Disturbance calm = disturbed(permille, 3, false);
-      if (permille != 0) calm.scatter = 40;  // memory answers late and in any order too
+      if (permille != 0) calm.scatter = 40;  // memory also answers late and out of order
       const std::string quiet = see(calm).all;
       const auto expect_same = [&](const char* what, auto&& change) {
         Disturbance disturbance = calm;
@@ -82,7 +82,7 @@ class StressSuite {
     disturbance.scatter = all ? 40 : 0;
     return disturbance;
   }
-  // Two jobs, one after the other.
+  // Runs two jobs in sequence.
   Seen see(const Disturbance& disturbance) const {
     const std::string text = in_child([&] {
       Kit kit(build_, disturbance);

@@ -15,7 +15,8 @@ namespace deburr::tb {
 namespace {
 
 constexpr int kProcess = 1;
-constexpr std::uint32_t kSkidDepth = 2;  // of a link that passes a beat a clock and holds no more
+// Depth of a link that sustains one beat per cycle without further buffering.
+constexpr std::uint32_t kSkidDepth = 2;
 
 std::string quoted(const std::string& text) { return json_text(nlohmann::ordered_json(text)); }
 
@@ -48,8 +49,8 @@ void Timeline::see(const std::string& name, const rtl::MemoryPort& port) {
 
 // ---- running ------------------------------------------------------------------------------------
 
-// Transactions are followed from the first cycle on: those that are under way when the window
-// begins belong to it.
+// Transactions are tracked from the first cycle, so that those in flight when recording begins are
+// shown.
 rtl::Activity Timeline::tick(rtl::Cycle cycle) {
   if (cycle >= options_.to) return rtl::kIdle;
   end_ = cycle + 1;
@@ -68,7 +69,7 @@ void Timeline::look_at(Level& level, std::size_t number, rtl::Cycle cycle) {
   samples_.push_back({number, cycle, now});
 }
 
-// The count that went up since the cycle before is what the unit did.
+// The activity whose count rose in the last cycle names the unit's activity.
 void Timeline::look_at(Track& track, std::size_t number, rtl::Cycle cycle) {
   const std::array<std::uint64_t, rtl::kActivities> now = track.unit->counts();
   if (cycle >= options_.from) {
@@ -110,7 +111,7 @@ void Timeline::look_at(Port& port, std::size_t number, rtl::Cycle cycle) {
   const auto& response =
       *reinterpret_cast<const rtl::MemoryResponse*>(responses.beat(responses.pushes() - 1));
   if (!response.last) return;
-  // Tags are the unit's business and need not be unique; then the address tells.
+  // Tags are local to a unit and need not be unique; if they are ambiguous, the address decides.
   const auto answers = [&](const Transaction& t, bool by_address) {
     return t.request.tag == response.tag && t.request.write == response.write &&
            (!by_address || t.request.address == response.address);
@@ -161,10 +162,10 @@ void Timeline::reset() {
   end_ = 0;
 }
 
-// ---- the file -----------------------------------------------------------------------------------
+// ---- output file --------------------------------------------------------------------------------
 
 std::string Timeline::json() const {
-  // By time; at the same time ends before begins.
+  // Sorted by time; at the same time ends come before begins.
   std::multimap<std::pair<rtl::Cycle, int>, std::string> events;
   for (const Slice& s : slices_)
     events.emplace(std::pair(s.from, 1),

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Some cycles of a run for public trace viewers (Perfetto, chrome://tracing), as JSON of their
-// Trace Event format: a track a unit with a slice for each time that it is busy or stalled, named
-// by the cause, an asynchronous event a memory transaction, from the port taking the request to its
-// last answer, and counters: beats inside a FIFO and transactions in flight of a port, at the end
-// of each clock. A microsecond of the viewer is a clock. Idle is where no slice is.
+// Records some cycles of a run in the Trace Event format (JSON) for trace viewers such as Perfetto
+// and chrome://tracing. Each unit has a track with a slice for each busy or stalled period, named
+// by its stall cause. Each memory transaction is an asynchronous event, from acceptance of the
+// request to the last response. Counter tracks show FIFO occupancy and transactions in flight of a
+// port at the end of each cycle. One microsecond in the viewer is one cycle; idle cycles have no
+// slice.
 //
 //   Timeline timeline(clock, {.from = 1000, .to = 3000});   // after the design
 //   environment.show_parts(timeline);
@@ -39,13 +40,13 @@ class Timeline final : public rtl::Clocked, public Observer {
   using Observer::see;
   void see(const std::string& name, const rtl::Unit& unit,
            const std::vector<std::string>& activities) override;
-  // Links that hold more than it takes to pass a beat a clock: FIFOs.
+  // Shows only FIFOs: links deeper than one beat per cycle requires.
   void see(const std::string& name, const rtl::LinkBase& link) override;
   void see(const std::string& name, const rtl::MemoryPort& port) override;
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
-  // The run is over: what is open ends here. Once.
+  // Ends the run and closes open slices. Call once.
   void finish();
 
   std::string json() const;
@@ -68,14 +69,14 @@ class Timeline final : public rtl::Clocked, public Observer {
     const rtl::Unit* unit;
     std::vector<std::string> activities;
     std::array<std::uint64_t, rtl::kActivities> before{};
-    std::string open;  // activity of the slice that goes on; empty: idle
+    std::string open;  // activity of the open slice; empty: idle
     rtl::Cycle since = 0;
   };
   struct Port {
     std::string name;
     const rtl::MemoryPort* port;
     std::vector<Transaction> in_flight{};
-    std::uint32_t beats_left = 0;  // of a burst that is being written
+    std::uint32_t beats_left = 0;  // of the write burst in progress
   };
   struct Level {
     std::string name, category, unit;  // "beats"
@@ -102,7 +103,7 @@ class Timeline final : public rtl::Clocked, public Observer {
   std::vector<Level> levels_;
   std::vector<Slice> slices_;
   std::vector<Transaction> kept_;
-  std::vector<Sample> samples_;  // where a level changes
+  std::vector<Sample> samples_;  // one per change of level
 };
 
 }  // namespace deburr::tb

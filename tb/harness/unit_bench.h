@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What a test of one unit needs: a Source and a Sink, which stall when the test says so and note
-// cycles (driver.h has ends for whole runs, with random stalls); both as Ends with their links; and
-// what is asked of units: stalls by cause, what a memory rejects.
+// Helpers for tests of a single unit: a Source and a Sink that stall on request and record cycles
+// (driver.h has endpoints with random stalls for whole runs), both combined with their links as
+// Ends, and checks of stall causes and of rejected memory accesses.
 //
 //   unit_bench::Ends<Token, Result> ends(clock);   // source -> in -> [unit] -> out -> sink
 //   halver.tokens_in(ends.in);
 //   halver.halves_out(ends.out);
 //   ends.source.add(token);
 //   clock.run(10);
-//   cycles_of(ends.sink);                          // those in which its results were taken
+//   cycles_of(ends.sink);                          // cycles in which results were taken
 #pragma once
 
 #include <cstddef>
@@ -25,10 +25,10 @@
 
 namespace deburr::tb::unit_bench {
 
-// The clock of tests that ask for cycles alone.
+// Clock period for tests that measure cycles only.
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// Pushes its tokens in order, each in its clock, or as soon as there is room.
+// Pushes its tokens in order, each in its given cycle or as soon as there is space.
 template <class T>
 class Source final : public rtl::Unit {
  public:
@@ -46,7 +46,7 @@ class Source final : public rtl::Unit {
   }
   void add(const T& token) { add(0, token); }
   void add(rtl::Cycle from, const T& token) { tokens_.push_back({from, token}); }
-  // Number `index` and those after it, in clock `from`.
+  // Sends token `index` and all later ones not before cycle `from`.
   void delay(std::size_t index, rtl::Cycle from) {
     for (; index < tokens_.size(); ++index) tokens_[index].from = from;
   }
@@ -62,7 +62,7 @@ class Source final : public rtl::Unit {
   std::size_t next_ = 0;
 };
 
-// Takes every token at once, unless told to wait, and notes when it could be taken.
+// Takes every token at once unless told to wait, and records the first cycle in which it could.
 template <class T>
 class Sink final : public rtl::Unit {
  public:
@@ -97,7 +97,7 @@ std::vector<T> tokens_of(const Sink<T>& sink) {
   return tokens;
 }
 
-// Cycles that a unit lost to a cause. CheckFailed if it knows none of this name.
+// Cycles that a unit lost to a stall cause. Throws CheckFailed for an unknown name.
 inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   for (const rtl::Unit::StallCause& stall : unit.stalls())
     if (stall.name == cause) return stall.cycles;
@@ -105,7 +105,7 @@ inline std::uint64_t stalls(const rtl::Unit& unit, std::string_view cause) {
   return 0;
 }
 
-// What an access says that a memory must not let pass.
+// Error text of an access that a memory must reject.
 template <class Access>
 std::string rejection(Access&& access) {
   try {
@@ -115,13 +115,13 @@ std::string rejection(Access&& access) {
   }
   return "nothing";
 }
-// A second tick in the clock that has just passed: a stage less, so that a word is used before it
-// is there.
+// Ticks the unit a second time in the current cycle. This models a missing pipeline stage: a word
+// is used one cycle too early.
 inline std::string of_a_stage_less(rtl::Unit& unit, const rtl::ClockDomain& clock) {
   return rejection([&] { unit.tick(clock.cycle() - 1); });
 }
 
-// A unit of the test's own between two links. Its ports are bound by the test.
+// A test's own unit between two links. The test binds its ports.
 template <class From, class To>
 struct Ends {
   explicit Ends(rtl::ClockDomain& clock, const std::string& name = "")
@@ -138,7 +138,7 @@ struct Ends {
   Sink<To> sink;
 };
 
-// Cycles from the first to the last of what has come out.
+// Cycles from the first to the last output.
 template <class From, class To>
 rtl::Cycle spread(const Ends<From, To>& ends) {
   return ends.sink.taken.back().cycle - ends.sink.taken.front().cycle;

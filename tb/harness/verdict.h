@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What ends a run that is no deadlock and broke no rule: a failed comparison (exit code 1), or a
-// spent budget of cycles (3).
+// Run errors other than deadlocks and violations: a failed comparison (exit code 1), an exhausted
+// cycle budget (3).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ends a run in which nothing moves any more, with a picture of where everything stands.
+// Aborts a run without progress and reports the state of every link and unit.
 #pragma once
 
 #include <array>
@@ -11,9 +11,8 @@
 
 namespace deburr::tb {
 
-// Throws DeadlockError when no link of the domain has moved a beat for `patience` cycles (found at
-// most a quarter later). Looks only four times in that span: the price of a run is one call a
-// cycle.
+// Throws DeadlockError when no link of the domain has moved a beat for `patience` cycles. It checks
+// four times in that span, so detection may take a quarter longer; the cost is one call per cycle.
 class Watchdog final : public rtl::Clocked {
  public:
   explicit Watchdog(rtl::ClockDomain& clock, rtl::Cycle patience = 100'000);
@@ -25,11 +24,12 @@ class Watchdog final : public rtl::Clocked {
   rtl::ClockDomain& clock_;
   rtl::Cycle patience_, next_, moved_at_ = 0;
   std::uint64_t moved_ = 0;
-  std::vector<std::array<std::uint64_t, rtl::kActivities>> activity_;  // of each unit, then
+  // Per unit, at the last check.
+  std::vector<std::array<std::uint64_t, rtl::kActivities>> activity_;
 };
 
-// Every link (occupancy, depth, beats, last push and pop, who is at its ends), every unit with what
-// it did in the cycles since `activity_before` (or since reset), and what memory ports wait for.
+// State of every link (occupancy, depth, beats, last push and pop, its endpoints), of every unit
+// (its activities since `activity_before`, or since reset), and what memory ports wait for.
 std::string dump_state(
     const rtl::ClockDomain& clock,
     const std::vector<std::array<std::uint64_t, rtl::kActivities>>& activity_before = {});

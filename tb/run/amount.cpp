@@ -19,7 +19,8 @@ std::string grouped(std::uint64_t value) {
 }
 
 std::string amount(double value, int digits) {
-  constexpr double kMost = 1e15;  // beyond it no digit of a double is a whole number's
+  // A double holds every whole number up to here exactly.
+  constexpr double kMost = 1e15;
   const double size = std::fabs(value);
   if (size < kMost && (value == std::round(value) || size >= std::pow(10.0, digits - 1)))
     return (value < 0 ? "-" : "") + grouped(static_cast<std::uint64_t>(std::llround(size)));

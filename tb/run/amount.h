@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as every page and picture shows them.
+// Number formatting shared by all pages and pictures.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace deburr::tb {
 
 // 1234567 -> "1,234,567".
 std::string grouped(std::uint64_t value);
-// A whole number grouped, anything else with so many digits: 17634.5 -> "17,635", 0.12345 ->
-// "0.1235"; sweep.js and comparison.js have the same form.
+// Whole numbers with grouped digits, others with `digits` significant digits: 17634.5 -> "17,635",
+// 0.12345 -> "0.1235". sweep.js and comparison.js use the same format.
 std::string amount(double value, int digits = 4);
 
 }  // namespace deburr::tb

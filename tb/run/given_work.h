@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What parameters say of the work that a run is given.
+// Classifies parameters by whether they change the work that a run is given.
 #pragma once
 
 #include <array>
@@ -8,9 +8,8 @@
 
 namespace deburr::tb {
 
-// Whether runs that differ in a parameter were given different work, so that a difference of their
-// results says little about the hardware. A source may be a file, whose content counts and not its
-// name.
+// If runs differ in such a parameter they did different work, so a difference in their results says
+// little about the hardware. kSource may name a file; then its content counts and not its name.
 enum class GivenWork : std::uint8_t { kNone, kSource, kSetting };
 inline constexpr std::array<std::string_view, 3> kGivenWorkNames = {"none", "source", "setting"};
 

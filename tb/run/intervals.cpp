@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Series = std::map<std::string, std::vector<std::uint64_t>>;
 
-// All series by their dotted keys.
+// Collects all series under dotted keys.
 void collect(const Json& node, const std::string& key, Series& all) {
   if (node.is_array()) {
     all[key] = node.get<std::vector<std::uint64_t>>();
@@ -62,7 +62,7 @@ void check_intervals(const Json& intervals, const Json& result) {
                    fmt::format("windows: {} accounts for {} of the {} cycles of window {}", unit,
                                sums[i], cycles[i], i));
   for (const auto& [key, values] : all) {
-    if (key.starts_with("ports.") || key.ends_with(".most")) continue;  // of windows alone
+    if (key.starts_with("ports.") || key.ends_with(".most")) continue;  // per interval only
     const Json* total = find(result, key);
     DEBURR_CHECK(total != nullptr, fmt::format("windows: result.json has no {}", key));
     const std::uint64_t sum = std::accumulate(values.begin(), values.end(), std::uint64_t{0});

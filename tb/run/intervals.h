@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// intervals.json of a run directory: what was counted in each window of a run's cycles, under the
-// keys of result.json (schema 2, docs/reference/statistics.md). IntervalRecorder makes it.
+// intervals.json of a run directory: counts of each sampling interval, under the keys of
+// result.json (schema 2, docs/reference/statistics.md), as IntervalRecorder writes it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,11 +10,12 @@
 
 namespace deburr::tb {
 
-// Nothing is lost between windows: in each of them every unit's cycles are the window's, and over
-// all of them every sum is what result.json says. CheckFailed names the first key that differs.
+// Checks that intervals add up: in each interval the cycles of every unit equal the interval's
+// length, and over all intervals every sum equals the value in result.json. Throws CheckFailed that
+// names the first differing key.
 void check_intervals(const nlohmann::ordered_json& intervals, const nlohmann::ordered_json& result);
 
-// The keys of intervals.json.
+// Keys of intervals.json.
 std::span<const Statistic> interval_statistics();
 
 }  // namespace deburr::tb

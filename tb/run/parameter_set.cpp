@@ -43,10 +43,11 @@ std::string join(const std::vector<std::string_view>& names, std::string_view se
 }
 
 constexpr int kMaxNesting = 16;
-constexpr std::string_view kMayBeList = "list";  // how the range of such a parameter ends
-constexpr std::string_view kGiven = "given", kDefault = "default";  // in a manifest's parameters
+constexpr std::string_view kMayBeList = "list";  // suffix of the range of such a parameter
+// In the parameters of a manifest.
+constexpr std::string_view kGiven = "given", kDefault = "default";
 
-// An entry of a map; undefined where the map has none.
+// Entry of a map; undefined if missing.
 YAML::Node entry_of(const YAML::Node& map, const char* key) {
   return map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
 }
@@ -56,8 +57,8 @@ std::string scalar_of(const YAML::Node& map, const char* key) {
 }
 bool is_map(const YAML::Node& node) { return node.IsDefined() && node.IsMap(); }
 
-// A run's manifest.json: what the run was given. The rest follows from that again, but a default
-// that was another one stays as it was.
+// Reads a run's manifest.json. Only given values matter; the rest is derived again, except a
+// default that has changed since: its old value is kept.
 class Manifest {
  public:
   static bool is_one(const YAML::Node& root) {
@@ -87,7 +88,8 @@ class Manifest {
   }
 
  private:
-  // Whether it comes to this by itself. A manifest that does not say is taken as it is.
+  // Whether the parameter gets this value without being set. If the manifest does not say, its
+  // value is used as it is.
   bool follows(const Parameter* parameter, const std::string& value) const {
     if (!parameter) return false;
     const auto found = from_.find(parameter->name);
@@ -96,7 +98,7 @@ class Manifest {
            json_text(parameter->json()) == value;
   }
 
-  // Names of files are as seen from the folder in which the run was started.
+  // File names are relative to the folder in which the run was started.
   std::string where_it_was(const std::string& value) const {
     std::error_code error;
     if (folder_.empty() || value.empty() || !inputs_.contains(value) ||
@@ -144,7 +146,7 @@ class YamlLoader {
       if (!inserted)
         yaml_.fail(entry.first,
                    fmt::format("'{}' is given twice (first at {})", name, first->second));
-      if (!set_.find(name)) set_.set(name, "", here);  // throws with near matches
+      if (!set_.find(name)) set_.set(name, "", here);  // throws and suggests near matches
       if (entry.second.IsSequence() && set_.find(name)->range.ends_with(kMayBeList)) {
         set_.set(name, joined_list(entry.second, name), here, ParameterSet::Origin::kFile);
         continue;
@@ -156,7 +158,7 @@ class YamlLoader {
     }
   }
 
-  // As the command line has it.
+  // In the format of the command line.
   std::string joined_list(const YAML::Node& list, const std::string& name) const {
     std::string text;
     for (const auto& entry : list) text += (text.empty() ? "" : "; ") + yaml_.scalar(entry, name);
@@ -407,7 +409,8 @@ std::string ParameterSet::yaml() const {
   std::string out;
   for (const Parameter& p : parameters_) {
     YAML::Emitter value;
-    // Text may hold anything; numbers, choices and switches are plain by construction.
+    // Quoted because text may contain any character; numbers, choices and switches are safe
+    // unquoted.
     if (p.json().is_string()) value << YAML::DoubleQuoted;
     value << p.text();
     const bool by_preset = !p.implied_by.empty() && p.text() == p.implied;

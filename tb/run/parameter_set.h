@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Every parameter of a run by its dotted name: the one place where the command line, configuration
-// files, the manifest and the reference pages meet the structs that declare parameters
-// (spec/parameters.h).
+// Every parameter of a run by its dotted name. Command line, configuration files, manifest and
+// reference pages all access the parameter structs (spec/parameters.h) through this set.
 //
-// A struct is added with a prefix, so that `cache.bytes` of the texture unit is
-// `texture.cache.bytes` everywhere. Precedence: defaults, then the configuration file, then the
-// command line in the order given. A value that cannot be applied is a ConfigError that says where
-// it came from (file and line, or the option) and names near matches; nothing is ignored.
+// A struct is added under a prefix, so `cache.bytes` of the texture unit is `texture.cache.bytes`
+// everywhere. Precedence: defaults, then the configuration file, then the command line in the given
+// order. A value that cannot be applied is a ConfigError with its origin (file and line, or option)
+// and near matches; nothing is ignored.
 #pragma once
 
 #include <array>
@@ -27,23 +26,23 @@
 
 namespace deburr::tb {
 
-// A configuration has a few dozen keys, and a manifest a few hundred; anything far beyond is
-// neither.
+// Size limit of configuration files. A configuration has a few dozen keys and a manifest a few
+// hundred.
 inline constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 
-// What a change of a parameter changes. Runs that agree in rules and inputs (and in the seed) share
-// one golden result, whatever they are built with.
+// The effect of a parameter. Runs with equal configuration, inputs and seed share one golden
+// result, whatever their build parameters.
 enum class ParameterKind : std::uint8_t {
-  kRun,           // how it is simulated and checked: nothing of the hardware
-  kInput,         // what the engine is given
-  kRule,          // pixels
-  kBuild,         // cycles and cost, and no pixel
-  kSurroundings,  // cycles: what is around the engine, such as memory
+  kRun,           // simulation and checks; not the hardware
+  kInput,         // input data of the engine
+  kRule,          // pixels (programmable configuration)
+  kBuild,         // cycles and cost, but not pixels (build parameters)
+  kSurroundings,  // cycles, through the environment of the engine such as memory
 };
 inline constexpr std::array<std::string_view, 5> kParameterKindNames = {"run", "input", "rule",
                                                                         "build", "surroundings"};
 
-// One parameter, bound to the variable that holds it.
+// One parameter, bound to the variable that holds its value.
 struct Parameter {
   std::string name;
   ParameterKind kind = ParameterKind::kRun;
@@ -51,12 +50,13 @@ struct Parameter {
   std::string range;  // "1..16", "half | quarter | ...", "true | false"
   std::string meaning;
   std::string default_value;
-  // What a preset makes of it where it is not given, and the preset's name; else both are empty.
+  // Value that a preset implies if the parameter is not given, and the name of the preset; empty
+  // otherwise.
   std::string implied, implied_by;
-  std::function<std::string()> text;                   // the value now
-  std::function<nlohmann::ordered_json()> json;        // the same, typed
-  std::function<std::string(std::string_view)> parse;  // "" or why the text is rejected
-  std::vector<std::string> aliases{};                  // other words for values, as of alias()
+  std::function<std::string()> text;                   // current value
+  std::function<nlohmann::ordered_json()> json;        // current value with its JSON type
+  std::function<std::string(std::string_view)> parse;  // returns "" or why the text is rejected
+  std::vector<std::string> aliases{};                  // other names of values; see alias()
   GivenWork work = GivenWork::kNone;
 };
 
@@ -64,14 +64,14 @@ inline std::string_view kind_name(const Parameter& parameter) {
   return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
 }
 
-// A rule of what can be built, beyond the ranges of its parameters.
+// A constraint on build parameters, in addition to their ranges.
 struct BuildLimit {
-  std::vector<std::string> parameters;  // the first is the one that it is about
+  std::vector<std::string> parameters;  // the first one is the subject of the message
   std::string must;                     // "must be a power of two"
   friend bool operator==(const BuildLimit&, const BuildLimit&) = default;
 };
 
-// The name of a choice, in the words of its parameter.
+// Name of a choice, as its parameter spells it.
 template <class Enum, std::size_t N>
 std::string_view name_of(Enum value, const std::array<std::string_view, N>& names) {
   return names[static_cast<std::size_t>(value)];
@@ -79,15 +79,15 @@ std::string_view name_of(Enum value, const std::array<std::string_view, N>& name
 
 class ParameterSet {
  public:
-  // Binds every parameter of `values` under `prefix`. The values at this moment are the defaults.
-  // `values` must outlive the set.
+  // Binds every parameter of `values` under `prefix`. Current values become the defaults. `values`
+  // must outlive the set.
   template <class P>
   void add(std::string_view prefix, ParameterKind kind, P& values) {
     Binder binder(*this, prefix, kind);
     describe(values, binder);
   }
-  // The same of an engine, whose parameters are a struct of Rules and one of Build, with what it
-  // can be built with (spec/check_build.h).
+  // As add(), for an engine: a struct with Rules and Build, and its build constraints
+  // (spec/check_build.h).
   template <class P>
   void add_engine(std::string_view prefix, P& values) {
     add(prefix, ParameterKind::kRule, static_cast<typename P::Configuration&>(values));
@@ -97,52 +97,54 @@ class ParameterSet {
         [engine = std::string(prefix), &values] { spec::check_build(engine, values); });
   }
 
-  // Another word for a value of a parameter: what the field calls it.
+  // Adds an alias for a value, such as the usual term in this field.
   void alias(std::string_view name, std::string_view word, std::string_view value);
 
   enum class Origin { kCommandLine, kFile };
-  // `where` is put in front of every complaint: "run.yaml:12" or "--set".
+  // `where` prefixes error messages: "run.yaml:12" or "--set".
   void set(std::string_view name, std::string_view text, std::string_view where,
            Origin origin = Origin::kCommandLine);
-  // What a preset makes of a parameter that was not given; one that was given stays as it is.
+  // Value that a preset implies. A parameter that was given keeps its value.
   void imply(std::string_view name, std::string_view text, std::string_view by);
-  // "a.b=value", as given to --set.
+  // Applies "a.b=value", as given to --set.
   void set_assignment(std::string_view assignment, std::string_view where);
-  // Applies a YAML file: nested maps or dotted keys. Unknown, duplicate, misshapen or out-of-range
-  // entries are errors with file and line. A run's manifest.json gives what that run was given.
+  // Applies a YAML file with nested maps or dotted keys. Unknown, duplicate, malformed or
+  // out-of-range entries are errors with file and line. A run's manifest.json restores what that
+  // run was given.
   void load(const std::filesystem::path& file);
-  // The same of a text that was read already. A manifest must be of a run of the engine.
+  // As above, for text already read. A manifest must belong to a run of `engine`.
   void load(const std::filesystem::path& file, const std::string& text, std::string_view engine);
 
   const std::vector<Parameter>& all() const { return parameters_; }
   const Parameter* find(std::string_view name) const;
-  // Whether someone has set it, be it to its default.
+  // Whether the parameter was set explicitly, even to its default.
   bool given(std::string_view name) const { return given_.contains(name); }
-  // Parameters that were given something else than their preset makes of them.
+  // Parameters that were given a value other than their preset's.
   std::vector<const Parameter*> changed() const;
-  // Where its value comes from, for the manifest: "given", what implied it, or "default".
+  // Origin of the value, for the manifest: "given", the preset that implied it, or "default".
   std::string_view origin(const Parameter& parameter) const;
-  // ConfigError if it was given although it has no effect. A file, which may be a whole resolved
-  // configuration, may hold its default.
+  // Throws ConfigError if the parameter was given but has no effect. A file may still hold its
+  // default, because it may be a complete resolved configuration.
   void reject(std::string_view name, std::string_view why) const;
-  // The same for every parameter whose name begins so.
+  // Applies reject() to every parameter whose name starts with `prefix`.
   void reject_all(std::string_view prefix, std::string_view why) const;
-  // ConfigError if hardware of one of the engines cannot be built, for the first reason.
+  // Throws ConfigError for the first violated build constraint.
   void check_build() const;
   const std::vector<BuildLimit>& build_limits() const { return build_limits_; }
-  // Up to three names that a typing error could have meant, best first.
+  // Up to three similar names, best match first.
   std::vector<std::string> near_matches(std::string_view name) const;
-  // name -> value for every parameter, in order of declaration.
+  // All parameters as name -> value, in declaration order.
   nlohmann::ordered_json resolved() const;
-  // The same of those of one kind.
+  // Parameters of one kind.
   nlohmann::ordered_json resolved(ParameterKind kind) const;
-  // The same as a YAML file that `load` accepts, each line with its meaning as comment. What a
-  // preset made is a comment too, so that another preset can be chosen beside the file.
+  // Configuration as a YAML file that load() accepts, with the meaning of each line as comment.
+  // Values implied by a preset are commented out, so that another preset can be selected together
+  // with the file.
   std::string yaml() const;
 
  private:
-  // The visitor of spec/parameters.h, with two kinds more that only the testbench uses, and with
-  // what it says of a parameter that was declared.
+  // Visitor of spec/parameters.h, with two additional kinds that only the testbench uses, and with
+  // attributes that apply to the last declared parameter.
   class Binder {
    public:
     Binder(ParameterSet& set, std::string_view prefix, ParameterKind kind)
@@ -164,7 +166,7 @@ class ParameterSet {
           name, {names.begin(), names.end()}, [&value] { return static_cast<std::size_t>(value); },
           [&value](std::size_t index) { value = static_cast<Enum>(index); }, meaning);
     }
-    // Of names that are known at run time, which must outlive the set.
+    // Choice whose names are known only at run time; `names` must outlive the set.
     void choice(std::string_view name, std::size_t& value, const std::vector<std::string>& names,
                 std::string_view meaning) {
       add_choice(

@@ -24,7 +24,7 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 constexpr Rgba8 kPaper = {255, 255, 255, 255}, kInk = {0, 0, 0, 255}, kEmpty = {58, 60, 64, 255};
 
-// Even in lightness, and told apart by those who see no red or no green.
+// Perceptually even in lightness and distinguishable with red-green colour blindness.
 constexpr std::array<std::array<int, 3>, 9> kColours = {{{68, 1, 84},
                                                          {71, 44, 122},
                                                          {59, 81, 139},
@@ -143,7 +143,7 @@ MapFigures figures_of(const PictureMap& map) {
 
 void check_map(const PictureMap& map) {
   if (!map.account) return;
-  constexpr double kRounding = 1e-5;  // of floats that were added up
+  constexpr double kRounding = 1e-5;  // rounding error of sums of floats
   const double error = std::abs(map.account->mapped - map.account->counted);
   DEBURR_CHECK(error <= kRounding * std::max(1.0, map.account->counted),
                fmt::format("map {}: its pixels come to {}, but {} is {}", map.name,
@@ -203,10 +203,10 @@ void read_pfm(const std::string& bytes, PictureMap& map) {
 }
 
 MapCodes codes_of(const PictureMap& map) {
-  constexpr double kMost = (1 << 24) - 2;  // steps between the least and the most
+  constexpr double kMost = (1 << 24) - 2;  // steps between minimum and maximum
   const MapScale scale = scale_of(map);
   MapCodes codes{scale.least, (scale.most - scale.least) / kMost, Image(map.width, map.height)};
-  // Whole numbers and 256ths are kept as they are.
+  // Multiples of 1 and of 1/256 are represented exactly.
   for (const double step : {1.0, 1.0 / 256}) {
     const bool fits = std::all_of(map.values.begin(), map.values.end(), [&](float value) {
       const double steps = (static_cast<double>(value) - scale.least) / step;

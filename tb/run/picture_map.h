@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Something that a run did, pixel by pixel of the picture that it worked on: samples, misses,
-// latency. Left in the run directory as a picture in false colours with its scale, and as values.
+// Per-pixel map of a quantity of a run, such as samples, misses or latency. Stored in the run
+// directory as a false-colour picture with scale and as values.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 namespace deburr::tb {
 
 struct PictureMap {
-  // Nothing in any pixel.
+  // An empty map: no pixel has a value.
   PictureMap(std::string map_name, std::string map_title, std::string map_unit,
              std::string map_meaning, int map_width, int map_height);
 
   std::string name, title, unit, meaning;
   int width, height;
-  std::vector<float> values;  // rows from the top; NaN: nothing there
+  std::vector<float> values;  // top row first; NaN: no value
 
-  // What the values must come to by a count that the model made by itself.
+  // Cross-check of the map's total against an independent count of the model.
   struct Account {
-    std::string of;  // "work.sample_walker_samples", or what it is
+    std::string of;  // "work.sample_walker_samples", or a description
     double counted = 0, mapped = 0;
   };
   std::optional<Account> account{};
@@ -38,32 +38,32 @@ struct PictureMap {
 
 // Range and sum, for result.json.
 MapFigures figures_of(const PictureMap& map);
-// CheckFailed if the map does not come to what the model counted.
+// Throws CheckFailed if the total differs from the model's count.
 void check_map(const PictureMap& map);
 
-// Colours of a map, from the least of its values to the most. Where a few values lie far above the
-// rest, the last step of the colours is theirs, from `knee` on: all but 0.5 % of the pixels lie
-// below. Else the knee is the most.
+// Colour scale from minimum to maximum. If a few values are far above the rest, the last colour
+// step covers all values from `knee` on, and 99.5 % of the pixels are below the knee. Otherwise the
+// knee is the maximum.
 struct MapScale {
   double least = 0, knee = 0, most = 0;
   bool bent() const { return knee < most; }
-  // Where a value lies among the colours, 0 to 1.
+  // Position of a value on the scale, 0 to 1.
   double part(double value) const;
 };
 MapScale scale_of(const PictureMap& map);
-// From the least to the most, at even distances.
+// Evenly spaced from minimum to maximum.
 std::vector<Rgba8> map_colours();
 
-// In false colours (dark blue, green, yellow; grey: nothing there), with the scale below the
-// picture: its least, its knee if it has one, its most.
+// False-colour picture (dark blue, green, yellow; grey: no value) with the scale below it: minimum,
+// knee if any, maximum.
 Image picture_of(const PictureMap& map);
-// Portable float map: one channel, 32 bits, little-endian, rows from the bottom.
+// Portable float map: one channel, 32 bits, little-endian, bottom row first.
 std::string pfm_of(const PictureMap& map);
-// Values of such a file. ConfigError for what is none.
+// Reads the values of such a file. Throws ConfigError for an invalid one.
 void read_pfm(const std::string& bytes, PictureMap& map);
 
-// Values as a picture whose 24 bits are 0 (nothing there) or 1 + (value - least) / step, so that a
-// page can hold them: PNG packs them well.
+// Values as 24-bit codes of a picture that a page can embed: 0 (no value) or 1 + (value - minimum)
+// / step. PNG compresses them well.
 struct MapCodes {
   double least = 0, step = 1;
   Image picture;

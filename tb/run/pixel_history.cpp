@@ -12,7 +12,7 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::size_t kMostRows = 40;  // of a terminal
+constexpr std::size_t kMostRows = 40;  // of the terminal output
 
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
@@ -70,7 +70,7 @@ void PixelHistory::compare_records(std::size_t golden, std::size_t hardware,
     bool differs = mine ? its || came.hardware : came.golden;
     if (mine && its) {
       differs = !same(g, h);
-      // The nearest one that goes with the other side's next shows which side lacks one.
+      // The nearest match with the other side's next record shows which side lacks one.
       std::size_t lost = 0, added = 0;
       while (g + lost < golden && !same(g + lost, h)) ++lost;
       while (h + added < hardware && !same(g, h + added)) ++added;
@@ -108,7 +108,7 @@ std::string text_of(const PixelHistory& history, const std::string& report) {
   std::vector<const PixelStep*> rows;
   for (const PixelStep& step : history.steps)
     if (!step.detail || step.differs) rows.push_back(&step);
-  // What differs is shown first of all, the rest as there is room.
+  // Steps that differ come first; others fill the remaining rows.
   std::size_t room = kMostRows - std::min(kMostRows, history.differences());
   std::erase_if(rows, [&](const PixelStep* row) {
     if (row->differs) return false;

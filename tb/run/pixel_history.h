@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that happened to one pixel in a run, step by step, golden and hardware side by side:
-// `pixel` of result.json, a table of the report, a few lines of the terminal.
+// History of one pixel in a run, step by step, golden model and hardware side by side. Shown as
+// `pixel` of result.json, as a table of the report and on the terminal.
 #pragma once
 
 #include <cstddef>
@@ -13,50 +13,50 @@
 namespace deburr::tb {
 
 struct PixelAddress {
-  int x = 0, y = 0;  // from the left, from the top
+  int x = 0, y = 0;  // from left, from top
   friend bool operator==(const PixelAddress&, const PixelAddress&) = default;
 };
-// "X,Y"; ConfigError for anything else.
+// Parses "X,Y"; throws ConfigError for anything else.
 PixelAddress pixel_of(const std::string& text);
-// ConfigError for a pixel outside of a picture of this size.
+// Throws ConfigError for a pixel outside a picture of this size.
 void reject_outside(const PixelAddress& pixel, int width, int height);
 
 struct PixelStep {
-  std::string part;              // "fragment 0": which of several that the pixel has
+  std::string part;              // "fragment 0": which of several parts of the pixel
   std::string step, item;        // "level", "samples"
-  std::string golden, hardware;  // empty: not known there, or not there
+  std::string golden, hardware;  // empty: unknown or missing on that side
   std::optional<std::uint64_t> clock{};
   bool differs = false;
-  bool detail = false;  // the terminal leaves it out
+  bool detail = false;  // omitted on the terminal
 };
 
-// Which sides came so far: what such a side does not have then, it lacks.
+// Which sides have progressed past this step; such a side lacks a step that it does not have.
 struct PixelSides {
   bool golden = false, hardware = false;
 };
 
 struct PixelHistory {
   PixelAddress pixel{};
-  std::string note{};  // why it is empty or not whole
+  std::string note{};  // why the history is empty or incomplete
   std::vector<PixelStep> steps{};
 
-  // A value, which may be kept on one side alone: it differs where both texts are there and differ.
+  // Adds a value, which may exist on one side only. Differs if both texts exist and differ.
   void compare(PixelStep step);
-  // An event: it differs too where one side has it and the other came so far and does not.
+  // Adds an event. Also differs if one side has it and the other has progressed past it without it.
   void compare(PixelStep step, const PixelSides& came);
-  // Records, so many on each side, in an order that both have. One that a side lacks spoils no
-  // other. `same` compares two of them, and not their texts; `row` writes a step of one or both.
+  // Aligns records of both sides, which are in the same order. A missing record does not misalign
+  // the rest. `same` compares two records, not their texts; `row` makes a step from one or both.
   using Record = std::optional<std::size_t>;
   void compare_records(std::size_t golden, std::size_t hardware,
                        const std::function<bool(std::size_t, std::size_t)>& same,
                        const std::function<PixelStep(Record, Record)>& row, const PixelSides& came);
-  // The steps of another part of the engine, and its note.
+  // Appends the steps and the note of another part of the engine.
   void append(const PixelHistory& other);
   std::size_t differences() const;
 };
 
-// The table for a terminal: no details but those that differ, so many rows at most; `report` has
-// all of them.
+// Table for the terminal, with a limited number of rows and only those details that differ;
+// `report` names the file with all of them.
 std::string text_of(const PixelHistory& history, const std::string& report);
 
 }  // namespace deburr::tb

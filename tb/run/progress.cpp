@@ -32,7 +32,7 @@ std::string time_text(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-// A character is one column: labels are names.
+// Each character takes one column, as labels are names.
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 std::string cut(std::string_view text, std::size_t columns) {
   std::size_t end = 0;
@@ -41,7 +41,7 @@ std::string cut(std::string_view text, std::size_t columns) {
   return std::string(text.substr(0, end));
 }
 
-// What can be said, a part each; empty parts say nothing.
+// Parts of the line; empty ones are omitted.
 struct Parts {
   std::string start, rate, left;
 };
@@ -64,13 +64,13 @@ std::string joined(std::initializer_list<std::string_view> parts) {
   return text;
 }
 
-// Progress is worth no failure: the terminal of a run may be gone.
+// A failed write is ignored: the terminal may have gone, and progress output must not fail a run.
 void tell(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
 }
 
-// The last column stays free: a terminal that has filled it may begin the next line.
+// The last column stays free, because some terminals start a new line once it is filled.
 std::size_t room() { return std::max<std::size_t>(terminal_columns(STDERR_FILENO), 2) - 1; }
 
 }  // namespace

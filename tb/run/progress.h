@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Progress of long work on the error stream: a bar with rate and time left on a terminal, in one
-// line as wide as it is at the time, a plain line every few seconds otherwise. What was taken
-// counts half: a pipeline that holds a whole window of its input delivers nothing for long.
+// Progress of long work on the error stream. On a terminal: a bar with rate and remaining time,
+// fitted to the current width. Otherwise: a plain line every few seconds. Input that was taken
+// counts half, because a pipeline that first buffers input delivers nothing for a long time.
 #pragma once
 
 #include <chrono>
@@ -15,28 +15,28 @@ namespace deburr::tb {
 
 class Progress {
  public:
-  // `unit` is what is counted: "fragment". A quiet one says nothing.
+  // `unit` is the counted item, such as "fragment". `quiet` disables output.
   Progress(std::string_view label, std::uint64_t total, std::string_view unit, bool quiet = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Cheap enough to be called often: the clock is read once in a while.
+  // Cheap enough to call often: the clock is read only occasionally.
   void update(std::uint64_t done) { update(done, done); }
   void update(std::uint64_t delivered, std::uint64_t taken);
 
-  // Shown behind the line.
+  // Shown after the line.
   void note(std::string text) { note_ = std::move(text); }
 
-  // What counts as done: the mean of what was delivered and what was taken.
+  // Progress count: mean of delivered and taken items.
   static std::uint64_t done(std::uint64_t delivered, std::uint64_t taken) {
     return delivered + (taken > delivered ? (taken - delivered) / 2 : 0);
   }
   // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left".
   static std::string line(std::string_view label, std::string_view unit, std::uint64_t done,
                           std::uint64_t total, double seconds);
-  // That line in a terminal of so many columns, with a bar in front and a note behind. In a narrow
-  // one first the bar goes, then the rate, then the time left, then the note; at last it is cut.
+  // Fits that line into `columns`, with a bar before it and a note after it. In a narrow terminal
+  // the bar is dropped first, then rate, remaining time and note; finally the line is truncated.
   static std::string fitted(std::size_t columns, std::string_view label, std::string_view unit,
                             std::uint64_t done, std::uint64_t total, double seconds,
                             std::string_view note);
@@ -53,8 +53,7 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
-// Work of which nobody knows how much is left, such as a reference that is rendered: how long it
-// takes.
+// Elapsed time of work whose remaining amount is unknown, such as rendering a reference.
 class Waiting {
  public:
   explicit Waiting(std::string label, bool quiet = false);
@@ -70,7 +69,7 @@ class Waiting {
   Clock::time_point start_, last_;
 };
 
-// What the error says when --max-cycles is reached: how far the run came and what to raise.
+// Error text for --max-cycles: progress so far and which limit to raise.
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit);
 

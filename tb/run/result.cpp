@@ -23,8 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using spec::FileError;
 
-// As a reader of the file gets it: a page made of it must be that of the file. There a number that
-// is not negative has no sign, and one that is not finite is null.
+// Normalises values as a reader of the file gets them, so that pages made before and after writing
+// are equal: non-negative numbers are unsigned and non-finite ones are null.
 template <class T>
 Json json_of(const T& value) {
   if constexpr (std::is_floating_point_v<T>)
@@ -85,7 +85,7 @@ Json json_of(const std::vector<Figure>& figures) {
   return json;
 }
 
-// The file, with unit and meaning of each value by its path: "units.address.busy".
+// Writes the file and collects unit and meaning of each value by its path: "units.address.busy".
 class ResultWriter {
  public:
   explicit ResultWriter(const Result& result) { describe(result, *this); }
@@ -103,7 +103,7 @@ class ResultWriter {
              std::string_view meaning) {
     within(name, [&] { item(value, unit, meaning); });
   }
-  // Many values with one meaning.
+  // Many values that share one meaning.
   void value(std::string_view name, const std::map<std::string, std::uint64_t>& values,
              std::string_view unit, std::string_view meaning) {
     within(name, [&] { declared_item(values, unit, meaning); });
@@ -130,7 +130,7 @@ class ResultWriter {
   void item(const T& value, std::string_view unit, std::string_view, std::string_view own) {
     item(value, unit, own);
   }
-  // What an engine declares stands behind what every engine has.
+  // Entries declared by an engine follow those that every engine has.
   template <class T>
   void declared_item(const T& value, std::string_view unit, std::string_view meaning) {
     *node_ = json_of(value);
@@ -199,12 +199,12 @@ std::vector<std::string> not_implementable_memories(const Json& result) {
 namespace {
 
 constexpr std::string_view kDownstream = "downstream";
-// A unit that waits for records waits for one of those that finish them.
+// A unit that waits for run descriptors waits for a unit that completes them.
 constexpr std::string_view kRecords = "records";
 constexpr std::array<std::string_view, 5> kFinishRecords = {
     "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area"};
-// Shares of a unit's cycles: below the first, a stall is no bottleneck; within the second, two
-// units are equally busy.
+// Fractions of a unit's cycles: stalls below kNegligible are no bottleneck; units within kTie are
+// equally busy.
 constexpr double kNegligible = 0.01, kTie = 0.001;
 
 double cycles_of(const UnitCycles& unit) {
@@ -217,7 +217,7 @@ double share(std::uint64_t cycles, const UnitCycles& unit) {
   return all > 0 ? static_cast<double>(cycles) / all : 0.0;
 }
 
-// The first of the busiest units.
+// The first among the busiest units.
 template <class Wanted>
 const UnitCycles* busiest(std::span<const UnitCycles> units, Wanted wanted) {
   const UnitCycles* found = nullptr;
@@ -248,7 +248,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
       losses.push_back({&unit, &stall, share(stall.cycles, unit)});
       largest = std::max(largest, losses.back().share);
     }
-  // A stall that the head of the pipe never feels costs nothing: a FIFO hides it.
+  // A stall that does not reach the head of the pipeline costs nothing: a FIFO absorbs it.
   const auto head = std::find_if(units.begin(), units.end(),
                                  [](const UnitCycles& unit) { return unit.busy > 0; });
   const bool felt =
@@ -261,7 +261,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
   const Loss* deepest = nullptr;
   for (const Loss& loss : losses) {
     if (loss.share < largest / 2) continue;
-    // The two axes lie side by side, not one behind the other.
+    // The two axes work in parallel, not in sequence.
     const bool beside = deepest && deepest->stall->cause == loss.stall->cause &&
                         deepest->unit->name.ends_with("_h") && loss.unit->name.ends_with("_v");
     if (!beside || loss.share > deepest->share) deepest = &loss;
@@ -291,7 +291,7 @@ Json read_result(const std::filesystem::path& path) {
 }
 
 const Statistic* find_statistic(std::string_view key) {
-  // The longest description wins: "units.*.busy" before "units.*".
+  // The longest matching pattern wins: "units.*.busy" before "units.*".
   const auto matches = [](std::string_view pattern, std::string_view name) {
     while (!pattern.empty() && !name.empty()) {
       const std::string_view p = pattern.substr(0, pattern.find('.'));

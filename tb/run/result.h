@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a run measured, and its file result.json (schema 4, docs/reference/run.md).
+// Measurements of a run and their file result.json (schema 4, docs/reference/run.md).
 //
-// Written by an engine at the end of a run, read by `deburr report` and `deburr compare`. Its keys
-// are described in result_description.h. Unit and meaning of each travel with the file, under
-// "meaning"; those of an engine's counters and stall causes come from their declaration.
+// An engine writes it at the end of a run; `deburr report` and `deburr compare` read it. Keys are
+// described in result_description.h. Unit and meaning of each value are stored in the file under
+// "meaning"; those of counters and stall causes come from their declarations.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@
 namespace deburr::tb {
 
 inline constexpr int kResultSchema = 4;
-// No reader takes more of one of our JSON files.
+// Size limit of JSON files when read.
 inline constexpr std::size_t kMaxResultBytes = std::size_t{64} << 20;
 
 enum class Verdict { kPass, kFail, kUnchecked };
@@ -35,14 +35,14 @@ struct StallCycles {
   std::uint64_t cycles = 0;
 };
 
-// One pipeline unit's cycles, each classified exactly once.
+// Cycles of one pipeline unit; each cycle is classified exactly once.
 struct UnitCycles {
   std::string name;
   std::uint64_t busy = 0, idle = 0;
   std::vector<StallCycles> stalls;
 };
 
-// null in the file: not known of this run.
+// monostate: null in the file, unknown for this run.
 using WorkValue = std::variant<std::monostate, std::uint64_t, double, bool>;
 
 // A counter of one engine: "work.<name>".
@@ -52,22 +52,23 @@ struct WorkItem {
   std::string unit, meaning;
 };
 
-// What held the run back: the unit, and the stall cause that took these cycles, or "busy" where
-// nothing stalled it and it did a clock's work in each of them.
+// The bottleneck of a run: a unit and the stall cause that took these cycles, or "busy" for a unit
+// that worked in every cycle without stalls.
 struct Bottleneck {
   std::string unit, cause, meaning;
   std::uint64_t cycles = 0;
 };
 
-// The bottleneck among a pipeline's units, given from its input to its output; nothing for no
-// cycles. Waiting for the next unit is that unit's matter, except at `output`. Of the causes that
-// took at least half as much as the largest one the deepest counts: those before it are its echo.
-// Where the first working unit is not held back, no stall matters and the busiest unit counts.
+// Finds the bottleneck of a pipeline whose units are listed from input to output; empty if there
+// are no cycles. Stalls by the next unit are attributed to that unit, except at `output`. Among
+// causes with at least half the cycles of the largest one, the most downstream counts: the others
+// echo it. If the first working unit is not stalled, stalls are ignored and the busiest unit is the
+// bottleneck.
 std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                                           std::string_view output);
 
 struct LatencyBin {
-  std::uint64_t from = 0, count = 0;  // cycles >= from, below the next bin's
+  std::uint64_t from = 0, count = 0;  // latencies in [from, start of the next bin)
 };
 
 struct Latency {
@@ -75,8 +76,8 @@ struct Latency {
   std::vector<LatencyBin> histogram;
 };
 
-// Against a picture taken as reference, with the picture that went in beside it; a value that does
-// not exist (no edge pixels) is absent, and one of identical pictures is infinite.
+// Comparison with a reference image, next to that of the input image. A value that does not exist
+// (no edge pixels) is absent; for identical images PSNR is infinite.
 struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
@@ -84,17 +85,17 @@ struct Quality {
   std::optional<double> flip, flip_before, ssim, ssim_before;
 };
 
-// What was made of the picture that went in, right or wrong: shares of pixels that differ from it
-// by more than so many codes in R, G or B, of all and of those that were right before.
+// Changes relative to the input image, right or wrong: percentages of pixels that differ by more
+// than a number of codes in R, G or B, among all pixels and among those that were right before.
 struct Change {
   static constexpr int kSmall = 2, kLarge = 16;  // codes
   double small_percent = 0, large_percent = 0;
-  std::optional<double> right_small_percent, right_large_percent;  // there was a reference
-  double psnr_db = 0;                                              // to what went in
+  std::optional<double> right_small_percent, right_large_percent;  // only with a reference
+  double psnr_db = 0;                                              // relative to the input
 };
 
-// A memory of the model and what it is built from. Logical bits are what the design asks for;
-// physical ones include copies for more read ports and the words that fill up the last bank.
+// A memory of the model and its implementation. Logical bits are those that the design needs;
+// physical bits include copies for more read ports and padding of the last bank.
 struct MemoryFigures {
   std::string name, content;
   std::string kind;  // "flops", "sram" or "rom"
@@ -104,62 +105,63 @@ struct MemoryFigures {
   std::string built_as;            // "2 copies of 1R1W, 4 banks"
   std::uint64_t copies = 1, banks = 1;
   std::uint64_t logical_bits = 0, physical_bits = 0;
-  std::uint64_t register_bits = 0;  // flip-flops beside its words
-  // Logical bits for frames of the width that this run had, where the size goes with the width.
+  std::uint64_t register_bits = 0;  // flip-flops in addition to its words
+  // Logical bits at the frame width of this run, if the size depends on the width.
   std::uint64_t logical_bits_at_frame_width = 0;
-  std::optional<std::uint64_t> high_water;  // most words in a clock, of a FIFO
-  std::string not_implementable;            // why no technology offers it; empty: it can be built
+  std::optional<std::uint64_t> high_water;  // highest occupancy of a FIFO, in words
+  std::string not_implementable;            // why no technology offers it; empty: implementable
 };
 
-// A link or a FIFO: cycles by the number of beats inside, from 0 to its depth.
+// A link or a FIFO: number of cycles by occupancy, from 0 to its depth.
 struct LinkFigures {
-  std::string name, full_name;  // full_name: what waves are chosen by
-  std::uint64_t beats = 0;      // in all
+  std::string name, full_name;  // full_name: selects it in waveforms
+  std::uint64_t beats = 0;      // total
   std::vector<std::uint64_t> cycles;
 };
 
-// A map over the picture: its files are map_NAME.png and map_NAME.pfm.
+// Summary of a per-pixel map; its files are map_NAME.png and map_NAME.pfm.
 struct MapFigures {
   std::string name, title, unit, meaning;
   double min = 0, max = 0, sum = 0;
   std::uint64_t pixels = 0;  // with a value
-  std::string account;       // what the values were checked against; empty: nothing
+  std::string account;       // count that its total was checked against; empty: none
 };
 
-// The links of an engine, those inside of FIFOs left out.
+// Links of an engine, without those inside FIFOs.
 struct LinkBits {
   std::uint64_t links = 0, bits = 0;
 };
 
-// Bits of all memories of a kind.
+// Bits of all memories of one kind.
 struct MemoryBits {
-  // "total": of flops, sram and rom. Beside it "registers": flip-flops beside memories; "links".
+  // "flops", "sram" or "rom"; "total" of these; "registers": flip-flops in addition to memories;
+  // "links".
   std::string_view kind;
   std::uint64_t memories = 0, logical = 0, physical = 0, logical_at_frame_width = 0;
 };
-// Of every kind that there is, and the total.
+// One entry per existing kind, and the total.
 std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories, const LinkBits& links);
 
-// What a reader looks for first: a value of the result by its key ("work.frame_cycles"), beside
-// one that it should be compared with; without such a key, against_label is a remark.
+// A headline figure: a value of the result by its key ("work.frame_cycles") and a value to compare
+// it with. Without a second key, against_label is a remark.
 struct Figure {
   std::string label, key;
   std::string against_label{}, against{};
-  bool tile = false;  // among the large numbers at the top
+  bool tile = false;  // shown as a tile at the top
 };
 
-// What one scoreboard compared, or all of that name in a composition.
+// Comparisons of one scoreboard, or of all scoreboards with that name in a composition.
 struct ScoreboardFigures {
   std::string name;
   std::uint64_t comparisons = 0, mismatches = 0;
 };
 
-// One mismatch: which check, where in the run ("cycle 812"), which item ("pixel (3, 4)").
+// One mismatch: check, position in the run ("cycle 812"), item ("pixel (3, 4)").
 struct MismatchLine {
   std::string check, where, item, field, expected, got;
 };
 
-// A line of what a run says at its end: "hits", "98.1 % of look-ups".
+// A line of the summary that a run prints: "hits", "98.1 % of lookups".
 struct TerminalLine {
   std::string name, text;
 };
@@ -167,9 +169,9 @@ struct TerminalLine {
 struct Result {
   std::string unit;
   Verdict verdict = Verdict::kUnchecked;
-  std::string reason;  // why it failed or is not complete; empty otherwise
+  std::string reason;  // why it failed or is incomplete; empty otherwise
   bool interrupted = false;
-  std::vector<std::string> notes;              // what had to be decided about an input
+  std::vector<std::string> notes;              // decisions made about inputs
   std::vector<MismatchLine> first_mismatches;  // of each check
   std::vector<ScoreboardFigures> scoreboards;
   std::uint64_t comparisons = 0, mismatches = 0;
@@ -184,22 +186,22 @@ struct Result {
   std::optional<Bottleneck> bottleneck;
   std::vector<MemoryFigures> memories;
   LinkBits link_bits;
-  std::vector<LinkFigures> links;                                // of a run with windows
+  std::vector<LinkFigures> links;                                // of a run with sampling intervals
   std::vector<MapFigures> maps;                                  // of a run with maps
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage
   std::optional<PixelHistory> pixel;                             // of a run with run.pixel
   std::vector<WorkItem> work;
   std::vector<Figure> figures;
-  std::vector<TerminalLine> terminal;  // the engine's own; the file has their figures in `work`
+  std::vector<TerminalLine> terminal;  // lines of the engine; `work` in the file has their values
   std::optional<Quality> quality;
   std::optional<Change> change;
   double host_seconds = 0, host_cpu_seconds = 0;
-  std::vector<std::string> faults;  // that can be injected; of a model that is described, not run
+  std::vector<std::string> faults;  // injectable faults; only in a description of a model
 
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
   }
-  // Mean rate over the run, at clock_mhz; 10^9 bytes a second.
+  // Mean rate over the run in 10^9 bytes per second, at clock_mhz.
   double gb_per_s(std::uint64_t bytes) const {
     return cycles > 0
                ? static_cast<double>(bytes) * clock_mhz / (1000 * static_cast<double>(cycles))
@@ -209,16 +211,14 @@ struct Result {
 
 nlohmann::ordered_json to_json(const Result& result);
 
-// "name (why)" of each idealised memory of a result.json.
+// "name (why)" for each memory in a result.json that cannot be implemented.
 std::vector<std::string> not_implementable_memories(const nlohmann::ordered_json& result);
 
 // Reads DIR/result.json (or the file itself) and checks that it is a complete result of this
-// schema: FileError otherwise.
-// What is said of with_infinity() has been done.
+// schema; throws FileError otherwise. with_infinity() has been applied.
 nlohmann::ordered_json read_result(const std::filesystem::path& path);
 
-// A result as readers work with it: a PSNR that is null in the file since the pictures are
-// identical is infinite.
+// Restores infinite PSNR values, which the file stores as null for identical images.
 template <class Json>
 Json with_infinity(Json result) {
   for (const char* const group : {"quality", "change"}) {
@@ -236,13 +236,13 @@ bool is_infinite(const Json& value) {
   return value.is_number_float() && std::isinf(value.template get<double>());
 }
 
-// Unit and meaning of the keys that every engine writes. "*" stands for one part of a key that a
-// run makes (units, memories).
+// Unit and meaning of the keys that every engine writes. "*" replaces a part of a key that depends
+// on the run (units, memories).
 struct Statistic {
   std::string_view name, unit, meaning;
 };
 std::span<const Statistic> statistics();
-// The entry for a key such as "units.address.busy"; nullptr when it is an engine's own.
+// Entry for a key such as "units.address.busy"; nullptr for an engine's own key.
 const Statistic* find_statistic(std::string_view key);
 
 }  // namespace deburr::tb

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What result.json holds, described once: every key in the order of the file, with its value, unit
-// and meaning. Consumers are visitors: the writer of the file (result.cpp) and the table of its
-// keys (statistics.cpp), from which docs/reference/statistics.md is made. A visitor has
+// Describes every key of result.json once, in file order, with value, unit and meaning. Visitors
+// are the writer of the file (result.cpp) and the table of keys (statistics.cpp) from which
+// docs/reference/statistics.md is made. A visitor has
 //
-//   bool has(bool there);           whether to visit what a run has or has not
+//   bool has(bool there);           whether to visit an optional part, given whether the run has it
 //   void value(std::string_view name, const T& value, std::string_view unit,
 //              std::string_view meaning);
-//   void group(std::string_view name, body);                 // body() visits what is inside
+//   void group(std::string_view name, body);                 // body() visits the members
 //   void each(std::string_view name, const Items& items, key, body);  // body(item); `key` is the
 //                                                            // member that names an item
-// and, for an item that is one value:
+// and, for items that are single values:
 //   void item(const T& value, std::string_view unit, std::string_view meaning);
-//   void item(value, unit, meaning, own);                    // own: what the run says it means
-//   void declared_item(value, unit, meaning);                // an engine's own, in no table here
+//   void item(value, unit, meaning, own);                    // own: meaning given by the run
+//   void declared_item(value, unit, meaning);                // declared by an engine, not listed
+//   here
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ inline std::string_view name_of(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-// JSON has no infinity: a PSNR of identical pictures is null, and a flag of its name says why.
+// JSON has no infinity: the PSNR of identical images is null, and a separate flag says why.
 struct PsnrFigure {
   std::string name;
   std::optional<double> db;
@@ -61,7 +62,7 @@ inline std::vector<PsnrFigure> psnr_figures(const Change& change) {
            "is true."}};
 }
 
-// What follows from the cycles of a link.
+// Figures derived from the occupancy cycles of a link.
 struct LinkOccupancy {
   std::uint64_t depth = 0, occupancy = 0, most = 0;
   double mean = 0, full_percent = 0;

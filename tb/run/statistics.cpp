@@ -10,7 +10,7 @@
 namespace deburr::tb {
 namespace {
 
-// The table of all keys: a visitor that sees everything that a run may have.
+// Visitor that collects every key that a run may have.
 class ResultKeys {
  public:
   ResultKeys() { describe(Result{}, *this); }

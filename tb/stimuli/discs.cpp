@@ -18,7 +18,7 @@ using golden::ideal::disc_coverage;
 
 constexpr int kMargin = 3;  // pixels between the circle and the frame's border
 
-// Sum of the squared errors of the pixels that the circle crosses, and their number.
+// Sum of squared errors over the pixels that the circle crosses, and their number.
 struct Errors {
   double squares = 0;
   std::int64_t count = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures from formulas, the same on every machine: the contract's test images, patterns with a
-// given share of edges, and pictures turned round.
+// Synthetic images, identical on every machine: the contract's test images, patterns with a given
+// density of edges, and transformed images.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline Rgba8 grey(int code) {
   return {c, c, c, 255};
 }
 
-// Rgba8 picture(x, y), called in raster order.
+// Makes an image from Rgba8 picture(x, y), called in raster order.
 template <class Picture>
 Image draw(int width, int height, Picture&& picture) {
   Image image(width, height);
@@ -26,7 +26,7 @@ Image draw(int width, int height, Picture&& picture) {
 
 // ---- the contract's test images (docs/reference/morphological/vectors.md, "Test vectors") ------
 
-// Their generator, advanced before it is read.
+// Generator of the contract's test images; advances before each value.
 class Sequence {
  public:
   std::uint32_t next() { return state_ = 1664525u * state_ + 1013904223u; }
@@ -41,35 +41,36 @@ Image blocks_image(int width = 90, int height = 80);
 Image shades_image(int width = 90, int height = 80);
 Image text_image(int width = 120, int height = 110);
 
-// R, G, B of all pixels, as the contract adds them up.
+// Hash of R, G and B of all pixels, as the contract defines it.
 std::uint64_t hash(const Image& image);
 
 // ---- patterns -----------------------------------------------------------------------------------
 
 Image checkerboard(int width, int height);
 
-// Black and white at random, so that `permille` of all pixels, on average, have an edge to the left
-// or above; 750 at most, which is noise.
+// Random black and white pixels. On average `permille` of 1000 pixels have an edge to the left or
+// above; at most 750, which is noise.
 Image random_edges(int width, int height, int permille, std::uint64_t seed = 1);
 
-// Diagonals of `thickness` pixels side by side: one pixel in `thickness` has an edge, to the left
-// and above, and every run is a pixel long and extended to the full N. Of two pixels, the worst
-// that predictors can meet; of one it would be a checkerboard, which no run follows.
+// Adjacent diagonals of `thickness` pixels. One pixel in `thickness` has edges to the left and
+// above, and every run is one pixel long and extended to the full N. Thickness 2 is the worst case
+// of the predictors; thickness 1 would be a checkerboard, in which no run is followed.
 Image diagonals(int width, int height, int thickness = 2);
 
-// Bands of three rows, of darker and of brighter greys in turn, cut at random and often where the
-// band above is cut as well: runs end at every crossing code, at any distance.
+// Bands of three rows in alternately darker and brighter greys, cut at random and often where the
+// band above is cut. Runs end with every crossing code at any distance.
 Image bands(int width, int height, Random& random);
 
-// A horizontal run of `length` pixels between two steps of a stair; the same between both ends of a
+// A horizontal run of `length` pixels between two steps of a stair, and one between both ends of a
 // bar on a floor.
 Image long_step(int length);
 Image long_bar(int length);
 
-// Like a rendered picture: pieces of discs of flat colours over a gradient.
+// Resembles a rendered image: parts of flat-coloured discs over a gradient.
 Image rendered_like(int width, int height, int shapes);
 
-// ---- pictures turned round ----------------------------------------------------------------------
+// ---- transformed images
+// --------------------------------------------------------------------------
 
 Image mirrored_x(const Image& image);
 Image mirrored_y(const Image& image);

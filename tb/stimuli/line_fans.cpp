@@ -19,7 +19,7 @@ using golden::ideal::coverage;
 using golden::ideal::HalfPlane;
 
 constexpr int kSlopes = 20;
-constexpr int kMarginSteps = 17;  // N = 16 and the run itself
+constexpr int kMarginSteps = 17;  // N = 16 and the run
 constexpr int kCheckedColumns = 120;
 constexpr int kMarginRows = 3;
 
@@ -86,7 +86,7 @@ FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options) {
     Random random(Random::kStride * static_cast<std::uint64_t>(seed) + 1);
     for (int n = 1; n <= kSlopes; ++n) {
       for (int i = 0; i < options.lines; ++i) {
-        // One line in each of `lines` equal parts of the interval: even cover, less noise.
+        // Stratified: one line in each of `lines` equal parts of the interval, which lowers noise.
         const double part = (i + random.uniform(0, 1)) / options.lines;
         const double slope = 1 / (n + options.u_low + part * (options.u_high - options.u_low));
         const double phase = random.uniform(0, 1);

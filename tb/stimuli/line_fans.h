@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// How well a smoothing recovers straight edges: fans of lines against analytic coverage.
+// Measures how well a filter recovers straight edges: line fans compared with analytic coverage.
 //
-// The table of docs/measurements/morphological_quality.md, "Straight lines". Lines of slope 1 / (n
-// + u), n = 1..20, u uniform in an interval, random phase, both signs; white above black, sampled
-// at pixel centres, smoothed, and compared with the exact coverage of every pixel. Figures are RMS
-// errors x 1000 of full scale:
+// See the table of docs/measurements/morphological_quality.md, "Straight lines". Lines have slope 1
+// / (n + u) with n = 1..20, u uniform in an interval, random phase and both signs. White above
+// black, they are sampled at pixel centres, filtered, and compared with the exact coverage of every
+// pixel. Figures are RMS errors x 1000 of full scale:
 //   by_class    over pixels that the line crosses
-//   undulation  e(x), the sum of the error over column x: what the eye sees along the line
+//   undulation  e(x), the error summed over column x: visible along the line
 //   jump        e(x + 1) - e(x)
-// Only columns far enough from the frame's sides for every extension are checked.
+// Only columns far enough from the sides of the frame for every extension are checked.
 //
-// The interval of u matters: lines near 1 / n give equal steps only, whose phase no pixel tells.
+// The interval of u matters: lines near slope 1 / n have only equal steps, from which the phase
+// cannot be recovered.
 #pragma once
 
 #include <array>
@@ -26,21 +27,21 @@
 
 namespace deburr::tb::stimuli {
 
-// Smooths a picture; the picture itself for no smoothing.
+// Filters an image; the identity means no filter.
 using Smoothing = std::function<Image(const Image&)>;
 
 struct FanOptions {
   double u_low = 0.05, u_high = 0.95;
-  int lines = 48;  // for each n and seed
+  int lines = 48;  // per n and seed
   int seeds = 3;
-  bool transposed = false;  // steep lines: bound by the window of rows
+  bool transposed = false;  // steep lines: limited by the number of window rows
 };
 
 inline constexpr std::array<std::string_view, 6> kSlopeClasses = {"1",    "2",     "3-5",
                                                                   "6-10", "11-20", "2-20"};
 
 struct FanFigures {
-  std::array<double, kSlopeClasses.size()> by_class{};  // n in the class
+  std::array<double, kSlopeClasses.size()> by_class{};  // by class of n
   double undulation = 0, jump = 0;                      // n = 2..20
 };
 FanFigures measure_fans(const Smoothing& smoothing, const FanOptions& options = {});
@@ -56,21 +57,21 @@ struct FanRow {
 std::vector<FanRow> fan_rows();
 Smoothing smoothing_of(const FanRow& row);
 
-// What each rule of `deburr` adds: from the paper's rules with a fitted line to the preset itself,
-// one rule a row, then mlaa and mlaa-slope with deburr-line's edges, and deburr-line with N = 16.
-// linear_light as the presets have it.
+// Contribution of each rule of `deburr`: from the paper's rules with a fitted line to the preset
+// itself, adding one rule per row; then mlaa and mlaa-slope with the edges of deburr-line, and
+// deburr-line with N = 16. linear_light is set as in the presets.
 std::vector<FanRow> rule_rows();
 
-// Figures of the contract's own program, by the names of fan_rows() (its lines are others, so that
-// a few per cent between the two mean nothing). Ours must not be above those of "fit N = 4"; the
-// others are there to compare.
+// Figures of the contract's own program, under the names of fan_rows(). It uses other lines, so
+// differences of a few per cent are not significant. Our figures must not exceed those of "fit N =
+// 4"; the other rows are for comparison.
 struct FanLimit {
   std::string_view name;
-  FanFigures figures;  // 0: not given
+  FanFigures figures;  // 0: no limit
 };
 const std::vector<FanLimit>& contract_figures();
 const FanLimit& asked_of_ours();
-// The names of all figures that are above their limit by more than `slack`, a share.
+// Names of the figures that exceed their limit by more than the fraction `slack`.
 std::vector<std::string> exceeded(const FanLimit& limit, const FanFigures& figures,
                                   double slack = 0);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reference filters of golden/ideal on pictures: peers that the engine is compared with.
+// Applies the reference filters of golden/ideal to images, for comparison with the engine.
 #pragma once
 
 #include <array>

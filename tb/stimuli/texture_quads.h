@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texture descriptors and quads at random: everything that the registers and the input link can
-// carry, with the odd cases often and the ordinary ones still there.
+// Random texture descriptors and quads: every value that registers and the input link can carry,
+// with corner cases over-represented.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,12 @@ Enum any_code(Random& random, const std::array<std::string_view, N>&) {
   return static_cast<Enum>(random.below(static_cast<std::uint32_t>(N)));
 }
 
-// The defaults with the rules of the paper.
+// The defaults with the paper's configuration.
 inline spec::texture::Parameters paper_configuration() {
   return preset_parameters(spec::texture::Preset::kPaper);
 }
 
-// Every rule and kernel; the cache stays as it is.
+// A random configuration and kernel; cache parameters keep their defaults.
 inline spec::texture::Parameters random_configuration(Random& random) {
   spec::texture::Parameters p;
   p.axes = any_code<spec::texture::Axes>(random, spec::texture::kAxesNames);
@@ -78,8 +78,8 @@ inline void random_size(Random& random, spec::texture::Descriptor& d) {
   }
 }
 
-// A descriptor that the unit accepts. Levels start anywhere in memory, overlapping each other, and
-// now and then outside of it; min_lod may be above max_lod.
+// A descriptor that the unit accepts. Levels start anywhere in memory, may overlap, and are
+// sometimes outside it; min_lod may exceed max_lod.
 inline spec::texture::Descriptor random_texture(Random& random, std::uint32_t memory_bytes) {
   spec::texture::Descriptor d;
   random_size(random, d);
@@ -108,7 +108,7 @@ inline spec::texture::Descriptor random_texture(Random& random, std::uint32_t me
   return d;
 }
 
-// Makes a descriptor one that the unit must reject, by a code that the registers can hold.
+// Makes a descriptor invalid by a code that the registers can hold.
 inline void spoil(Random& random, spec::texture::Descriptor& d) {
   switch (random.below(10)) {
     case 0:
@@ -161,8 +161,8 @@ inline constexpr std::array<std::int32_t, 14> kCoordinateCorners = {
     std::numeric_limits<std::int32_t>::max() - 1,
     std::numeric_limits<std::int32_t>::max()};
 
-// Four values of one coordinate: a plane with a slope of any order of magnitude along each axis, a
-// little bent; or all alike; or corners; or anything.
+// Four values of one coordinate: a slightly curved plane with a slope of any magnitude along each
+// axis, equal values, extreme values, or unrelated values.
 inline std::array<std::int32_t, 4> random_coordinates(Random& random) {
   std::array<std::int32_t, 4> c{};
   switch (random.below(12)) {

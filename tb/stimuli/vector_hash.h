@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The hash of the contracts' test vectors (docs/reference/morphological/vectors.md, "Test
-// vectors").
+// Hash of the contract's test vectors (docs/reference/morphological/vectors.md, "Test vectors").
 #pragma once
 
 #include "tb/base/fnv.h"
 
 namespace deburr::tb::stimuli {
 
-// FNV-1a; the start value is one digit short of the usual one.
+// FNV-1a with a non-standard start value: one digit shorter than usual.
 struct VectorHash : FnvHash {
   constexpr VectorHash() : FnvHash(1469598103934665603u) {}
 };

@@ -17,7 +17,7 @@ using golden::morphological::WeightTables;
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
-// Calls `visit` with each table and its name, in the order of the file.
+// Calls `visit` with each table and its name, in file order.
 template <class Tables, class Visit>
 void each_table(Tables& tables, const Visit& visit) {
   visit("codes", tables.of_codes);
@@ -25,7 +25,7 @@ void each_table(Tables& tables, const Visit& visit) {
   visit("far", tables.of_far);
 }
 
-// Words, a line after the other; "#" begins a comment.
+// Reads words line by line; "#" starts a comment.
 class Reader {
  public:
   Reader(std::string_view name, std::string_view text) : name_(name), rest_(text) {}
@@ -34,7 +34,7 @@ class Reader {
     throw spec::FileError(
         fmt::format("cannot read the weights '{}', line {}: {}", name_, line_, reason));
   }
-  // Empty: the file is at its end.
+  // Returns an empty text at the end of the file.
   std::string_view word() {
     while (words_.empty() && !rest_.empty()) next_line();
     const std::size_t end = std::min(words_.find(' '), words_.size());

@@ -17,14 +17,14 @@ inline constexpr std::string_view kWeightFileHead = "deburr-weights 1";
 
 // All entries in the order of WEIGHTS_ADDRESS: A, B, C.
 std::vector<std::int8_t> entries_of(const golden::morphological::WeightTables& tables);
-// What WEIGHTS_SUM says of them.
+// Their checksum as in WEIGHTS_SUM.
 std::uint32_t sum_of(const golden::morphological::WeightTables& tables);
 
-// Each note becomes a comment, a line each.
+// Each note becomes a comment line.
 std::string weight_file_text(const golden::morphological::WeightTables& tables,
                              const std::vector<std::string>& notes);
 
-// FileError that names file, line and what was expected. `name` is what errors call it.
+// Throws FileError with file, line and expectation. `name` is the file name in errors.
 golden::morphological::WeightTables parse_weight_file(std::string_view name, std::string_view text);
 golden::morphological::WeightTables read_weight_file(const std::filesystem::path& file);
 

@@ -74,9 +74,9 @@ void FragmentReader::set_size(std::uint64_t width, std::uint64_t height) {
   height_ = static_cast<int>(height);
 }
 
-// ---- text ---------------------------------------------------------------------------------------
+// ---- text format -------------------------------------------------------------------------------
 
-// The next line that says something, in fields_; false at the end of the file.
+// Reads the next non-empty, non-comment line into fields_; false at the end of the file.
 bool FragmentReader::next_line() {
   if (std::exchange(held_, false)) return true;
   for (;;) {
@@ -212,7 +212,7 @@ void FragmentReader::end_text() {
   if (next_line()) fail("more after the line 'end'");
 }
 
-// ---- binary -------------------------------------------------------------------------------------
+// ---- binary format -----------------------------------------------------------------------------
 
 void FragmentReader::open_binary() {
   format_ = TraceFormat::kBinary;
@@ -267,8 +267,7 @@ bool FragmentReader::next_binary(Record& record) {
   return true;
 }
 
-// ---- checking
-// ------------------------------------------------------------------------------------
+// ---- checks ------------------------------------------------------------------------------------
 
 bool FragmentReader::next(TracedQuad& quad) {
   if (ended_) return false;
@@ -348,7 +347,7 @@ void FragmentReader::check_quad(const Record& record, TracedQuad& quad) const {
   }
 }
 
-// The quad around it: its neighbours are where the derivatives say.
+// Checks a fragment and builds the quad around it: the other lanes follow from its derivatives.
 void FragmentReader::check_fragment(const Record& record, TracedQuad& quad) const {
   const auto& [s, t, dsdx, dtdx, dsdy, dtdy, unused1, unused2] = record.values;
   coordinate(s, "s");

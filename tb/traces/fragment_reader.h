@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads a trace of fragments, quad by quad, in bounded memory, whichever of the two formats it is
-// in. Nothing of it is trusted: whatever is wrong is a FileError with the line or the record, what
-// was expected, and what to do.
+// Reads a fragment trace in either format, quad by quad, in bounded memory. Input is untrusted: any
+// error is a FileError with the line or record, the expectation and a remedy.
 #pragma once
 
 #include <array>
@@ -19,21 +18,21 @@ namespace deburr::tb::traces {
 
 class FragmentReader {
  public:
-  // Reads as far as the size of the picture. `textures`: how many the unit is given, handles 0 to
-  // below it.
+  // Reads the header, up to the size of the picture. `textures`: number of textures of the unit,
+  // with handles from 0.
   FragmentReader(const std::filesystem::path& file, std::size_t textures);
 
-  // False behind the last one, once the file has proved to be whole.
+  // Returns false after the last quad, once the file has been found complete.
   bool next(TracedQuad& quad);
 
   TraceFormat format() const { return format_; }
-  // Of the picture; 0: the trace has none.
+  // Width of the picture; 0: none given.
   int width() const { return width_; }
   int height() const { return height_; }
   std::uint64_t quads() const { return quads_; }  // read so far
 
  private:
-  // A record of either format, before it is checked.
+  // A record of either format, unchecked.
   struct Record {
     FragmentRecord kind = FragmentRecord::kQuad;
     std::uint32_t texture = 0, coverage = 0xF, visible = 0xF, clamped = 0;
@@ -70,15 +69,15 @@ class FragmentReader {
   std::ifstream input_;
   TraceFormat format_ = TraceFormat::kText;
   int width_ = 0, height_ = 0;
-  std::uint64_t quads_ = 0, expected_ = 0;  // expected: of a binary file
+  std::uint64_t quads_ = 0, expected_ = 0;  // expected_: number in a binary file's header
   bool ended_ = false;
   std::uint64_t line_ = 0;
   std::string text_;
   std::vector<std::string_view> fields_;
-  bool held_ = false;  // the line is still to be read
+  bool held_ = false;  // the current line has not been processed
 };
 
-// What a run must know before it begins: all of the file is read, and everything in it checked.
+// What a run must know before it starts: the whole file is read and checked.
 struct FragmentSummary {
   int width = 0, height = 0;
   std::uint64_t quads = 0, fragments = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a trace of fragments, quad by quad, in bounded memory. What is read back is what was
-// written, to the bit.
+// Writes a fragment trace, quad by quad, in bounded memory. Reading it gives identical quads, to
+// the bit.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace deburr::tb::traces {
 
 class FragmentWriter {
  public:
-  // width x height: of the picture; 0 x 0: there is none, and no quad is placed. FileError.
+  // width x height: size of the picture; 0 x 0: none, so no quad has a position. Throws FileError.
   FragmentWriter(const std::filesystem::path& file, TraceFormat format, int width, int height);
   void put(const TracedQuad& quad);
-  // The file is complete, or this is a FileError.
+  // Completes the file or throws FileError.
   void finish();
   std::uint64_t quads() const { return quads_; }
 

@@ -14,7 +14,7 @@
 namespace deburr::tb::traces {
 namespace {
 
-// Of the line that begins `from` bytes behind the transaction's address.
+// Bytes of the line that starts `from` bytes after the transaction's address.
 std::uint32_t bytes_of_line(const tlm::tlm_generic_payload& payload, std::uint32_t from,
                             std::uint32_t line_bytes) {
   const unsigned char* enables = payload.get_byte_enable_ptr();
@@ -72,7 +72,7 @@ void LineTrace::attach_caches() {
     const auto number = static_cast<std::uint8_t>(ports_.size());
     ports_.push_back({dynamic_cast<sc_core::sc_object&>(cache).name(), line_bytes, true});
     any = true;
-    // Who looks already goes on to do so.
+    // An observer that is already attached is still called.
     cache.observer = [this, number, line_bytes, other = cache.observer](
                          rtl::Cycle cycle, std::uint32_t line, rtl::LookUp outcome) {
       if (other) other(cycle, line, outcome);
@@ -128,7 +128,7 @@ void LineTrace::add(const Record& record) {
   clock_.push_back(record);
 }
 
-// By port, whatever order the units were evaluated in.
+// Sorted by port, so independent of the evaluation order of units.
 void LineTrace::write_clock() {
   std::stable_sort(clock_.begin(), clock_.end(),
                    [](const Record& a, const Record& b) { return a.port < b.port; });

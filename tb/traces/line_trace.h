@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Every line that the memory ports of a simulation ask for and, if wanted, every look-up of its
-// caches, written for simulators of memories and caches (docs/reference/traces.md).
+// Writes every line request of a simulation's memory ports and optionally every cache lookup, for
+// memory and cache simulators (docs/reference/traces.md).
 //
 //   LineTrace trace(file, options);   // after elaboration
 //   ...                               // cycles
 //   trace.finish();
 //
-// Bounded memory. Costs nothing where there is none.
+// Needs bounded memory; without a LineTrace there is no overhead.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 namespace deburr::tb::traces {
 
 struct LineTraceOptions {
-  std::string engine;  // as `deburr run` calls it
+  std::string engine;  // name as in `deburr run`
   double clock_mhz = 0;
   TraceFormat format = TraceFormat::kText;
   bool lookups = false;
@@ -36,22 +36,22 @@ class LineTrace {
   static constexpr std::string_view kMagic = "DEBURRLT";
   static constexpr std::size_t kHeaderBytes = 64, kPortBytes = 64, kRecordBytes = 24;
 
-  // Attaches to everything that there is to see. ConfigError where no port asks memory for
-  // anything, or there is no cache whose look-ups are wanted; FileError.
+  // Attaches to all memory ports and, if enabled, caches. Throws ConfigError if no port makes
+  // requests or lookups are enabled without a cache; FileError.
   LineTrace(const std::filesystem::path& file, const LineTraceOptions& options);
-  // Detaches; without finish() the file goes.
+  // Detaches. Removes the file unless finish() was called.
   ~LineTrace();
   LineTrace(const LineTrace&) = delete;
   LineTrace& operator=(const LineTrace&) = delete;
 
-  // The file is complete, or this is a FileError.
+  // Completes the file or throws FileError.
   void finish();
   std::uint64_t records() const { return records_; }
 
  private:
   struct Port {
     std::string name;
-    std::uint32_t line_bytes;  // of a cache that is looked up: of its lines
+    std::uint32_t line_bytes;  // for a cache: size of its lines
     bool cache;
   };
   struct Record {
@@ -73,7 +73,7 @@ class LineTrace {
   LineTraceOptions options_;
   TraceOutput output_;
   std::vector<Port> ports_;
-  std::vector<Record> clock_;  // of the clock that is under way
+  std::vector<Record> clock_;  // of the current cycle
   std::uint64_t records_ = 0;
 };
 

@@ -65,7 +65,7 @@ void TraceOutput::finish(std::string_view beginning) {
     if (count < 0) fail("write", errno);
     done += static_cast<std::size_t>(count);
   }
-  // Delayed allocation and network file systems report a full disk only here.
+  // With delayed allocation or a network file system a full disk is reported only here.
   if (::fsync(descriptor_) != 0) fail("flush", errno);
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail("examine", errno);

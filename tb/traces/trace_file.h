@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all traces have in common: two formats, little-endian fields, and a file that is written
-// from its beginning to its end in bounded memory.
+// Common parts of all traces: two formats, little-endian fields, and a file written sequentially in
+// bounded memory.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ namespace deburr::tb::traces {
 
 enum class TraceFormat : std::uint8_t { kText, kBinary };
 
-// As parameters name it.
+// Values of the trace parameters.
 enum class TraceChoice : std::uint8_t { kNone, kText, kBinary };
 inline constexpr std::array<std::string_view, 3> kTraceChoiceNames = {"none", "text", "binary"};
 inline TraceFormat format_of(TraceChoice choice) {
   return choice == TraceChoice::kBinary ? TraceFormat::kBinary : TraceFormat::kText;
 }
 
-// Least significant byte first, whatever the host has.
+// Least significant byte first on every host.
 template <class T>
 void put_little_endian(std::string& bytes, T value) {
   static_assert(std::is_unsigned_v<T>);
@@ -32,7 +32,7 @@ void put_little_endian(std::string& bytes, T value) {
 inline void put_double(std::string& bytes, double value) {
   put_little_endian(bytes, std::bit_cast<std::uint64_t>(value));
 }
-// `bytes` has at least sizeof(T) of them from `at` on.
+// `bytes` must hold at least sizeof(T) bytes from `at` on.
 template <class T>
 T get_little_endian(std::string_view bytes, std::size_t at) {
   static_assert(std::is_unsigned_v<T>);
@@ -47,23 +47,24 @@ inline double get_double(std::string_view bytes, std::size_t at) {
   return std::bit_cast<double>(get_little_endian<std::uint64_t>(bytes, at));
 }
 
-// A file that appears whole or not at all, if it lies in a run's draft
-// (tool/pages/run_directory.h): every failure, a full disk above all, is a FileError, behind which
-// it is gone.
+// Output file that appears complete or not at all if it is in a run's draft folder
+// (tool/pages/run_directory.h). Every failure, such as a full disk, throws FileError, and the file
+// is removed.
 class TraceOutput {
  public:
   explicit TraceOutput(std::filesystem::path file);
-  // Without finish(): the file goes.
+  // Removes the file unless finish() was called.
   ~TraceOutput();
   TraceOutput(const TraceOutput&) = delete;
   TraceOutput& operator=(const TraceOutput&) = delete;
 
-  // Room for a record: append to it, and call written() behind it.
+  // Buffer for the next record: append to it, then call written().
   std::string& buffer() { return buffer_; }
   void written() {
     if (buffer_.size() >= kChunk) flush();
   }
-  // Overwrites what stands at the beginning; then everything is on the disk, or a FileError.
+  // Overwrites the start of the file with `beginning` and flushes everything to disk; throws
+  // FileError.
   void finish(std::string_view beginning = {});
 
  private:
@@ -74,7 +75,7 @@ class TraceOutput {
 
   std::filesystem::path file_;
   int descriptor_ = -1;
-  bool removable_ = false;  // a regular file: not /dev/null, where a run that only checks writes
+  bool removable_ = false;  // a regular file, unlike /dev/null, which check-only runs write to
   std::uint64_t size_ = 0;
   std::string buffer_;
 };

@@ -12,12 +12,12 @@ namespace {
 
 using Imath::V3d;
 
-// Relative to the longest extent of the mesh: what is nearer to a plane lies in it. Files keep six
-// or seven digits.
+// Tolerance relative to the longest extent of the mesh: closer points lie in a plane. Mesh files
+// keep six or seven digits.
 constexpr double kOnPlane = 0x1p-20;
-// Sine of the angle between faces below which where they cross says nothing.
+// Sine of the angle between two faces below which their intersection is too inexact to use.
 constexpr double kParallel = 0x1p-10;
-constexpr std::size_t kLeaf = 4;  // faces
+constexpr std::size_t kLeaf = 4;  // faces per leaf
 
 struct Box {
   V3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -40,7 +40,7 @@ struct Box {
 
 // ---- boxes --------------------------------------------------------------------------------------
 
-// A balanced binary tree over the faces; a node's children are 2 i + 1 and 2 i + 2.
+// A balanced binary tree over the faces; the children of node i are 2 i + 1 and 2 i + 2.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
@@ -48,7 +48,7 @@ class BoxTree {
     if (!order_.empty()) build(0, 0, order_.size());
   }
 
-  // Calls test(a, b) once for each pair of faces whose boxes meet.
+  // Calls test(a, b) once for each pair of faces whose boxes overlap.
   template <class Test>
   void for_each_pair(Test&& test) const {
     if (order_.empty()) return;
@@ -73,15 +73,15 @@ class BoxTree {
  private:
   struct Node {
     Box box;
-    std::size_t begin = 0, end = 0;  // in order_
+    std::size_t begin = 0, end = 0;  // range in order_
   };
   static std::size_t left(std::size_t node) { return 2 * node + 1; }
   static std::size_t right(std::size_t node) { return 2 * node + 2; }
   std::size_t size(std::size_t node) const { return nodes_[node].end - nodes_[node].begin; }
   bool is_leaf(std::size_t node) const { return size(node) <= kLeaf; }
 
-  // Halves by the middles of boxes along the longest axis of these; the number breaks ties, so that
-  // the tree is always the same.
+  // Splits at the median of box centres along the longest axis of these centres. The face number
+  // breaks ties, so that the tree is deterministic.
   void build(std::size_t node, std::size_t begin, std::size_t end) {
     if (nodes_.size() <= node) nodes_.resize(node + 1);
     Box box, middles;
@@ -114,7 +114,7 @@ class BoxTree {
   }
 
   std::vector<Box> boxes_;
-  std::vector<std::size_t> order_;  // of faces, those of a node together
+  std::vector<std::size_t> order_;  // face numbers, grouped by node
   std::vector<Node> nodes_;
 };
 
@@ -168,8 +168,8 @@ class Crosser {
     return false;
   }
 
-  // The part of a face in the plane of another. What lies in that plane counts as above it, so that
-  // of two faces that meet in it one is cut.
+  // Part of a face in the plane of another one. Points in that plane count as above it, so that of
+  // two faces that meet in it only one is cut.
   std::optional<std::array<V3d, 2>> cut(std::size_t face, std::size_t by) const {
     const V3d& origin = places_[faces_[by].place[0]];
     std::array<double, 3> height;
@@ -182,7 +182,8 @@ class Crosser {
     for (std::size_t i = 0; i < 3; ++i) {
       std::size_t k = (i + 1) % 3, j = i;
       if ((height[j] < 0) == (height[k] < 0)) continue;
-      // From the place with the lower number, as every face at this edge.
+      // Start at the vertex with the lower number, so that all faces at this edge give the same
+      // point.
       if (faces_[face].place[k] < faces_[face].place[j]) std::swap(j, k);
       const V3d &p = places_[faces_[face].place[j]], &q = places_[faces_[face].place[k]];
       ends[found++] = height[j] == 0   ? p

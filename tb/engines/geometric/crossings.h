@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Where the faces of a mesh pass through each other: no edge of it, and an edge in every picture.
+// Finds where the faces of a mesh intersect: not an edge of the mesh, but visible as an edge in
+// every picture.
 //
-// Before the engine: docs/reference/geometric/index.md. Double precision, without
-// contraction; once a mesh. A tree of boxes finds pairs of faces that may cross: O(n log n) on
-// meshes whose faces mostly do not.
+// Runs before the engine: docs/reference/geometric/index.md. Double precision without contraction,
+// once per mesh. A tree of boxes finds candidate pairs: O(n log n) for meshes in which few faces
+// intersect.
 #pragma once
 
 #include <Imath/ImathVec.h>
@@ -15,10 +16,10 @@
 
 namespace deburr::tb {
 
-// A face of three places; equal numbers are one place.
+// A face by its three welded vertices; equal numbers mean the same position.
 struct CrossingFace {
   std::array<std::uint32_t, 3> place{};
-  std::uint32_t face = 0;  // its number in the mesh
+  std::uint32_t face = 0;  // index in the mesh
 };
 
 // A segment that two faces share.
@@ -28,12 +29,12 @@ struct Crossing {
 };
 
 struct Crossings {
-  std::vector<Crossing> segments;  // by f0, then f1
-  std::uint64_t tested = 0;        // pairs of faces whose boxes meet
+  std::vector<Crossing> segments;  // sorted by f0, then f1
+  std::uint64_t tested = 0;        // pairs of faces with overlapping boxes
 };
 
-// Of faces without a common place, finite and with an area. Ends are the same to the bit where
-// segments follow each other across an edge of the mesh.
+// Considers faces without a common vertex that are finite and have an area. Endpoints are
+// bit-identical where segments continue across an edge of the mesh.
 Crossings find_crossings(std::span<const Imath::V3d> places, std::span<const CrossingFace> faces);
 
 }  // namespace deburr::tb

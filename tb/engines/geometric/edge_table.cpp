@@ -26,8 +26,8 @@ namespace flag = spec::geometric::flag;
 
 constexpr double kCreaseCosine = 0.99;        // equation (4)
 constexpr double kSplitNormal = 0x1p-10;      // length of the difference of two unit normals
-constexpr double kSeamStep = 0x1p-20;         // repeats
-constexpr double kGuardBandPixels = 16383.0;  // a pixel less than the engine's
+constexpr double kSeamStep = 0x1p-20;         // in texture repeats
+constexpr double kGuardBandPixels = 16383.0;  // one pixel less than the engine's
 constexpr double kDepthScale = 0xFFFFFF;
 
 [[noreturn]] void reject(const Mesh& mesh, const std::string& what) {
@@ -64,7 +64,7 @@ struct Hash {
   }
 };
 
-// Positions that are equal are one place, numbered in the order in which they come.
+// Merges equal positions; numbers them in order of appearance.
 class Welder {
  public:
   Welder(std::vector<V3d>& places, std::size_t expected) : places_(places) {
@@ -72,7 +72,7 @@ class Welder {
   }
   std::uint32_t number_of(const V3d& position) {
     std::array<std::uint64_t, 3> key;
-    // -0 + 0 is 0.
+    // adding 0 turns -0 into 0
     for (int i = 0; i < 3; ++i)
       key[static_cast<std::size_t>(i)] = std::bit_cast<std::uint64_t>(position[i] + 0.0);
     const auto [where, inserted] =
@@ -86,15 +86,15 @@ class Welder {
   std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, Hash> numbers_;
 };
 
-// One side of a face, from corner `corner` to the next.
+// One side of a face, from corner `corner` to the next one.
 struct Side {
   std::uint32_t v0 = 0, v1 = 0;  // welded, v0 < v1
   std::uint32_t face = 0;
   std::uint8_t corner = 0;
-  bool forward = false;  // the face passes it from v0 to v1
+  bool forward = false;  // the face traverses it from v0 to v1
 };
 
-// The mesh vertices of a side at its two places.
+// The mesh vertices at the two ends of a side.
 struct Ends {
   const Vertex *at_v0, *at_v1;
 };
@@ -140,7 +140,7 @@ std::uint8_t shading_flags(const Mesh& mesh, const EdgeTable& table, const Side&
   return static_cast<std::uint8_t>(flags);
 }
 
-// (x, y, w) with x / w and y / w in pixels, and what of it the engine can draw from.
+// Range of (x, y, w) in which the engine can draw; x / w and y / w are in pixels.
 struct ClipBand {
   double near_plane;
   double behind(const V3d& p) const { return p.z - near_plane; }
@@ -167,7 +167,8 @@ spec::geometric::Vertex snap(const V3d& p, double near_plane) {
           static_cast<std::uint32_t>(std::min(depth, kDepthScale)), true};
 }
 
-// Cuts the line to the band, from the inner towards the outer end. False if nothing is left.
+// Clips the line to the band, from the inner to the outer endpoint. Returns false if nothing is
+// left.
 bool clip(const ClipBand& band, V3d& p, V3d& q) {
   for (std::size_t plane = 0; plane < 5; ++plane) {
     const double dp = band.all(p)[plane], dq = band.all(q)[plane];
@@ -181,7 +182,7 @@ bool clip(const ClipBand& band, V3d& p, V3d& q) {
   return true;
 }
 
-// The same two places may come of several faces; they are one record.
+// Several face pairs may give the same endpoints; they become one edge record.
 void add_crossings(EdgeTable& table, Welder& welder, std::span<const CrossingFace> faces) {
   const Crossings crossings = find_crossings(table.vertices, faces);
   std::vector<Edge> added;

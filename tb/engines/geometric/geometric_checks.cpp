@@ -95,7 +95,7 @@ void GeometricChecks::restart() {
   candidates.restart();
   blocks.restart();
   traffic.restart();
-  golden_.clear_coverage();  // the frame that begins again is the first
+  golden_.clear_coverage();  // a reset occurs only in the first frame
 }
 
 void GeometricChecks::got(const LineRecord& line, rtl::Cycle cycle) {
@@ -143,7 +143,8 @@ void GeometricChecks::end(const Image& after, rtl::Cycle cycle) {
   errors_ += golden_.memory_errors();
 }
 
-// As much as frames and memory have, and as the engine counted: a frame may have no line.
+// Sets the minimum of comparisons from frames and memory; for lines, which a frame may lack, from
+// the engine's counter.
 void GeometricChecks::finish(const rtl::geometric::GeometricEngine& engine,
                              const platform::MemoryModel& memory, std::uint64_t area,
                              platform::RegisterBus& bus) {
@@ -168,7 +169,8 @@ void GeometricChecks::check_figures(const rtl::geometric::GeometricEngine& engin
     figures.check(fmt::format("lines_read_{}", region), counted.read[i], moved_.read[i]);
     figures.check(fmt::format("lines_written_{}", region), counted.written[i], moved_.written[i]);
   }
-  // Reads whose latency the arbiter measured: of clients that read a region alone, and of all.
+  // Reads whose latency the arbiter measured: per client that is the only reader of a region, and
+  // in total.
   constexpr std::pair<Client, Region> kAlone[] = {
       {Client::kFacing, Region::kFaces},      {Client::kEdges, Region::kEdges},
       {Client::kVertices, Region::kVertices}, {Client::kDepth, Region::kDepth},
@@ -219,7 +221,8 @@ std::vector<std::pair<std::uint32_t, std::uint64_t>> GeometricChecks::expected_r
   for (const WorkCount& each : spec::geometric::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);
   expected.emplace_back(reg::kMemoryErrors, errors_);
-  // Cycles are the model's own; that the registers show them is checked, and that they add up.
+  // The golden model is untimed, so check only that the registers show the model's counters and
+  // that they add up.
   const rtl::geometric::FrameSequencer& sequencer = engine.frame_sequencer;
   const std::uint64_t edge_cycles = sequencer.edge_cycles.value(),
                       resolve_cycles = sequencer.resolve_cycles.value();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine does against its golden model: lines, candidates and blocks as they
-// come, the lines of memory of each region in order, a frame's pixels in memory, the registers.
+// Compares the geometric engine with its golden model: lines, candidates and blocks as they appear,
+// memory lines of each region in order, the pixels of a frame in memory, the registers.
 #pragma once
 
 #include <cstdint>
@@ -25,32 +25,32 @@ namespace deburr::tb {
 
 class GeometricChecks {
  public:
-  // Setup and regions must outlive it. Without `golden` nothing is compared.
+  // `setup` and `regions` must outlive it. Without `golden` nothing is compared.
   GeometricChecks(const GeometricSetup& setup, const platform::GeometricRegions& regions,
                   bool golden);
 
-  // The engine's counters are 0.
+  // Call after a reset of the engine's counters.
   void clear_counters();
-  // The golden model works on a frame, which must outlive its checks.
+  // Runs the golden model on a frame, which must outlive its checks.
   void begin(const geometric::Frame& frame);
-  // The frame begins again (after a reset).
+  // Restarts the frame after a reset.
   void restart();
 
   void got(const spec::geometric::LineRecord& line, rtl::Cycle cycle);
   void got(const spec::geometric::Candidate& candidate, rtl::Cycle cycle);
   void got(const spec::geometric::BlockRecord& block, rtl::Cycle cycle);
-  // What memory has recorded since the last call, or since the frame began.
+  // Checks accesses that memory has recorded since the last call or the start of the frame.
   void check_traffic(const platform::MemoryModel& memory, rtl::Cycle cycle);
-  // The frame is done; this is what is in memory.
+  // Ends a frame; `after` is the frame in memory.
   void end(const Image& after, rtl::Cycle cycle);
-  // All frames are done: sets how many comparisons there must be, and checks the registers and the
+  // After all frames: sets the required number of comparisons and checks the registers and the
   // counters that have a second source.
   void finish(const rtl::geometric::GeometricEngine& engine, const platform::MemoryModel& memory,
               std::uint64_t pixels, platform::RegisterBus& registers);
 
-  // The frame as it should be when the engine is done.
+  // The frame as the golden model finishes it.
   Image expected_frame() const;
-  // Where the line of memory with a pixel lies from the base of its buffer on.
+  // Byte offset, from the base of a buffer, of the memory line that holds a pixel.
   std::uint32_t line_offset(int x, int y) const;
   const golden::geometric::GeometricGolden& golden_model() const { return golden_; }
 
@@ -73,11 +73,11 @@ class GeometricChecks {
   const platform::GeometricRegions& regions_;
   bool used_;
   golden::geometric::GeometricGolden golden_;
-  spec::geometric::Work work_;  // of the golden model, of all frames since the last reset
+  spec::geometric::Work work_;  // golden model's counts of all frames since the last reset
   LinesMoved moved_;
   std::uint64_t errors_ = 0;
   const geometric::Frame* frame_ = nullptr;
-  golden::geometric::FrameLayout layout_;  // of it
+  golden::geometric::FrameLayout layout_;  // of the current frame
   Image expected_;
   std::size_t reads_checked_ = 0, writes_checked_ = 0;
 };

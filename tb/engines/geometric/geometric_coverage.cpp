@@ -58,8 +58,8 @@ constexpr std::array kGroups = {
     CoverageGroup{"geometric/rejection",
                   "Rejected starts; only in tests, since a run is checked before it starts."}};
 
-// Causes that a unit can lose a clock to, as docs/reference/geometric/hardware.md has them. The
-// sequencer never stalls, and the port is the fabric's.
+// Stall causes of each unit, as in docs/reference/geometric/hardware.md. The sequencer never
+// stalls; the port belongs to the fabric.
 const std::map<std::string, std::vector<std::string>>& stalls() {
   static const std::map<std::string, std::vector<std::string>> all = {
       {"facing_store", {"downstream", "memory"}},
@@ -83,7 +83,7 @@ const std::map<std::string, std::vector<std::string>>& stalls() {
 
 constexpr std::array<std::string_view, 2> kPairsOutOfRange = {"vertex/invalid", "number/invalid"};
 
-// By the numbers of the unit's histograms.
+// Bins by index in the unit's histograms.
 constexpr std::array<std::string_view, 4> kDroppedSides = {"dropped-up", "dropped-down",
                                                            "dropped-left", "dropped-right"};
 constexpr std::array<std::string_view, 2> kLesserTiles = {"own-tile-lesser", "other-tile-lesser"};
@@ -123,13 +123,15 @@ void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   }
 }
 
-// Of golden's bins. The table of a mesh names only what there is, and who draws all edges is not
-// asked what a crease is, but by presets.
+// Whether only directed tests can hit this bin of the golden model. Edge tables of meshes contain
+// no invalid references, and creases are not classified when all edges are drawn, except by
+// presets.
 bool is_directed(const std::string& bin) {
   return bin.ends_with("/invalid") || bin.starts_with("class/all/off/");
 }
 
-// A block that came to an empty place is there at the end, or another in its place.
+// Every block that enters an empty entry leaves one block in it at the end of the frame, itself or
+// a later one.
 void hit_write_buffer(Coverage& coverage, const rtl::geometric::WeightCombiner& weights,
                       const spec::geometric::Parameters& parameters) {
   const std::uint64_t at_end = weights.buffered_blocks.sum();

@@ -43,7 +43,7 @@ platform::GeometricRegions regions_of(std::span<const geometric::Frame> frames,
   return platform::GeometricRegions::allocate(sizes, parameters);
 }
 
-// ---- building -----------------------------------------------------------------------------------
+// ---- construction -------------------------------------------------------------------------------
 
 GeometricEnvironment::GeometricEnvironment(Simulation& simulation,
                                            std::span<const geometric::Frame> frames,
@@ -114,7 +114,7 @@ void GeometricEnvironment::observe() {
     };
 }
 
-// ---- running ------------------------------------------------------------------------------------
+// ---- simulation ---------------------------------------------------------------------------------
 
 void GeometricEnvironment::configure() {
   driver_.identify();
@@ -150,7 +150,7 @@ void GeometricEnvironment::load() {
   if (name().empty()) in_memory.colours = frame.image.pixels;
   driver_.load(in_memory);
   if (!simulation().options().poison) return;
-  // Nobody has written there.
+  // Memory that has not been written holds noise.
   Random random(simulation().options().seed, "memory");
   for (const Region region : {Region::kWeights, Region::kCopy}) {
     const std::uint64_t end =
@@ -167,8 +167,8 @@ void GeometricEnvironment::draw() {
 }
 
 void GeometricEnvironment::restart() {
-  // What was asked of memory before is still on its way; it goes by before the frame begins. In a
-  // composition frames begin by themselves, so it has seen to that during reset.
+  // Earlier requests are still outstanding; they complete before the frame starts. A composition
+  // starts frames itself and has waited during the reset.
   if (name().empty()) drain_memory();
   memory_.clear_statistics();
   error_lines_ = {};
@@ -213,8 +213,7 @@ Amount GeometricEnvironment::amount() const {
   return {meter_.edges_done(), engine_.edge_classifier.edges.value(), all, "edge"};
 }
 
-// ---- checking
-// ------------------------------------------------------------------------------------
+// ---- checking -----------------------------------------------------------------------------------
 
 Environment::Boards GeometricEnvironment::outputs() const {
   return {&checks_.lines, &checks_.candidates, &checks_.blocks, &checks_.pixels};
@@ -266,7 +265,7 @@ std::vector<PictureMap> GeometricEnvironment::maps() const {
   return meter_.named(maps_->maps(engine_, line_of, memory_.lines_read(), frames_.size() == 1));
 }
 
-// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+// Defined here, because inlined copies can keep the compiler from optimising the units.
 GeometricEnvironment::~GeometricEnvironment() = default;
 
 }  // namespace deburr::tb

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine on one or several frames.
+// Environment of the geometric engine for one or several frames.
 //
-//   frames ─► MemoryModel ◄─► GeometricEngine ─► lines, candidates, blocks, as they come
-//              edges, vertices, facing bits,       └ registers ◄─ RegisterHost: sizes, bases, START
-//              depth, colours; weights, copy                                    all of them at the
-//              end
+//   frames ─► MemoryModel ◄─► GeometricEngine ─► lines, candidates, blocks
+//                                    └ registers ◄─ RegisterHost
 //
-// The golden model works on a frame before it begins. What the engine's observers see is checked as
-// it comes, so are the lines of memory that it reads and writes, each region's in order; when the
+//   MemoryModel   edges, vertices, facing bits, depth, colours, weights, copy
+//   RegisterHost  writes sizes, bases and START; reads all registers at the end
+//
+// The golden model processes a frame before the engine starts it. Observed lines, candidates and
+// blocks are checked as they appear, as are the memory lines of each region in order; when the
 // frame is done, every pixel in memory.
 #pragma once
 
@@ -36,15 +37,15 @@
 
 namespace deburr::tb {
 
-// Room for each of the frames. ConfigError if addresses of 32 bits do not reach.
+// Allocates memory for the largest frame. Throws ConfigError if 32-bit addresses are not enough.
 platform::GeometricRegions regions_of(std::span<const geometric::Frame> frames,
                                       const spec::geometric::Parameters& parameters);
 
 class GeometricEnvironment final : public Environment {
  public:
-  // The frames, which must outlive it, are what the golden model smooths. With a name it is part of
-  // a composition, which puts the colours into memory and says when they are complete: put(),
-  // draw(). ConfigError for wrong parameters or a frame that the engine does not take.
+  // The golden model processes the frames, which must outlive the environment. With a name it is
+  // part of a composition, which writes the colours to memory with put() and starts the engine with
+  // draw(). Throws ConfigError for invalid parameters or a frame that the engine does not support.
   GeometricEnvironment(Simulation& simulation, std::span<const geometric::Frame> frames,
                        const GeometricSetup& setup, std::string name = {});
   ~GeometricEnvironment() override;
@@ -74,19 +75,20 @@ class GeometricEnvironment final : public Environment {
     meter_.collect_headline(result, simulation().options().clock_mhz);
   }
 
-  // ---- the frame in memory, without time; for a composition
+  // ---- the frame in memory, untimed; for compositions
   void put(int x, int y, const Rgba8& colour) { driver_.put(x, y, colour); }
-  // The frame is complete: the engine begins in the next clock. Alone, begin() does it.
+  // Call when the frame is complete: the engine starts in the next cycle. Without a composition
+  // begin() calls it.
   void draw();
 
-  // The frame as it is in memory, and as it should be when the engine is done.
+  // The frame in memory, and the expected one when the engine is done.
   Image frame() const;
   Image expected_frame() const { return checks_.expected_frame(); }
-  // Weights of the last frame's blended pixels, as the engine resolved them.
+  // Weights of the last frame's blended pixels, as the resolver used them.
   const std::vector<spec::geometric::BlockRecord>& blocks() const { return blocks_; }
-  // The golden model, which has seen every frame (none without golden).
+  // The golden model after all frames so far; unused if SimulationOptions::golden is false.
   const golden::geometric::GeometricGolden& golden_model() const { return checks_.golden_model(); }
-  // Over all pixels of all frames in order.
+  // Hash of all pixels of all frames in order.
   std::uint64_t pixel_hash() const { return hash_.value(); }
   const GeometricMeter& meter() const { return meter_; }
 
@@ -97,7 +99,7 @@ class GeometricEnvironment final : public Environment {
   const platform::GeometricDriver& driver() const { return driver_; }
 
  private:
-  // Of the model and of its parameters; memory alone is called that.
+  // Name of the memory model and of its parameters; "memory" outside a composition.
   std::string memory_name() const {
     return name().empty() ? "memory" : std::string(kGeometricMemory);
   }
@@ -106,7 +108,7 @@ class GeometricEnvironment final : public Environment {
   void observe();
   void load();
   using LinesByRegion = std::array<std::uint64_t, platform::GeometricRegions::kCount>;
-  // That memory answered with an error, of all frames.
+  // Lines of all frames that memory answered with an error.
   LinesByRegion error_lines() const;
 
   std::span<const geometric::Frame> frames_;
@@ -120,14 +122,14 @@ class GeometricEnvironment final : public Environment {
   GeometricMeter meter_;
   GeometricChecks checks_;
 
-  std::size_t current_ = 0;  // of frames_
+  std::size_t current_ = 0;  // index in frames_
   bool started_ = false;
   std::vector<spec::geometric::BlockRecord> blocks_;
   OutputHash hash_;
   std::optional<GeometricMaps> maps_;
   std::optional<GeometricHistory> history_;
-  bool ended_ = false;           // the current frame
-  LinesByRegion error_lines_{};  // of the frames before it
+  bool ended_ = false;           // the current frame is done
+  LinesByRegion error_lines_{};  // of earlier frames
 };
 
 }  // namespace deburr::tb

@@ -26,7 +26,7 @@ spec::geometric::CacheLines other_size(spec::geometric::CacheLines lines) {
                                   : static_cast<CacheLines>(static_cast<std::uint8_t>(lines) - 1);
 }
 
-// The lowest bit of every word.
+// Inverts the lowest bit of every word.
 template <class Word>
 void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
   rtl::for_each<rtl::Memory<Word>>(engine, [name](rtl::Memory<Word>& memory) {
@@ -37,7 +37,7 @@ void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
 
 }  // namespace
 
-// A face of the first edge of two faces, whose class goes by it.
+// Returns a face of the first edge with two faces; the class of that edge depends on it.
 std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
   if (setup_.geometric.select != spec::geometric::Select::kEdges || frames_.empty())
     return std::nullopt;
@@ -47,11 +47,11 @@ std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
   return std::nullopt;
 }
 
-// The number of a block with a pixel that takes from a blended one in the block above, and would be
-// another if it took that as it is now. The block above was written long before: lines are read
-// ahead, and what was read before it was written is not stale.
+// Returns the index of a block with a pixel that blends with a blended pixel of the block above and
+// would change if it used that pixel's final colour. The block above must be far enough ahead:
+// lines are prefetched, and a line read before the write is not stale.
 std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
-  constexpr int kInside = 16;  // blocks in the stages of the resolve
+  constexpr int kInside = 16;  // blocks in the stages of the resolver
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
   const rtl::MemoryCycles memory = memory_cycles(setup_);
   const std::int32_t ahead =
@@ -59,7 +59,7 @@ std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const 
   const geometric::Frame& frame = frames_.front();
   golden::geometric::GeometricGolden golden(setup_.geometric);
   const std::vector<Rgba8>& after = golden.process(frame.input());
-  std::map<std::pair<int, int>, int> numbers;  // of the blocks, by row and column
+  std::map<std::pair<int, int>, int> numbers;  // block indices by row and column
   for (int i = 0; i < static_cast<int>(golden.blocks().size()); ++i) {
     const BlockRecord& block = golden.blocks()[static_cast<std::size_t>(i)];
     numbers[{block.y, block.x}] = i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be wrong with a geometric engine on purpose: on its links, in how it is built, in its
-// tables and in what it finds in memory.
+// Injected faults of the geometric engine: on links, in build parameters, in tables and in memory
+// contents.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,16 @@ namespace deburr::tb {
 
 class GeometricFaults : public EngineFaults {
  public:
-  // Frames and setup must outlive it.
+  // `frames` and `setup` must outlive it.
   GeometricFaults(const FaultPlan& plan, std::string environment,
                   std::span<const geometric::Frame> frames, const GeometricSetup& setup)
       : EngineFaults(plan, std::move(environment)), frames_(frames), setup_(setup) {}
 
   std::vector<InjectedFault> list() const;
-  // What the engine is built with; the golden model always gets what was ordered.
+  // Parameters of the hardware with faults; the golden model always gets the intended ones.
   spec::geometric::Parameters as_built() const;
   void inject(rtl::geometric::GeometricEngine& engine) const;
-  // The facing bits that go to memory.
+  // Facing bits that are written to memory.
   std::vector<std::uint8_t> facing(const geometric::Frame& frame) const;
 
  private:

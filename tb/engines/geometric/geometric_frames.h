@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine is given: a scene or a mesh file, lit without anti-aliasing, with its
-// depth, its edges and, if asked for, its supersampled reference.
+// Input of the geometric engine: a scene or a mesh file, lit without anti-aliasing, with depth,
+// edges and optionally a supersampled reference.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace deburr::tb {
 
-// Of the records of the edge table.
+// Order of the records in the edge table.
 enum class EdgeOrder : std::uint8_t { kTable, kShuffled };
 inline constexpr std::array<std::string_view, 2> kEdgeOrderNames = {"table", "shuffled"};
 
@@ -32,7 +32,7 @@ struct GeometricSceneParameters : CameraParameters {
   EdgeOrder edge_order = EdgeOrder::kTable;
   std::int32_t reference_samples = 16;
   std::int32_t count = 1;
-  CameraMove move{};  // of its camera; no parameter
+  CameraMove move{};  // of its camera; not a parameter
 };
 
 template <class Visitor>
@@ -55,7 +55,7 @@ void describe(GeometricSceneParameters& p, Visitor& v) {
     v.is_work(name, GivenWork::kSetting);
 }
 
-// What parameters say of each frame: meshes and cameras may be lists.
+// Per-frame values: meshes and cameras may be lists.
 FrameLists lists_of(const GeometricSceneParameters& scene);
 GeometricSceneParameters in_frame(GeometricSceneParameters scene, const FrameLists& lists,
                                   int frame);
@@ -65,12 +65,12 @@ struct LoadedGeometricFrame {
   geometric::Frame frame;
   std::optional<Image> reference;
   std::string reference_name;                 // "supersampled-256"
-  std::vector<std::string> notes;             // what had to be decided about the mesh
-  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
+  std::vector<std::string> notes;             // decisions made about the mesh
+  std::vector<std::filesystem::path> inputs;  // files that were read or looked for
 };
 
-// `accept` may throw for a scene that nothing is rendered of then. ConfigError for what is neither
-// a scene nor a mesh, and for a mesh without edges; FileError as of import_mesh(); Interrupted.
+// `accept` may throw to reject a scene before it is rendered. Throws ConfigError for a name that is
+// neither a scene nor a mesh and for a mesh without edges; FileError as import_mesh(); Interrupted.
 LoadedGeometricFrame load_geometric_frame(
     const GeometricSceneParameters& parameters, std::uint32_t seed, bool reference,
     const std::function<bool()>& interrupted = nullptr,
@@ -80,12 +80,12 @@ LoadedGeometricFrame load_geometric_frame(
 std::vector<std::filesystem::path> frame_files(const GeometricSceneParameters& parameters,
                                                MeshFiles& meshes);
 
-// The picture that a frame of the scene is compared with: as it is lit, N x N samples a pixel,
-// averaged in linear light.
+// Reference image of a scene: the same lighting with N x N samples per pixel, averaged in linear
+// light.
 Image geometric_reference(const Scene& scene, int width, int height, int samples,
                           const std::function<bool()>& interrupted = nullptr);
 
-// The records of the edge table in another order.
+// Shuffles the records of the edge table.
 void shuffle_edges(geometric::Frame& frame, std::uint64_t seed);
 
 }  // namespace deburr::tb

@@ -16,7 +16,7 @@ using spec::geometric::BlockRecord;
 using spec::geometric::Candidate;
 using spec::geometric::LineRecord;
 
-// A line may blend pixels on both sides of what it crosses in a column.
+// A line can blend pixels on both sides of its crossing in a column.
 constexpr double kBeside = 1.5;  // pixels, from the centre
 
 double minor_at(const LineRecord& line, int column) {
@@ -35,7 +35,7 @@ std::string text_of(const Candidate& c) {
                      spec::geometric::kDirectionNames[static_cast<std::size_t>(c.direction)],
                      c.coverage, c.depth, c.passed ? "passed" : "failed");
 }
-// Four weights, or a colour.
+// Formats four weights or a colour.
 std::string text_of(const std::array<std::uint8_t, 4>& v) {
   return fmt::format("{}, {}, {}, {}", v[0], v[1], v[2], v[3]);
 }
@@ -83,7 +83,7 @@ PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Imag
     input("input", "depth", fmt::format("{:#x}", frame.depths[at] & 0xFFFFFF));
 
   const PixelSides came{golden != nullptr, ended};
-  // Golden and hardware have them in one order.
+  // Golden model and hardware produce records in the same order.
   const auto pair_up = [&](const auto& seen, const auto& expected, const char* step,
                            const auto& wanted) {
     auto here = expected;
@@ -138,7 +138,7 @@ PixelHistory GeometricHistory::history(const geometric::Frame& frame, const Imag
     all.note = "the run was cut short";
   else if (!touched && blocks_.empty())
     all.note = "no candidate in its block of 4 x 4 pixels passes the depth test";
-  // Memory may still hold what was there before.
+  // Memory may still hold the old pixel.
   const bool written = ended || after.pixels[at] != frame.image.pixels[at];
   all.compare({.part = {},
                .step = "colour",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Everything that happens to one pixel in the geometric engine: lines that pass it, candidates with
-// depth and test, weights, colour; golden beside the hardware (docs/reference/run.md, "One pixel").
+// History of one pixel in the geometric engine: lines that cross it, candidates with depth and
+// test, weights, colour, with golden model and hardware side by side (docs/reference/run.md, "One
+// pixel").
 #pragma once
 
 #include <optional>
@@ -19,13 +20,13 @@ class GeometricHistory {
  public:
   explicit GeometricHistory(const PixelAddress& pixel) : pixel_(pixel) {}
 
-  // The next frame; what was seen of the one before is forgotten.
+  // Starts the next frame and discards observations of the previous one.
   void begin();
   void see(const spec::geometric::LineRecord& line, rtl::Cycle cycle);
   void see(const spec::geometric::Candidate& candidate, rtl::Cycle cycle);
   void see(const spec::geometric::BlockRecord& block, rtl::Cycle cycle);
-  // `golden`: null without one. `after`: the frame as it is in memory. `ended`: all of the frame
-  // was done, so what was not seen does not come.
+  // `golden`: null if disabled. `after`: the frame in memory. `ended`: the frame is complete, so
+  // nothing more will be observed.
   PixelHistory history(const geometric::Frame& frame, const Image& after, bool ended,
                        const golden::geometric::GeometricGolden* golden) const;
 
@@ -44,7 +45,7 @@ class GeometricHistory {
   PixelAddress pixel_;
   Seen<spec::geometric::LineRecord> lines_;
   Seen<spec::geometric::Candidate> candidates_;
-  Seen<spec::geometric::BlockRecord> blocks_;  // one, of an engine that is right
+  Seen<spec::geometric::BlockRecord> blocks_;  // one, if the engine is correct
 };
 
 }  // namespace deburr::tb

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine did for each pixel of a frame: lines across it, candidates that passed,
-// reads of its depth, the share that it took of its neighbours. From the observers of the engine
-// and the accesses that its memory saw.
+// Per-pixel maps of the geometric engine: lines across a pixel, passed candidates, depth reads,
+// blend weight of the neighbours. Their sources are the engine's observers and recorded memory
+// accesses.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,20 @@ namespace deburr::tb {
 
 class GeometricMaps {
  public:
-  // The next frame; what was seen of the one before is forgotten.
+  // Starts the next frame and discards observations of the previous one.
   void begin(int width, int height);
   void see(const spec::geometric::Candidate& candidate);
   void see(const spec::geometric::BlockRecord& block);
-  // `line_of`: the address of the line of memory with the depth of a pixel. `reads`: every line
-  // that was read since the frame began. `only_frame`: the engine's counters are of this frame, and
-  // its maps must come to them.
+  // `line_of`: address of the memory line with the depth of a pixel. `reads`: every line read since
+  // the frame started. `only_frame`: the engine's counters cover this frame only, so the totals of
+  // the maps are checked against them.
   std::vector<PictureMap> maps(const rtl::geometric::GeometricEngine& engine,
                                const std::function<std::uint64_t(int x, int y)>& line_of,
                                std::span<const std::uint64_t> reads, bool only_frame) const;
 
  private:
-  std::vector<PictureMap> maps_;  // lines, passed, weight, depth_reads; none before a frame
+  // Lines, passed, weight, depth_reads; empty before the first frame.
+  std::vector<PictureMap> maps_;
 };
 
 }  // namespace deburr::tb

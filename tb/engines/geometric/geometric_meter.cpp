@@ -19,7 +19,7 @@ using spec::geometric::Parameters;
 using spec::geometric::Region;
 
 constexpr std::uint64_t kLine = spec::geometric::kLineBytes;
-constexpr double kPortBound = 0.9;  // from here on the port is what a run waits for
+constexpr double kPortBound = 0.9;  // port utilisation from which on the port is the bottleneck
 constexpr std::uint64_t kDividerCycles = 13;
 
 constexpr std::size_t index_of(Region region) { return static_cast<std::size_t>(region); }
@@ -72,7 +72,7 @@ void GeometricMeter::end() {
   resolve_cycles_ += engine_.frame_sequencer.resolve_cycles.value();
 }
 
-// From what the engine counted in frames of the same size.
+// Computed from the engine's counts over frames of equal size.
 std::uint64_t GeometricMeter::cycles_bound() const {
   const rtl::geometric::GeometricEngine& e = engine_;
   const geometric::Frame& frame = frames_[frame_];
@@ -92,7 +92,7 @@ std::uint64_t GeometricMeter::cycles_bound() const {
   const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
                       colours = e.block_fetch.lines_read.value(),
                       window = colours + e.block_fetch.lines_kept.value();
-  // A group takes a clock of the DepthScreen for each line that it reads.
+  // A group takes one cycle of the DepthScreen per line that it reads.
   const std::uint64_t screened =
       e.depth_screen ? e.depth_screen->groups.value() + e.depth_screen->both_missed.value() : 0;
   const std::uint64_t edges_phase = std::max(
@@ -253,7 +253,7 @@ void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
 
 std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const {
   const rtl::geometric::GeometricEngine& e = engine_;
-  // From the input of the pipe to its output.
+  // Units from input to output of the pipeline.
   std::vector<UnitCycles> pipe;
   const rtl::Unit* const units[] = {&e.edge_reader,     &e.edge_classifier,   e.pair_fetch.get(),
                                     &e.vertex_fetch,    &e.line_setup,        &e.line_walker,

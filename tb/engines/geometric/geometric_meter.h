@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of the geometric engine: units and counters, traffic by region, and the cycles below
-// which no frame of this work can be drawn (docs/reference/geometric/hardware.md, "Cycles").
+// Figures of the geometric engine: units and counters, traffic by region, and a lower bound of the
+// cycles for the frame's work (docs/reference/geometric/hardware.md, "Cycles").
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace deburr::tb {
 
-// Lines of memory by region, from the counters of the units that move them.
+// Memory lines by region, from the counters of the units that transfer them.
 struct LinesMoved {
   std::array<std::uint64_t, spec::geometric::kRegionNames.size()> read{}, written{};
 };
@@ -24,12 +24,12 @@ LinesMoved lines_moved(const rtl::geometric::GeometricEngine& engine, bool frame
 
 class GeometricMeter : public Meter {
  public:
-  // All of these must outlive it.
+  // All arguments must outlive it.
   GeometricMeter(std::string name, const rtl::geometric::GeometricEngine& engine,
                  const platform::MemoryModel& memory, std::span<const geometric::Frame> frames,
                  const GeometricSetup& setup);
 
-  // A frame of these begins; it is done.
+  // Start and end of frame number `frame`.
   void begin(std::size_t frame) { frame_ = frame; }
   void end();
   std::uint64_t edges_done() const { return edges_done_; }
@@ -39,7 +39,7 @@ class GeometricMeter : public Meter {
   void show_parts(Observer& observer) const;
   void collect_headline(Result& result, double clock_mhz) const;
   std::vector<Figure> work_figures() const;
-  // Of a frame, from the work of all frames so far.
+  // Bound per frame, from the work of all frames so far.
   std::uint64_t frame_cycles_bound() const {
     return frames_done_ > 0 ? cycles_bound() / frames_done_ : 0;
   }

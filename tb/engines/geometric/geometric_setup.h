@@ -10,14 +10,14 @@
 
 namespace deburr::tb {
 
-// Of a composition, where others have memories too.
+// Name in a composition with several memories.
 inline constexpr std::string_view kGeometricMemory = "geometric_memory";
 
 struct GeometricSetup {
   spec::geometric::Parameters geometric;
   MemoryParameters memory;
 };
-// What this memory takes at most.
+// Upper bound of the cycles of a memory access.
 inline rtl::MemoryCycles memory_cycles(const GeometricSetup& setup) {
   return memory_cycles(setup.memory, spec::geometric::kLineBytes);
 }

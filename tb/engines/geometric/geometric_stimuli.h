@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames for the geometric engine: a scene, lit, with the edges, depths and facing bits that belong
-// to it; and how well a smoothing of such a frame agrees with the supersampled reference.
+// Frames for the geometric engine: a lit scene with its edges, depths and facing bits; and a
+// measure of how well an anti-aliased frame matches the supersampled reference.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,10 @@
 
 namespace deburr::tb::geometric {
 
-// What the engine finds in memory, made from a scene. Owns what the golden only looks at.
+// Memory contents for the engine, made from a scene. Owns the data that the golden model's input
+// refers to.
 struct Frame {
-  Image image;  // Phong's light from the G-buffer
+  Image image;  // Phong lighting of the G-buffer
   DepthImage depth;
   std::vector<std::uint32_t> depths;  // U24
   EdgeTable table;
@@ -28,7 +29,7 @@ struct Frame {
 };
 Frame make_frame(const Scene& scene, int width, int height, const EdgeTableOptions& options = {});
 
-// A frame beside its reference.
+// A frame and its reference.
 struct Checker {
   Frame frame;
   Image reference, msaa;
@@ -41,7 +42,7 @@ struct Checker {
   double silhouette_psnr(const Image& image) const;
 };
 
-// The frame as the golden of these rules smooths it, and its work.
+// Output and work counts of the golden model with this configuration.
 struct Smoothed {
   Image image;
   spec::geometric::Work work;

@@ -13,7 +13,7 @@ namespace deburr::tb {
 class GeometricTestbench : public virtual EngineTestbench {
  public:
   std::string_view name() const override { return "geometric"; }
-  double clock_mhz() const override { return 250; }  // what its units are made for
+  double clock_mhz() const override { return 250; }  // target clock of its units
   void add_parameters(ParameterSet& set) override;
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override;
   void describe_statistics(Result& result) override;

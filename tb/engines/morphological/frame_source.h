@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Feeds frames to the morphological engine: raster order, `lanes` pixels a beat, rows begin a new
-// beat, a beat a clock. One frame at a time; a reset forgets it.
+// Sends frames to the morphological engine in raster order, `lanes` pixels per beat and one beat
+// per cycle; a row starts a new beat. Handles one frame at a time; a reset discards it.
 #pragma once
 
 #include <systemc>
@@ -19,13 +19,13 @@ class FrameSource final : public rtl::Unit {
   FrameSource(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, int lanes)
       : Unit(name, clock), lanes_(lanes) {}
 
-  // The next frame; it must outlive its sending.
+  // Starts the next frame, which must outlive its transfer.
   void start(const MorphologicalInput& frame) {
     reset();
     frame_ = &frame;
   }
   bool done() const { return frame_ == nullptr || y_ == frame_->image.height; }
-  rtl::Cycle first_cycle() const { return first_; }  // of this frame's first and last beat
+  rtl::Cycle first_cycle() const { return first_; }  // cycles of this frame's first and last beat
   rtl::Cycle last_cycle() const { return last_; }
 
   rtl::Activity tick(rtl::Cycle cycle) override {

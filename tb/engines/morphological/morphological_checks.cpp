@@ -41,7 +41,7 @@ std::string describe_line(const LineDescriptor& l) {
                      l.slope, l.inverse, l.span);
 }
 
-// Any order that both sides can be brought into.
+// Any order that both sides can be sorted into.
 auto order_of(const RunDescriptor& r) { return std::tuple(r.axis, r.line, r.start, r.part); }
 
 }  // namespace
@@ -91,7 +91,7 @@ void MorphologicalChecks::begin(const MorphologicalInput& frame) {
   probes.expect(golden_model().probes(), image.width);
 }
 
-// All writes ascending, all reads ascending; how they interleave is timing.
+// Writes and reads are each in ascending order; their interleaving is a matter of timing.
 void MorphologicalChecks::expect_traffic() {
   if (!in_memory()) return;
   for (const FrameAccess& access : golden::morphological::frame_traffic(
@@ -115,8 +115,8 @@ void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std:
   if (!used_ || (beat.count == std::min(left, lanes) && beat.start_of_frame == first &&
                  beat.end_of_row == last))
     return;
-  // The pixel that is not as it should be: the first that a row lacks, or the last, after which it
-  // should have ended. A row that ends in its first half has come twice, at its beginning.
+  // Select the pixel to report: the first one that the row lacks, or the last one, after which the
+  // row should have ended. A row that ends in its first half counts as a repeated start of the row.
   const auto width = static_cast<std::size_t>(frame_->image.width);
   const bool lacks = beat.end_of_row && beat.count < left && left - beat.count <= width / 2;
   const std::size_t wrong = lacks                      ? position + beat.count
@@ -174,14 +174,14 @@ void MorphologicalChecks::end(rtl::Cycle cycle, std::size_t frame) {
   for (auto* list : {&all_lines, &lines_}) std::sort(list->begin(), list->end(), by_line);
   for (const RunDescriptor& run : all_runs) runs.expect(run);
   for (const LineDescriptor& line : all_lines) lines.expect(line);
-  // In the order of the frame, which is not that of cycles.
+  // Frame order, which differs from the order in time.
   const std::string where = fmt::format("cycle {}, the end of frame {}", cycle, frame);
   for (const RunDescriptor& run : runs_) runs.got(run, where);
   for (const LineDescriptor& line : lines_) lines.got(line, where);
 }
 
-// As much as the frames have; of runs and lines as many as the engine counted, since a frame may
-// have none.
+// Sets the minimum of comparisons from the frames; for runs and lines, which a frame may lack, from
+// the engine's counters.
 void MorphologicalChecks::require(std::span<const MorphologicalInput> frames,
                                   const spec::morphological::Work& work) {
   std::uint64_t area = 0, moved = 0;
@@ -207,7 +207,7 @@ void MorphologicalChecks::finish(std::span<const MorphologicalInput> frames,
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     expected.emplace_back(each.offset, work_.*each.count);
   expected.emplace_back(reg::kFrameCycles, frame_cycles);
-  // What cannot be read could not be written before.
+  // An unreadable line also failed when it was written.
   expected.emplace_back(reg::kMemoryErrors, 2 * unreadable_lines_);
   registers.check(bus, expected);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine does against its golden model: pixels and taps as they come, runs
-// and lines inside if asked for, lines of memory, counters.
+// Compares the morphological engine with its golden model: pixels and probes as they appear,
+// optionally runs and lines inside, memory lines, counters.
 #pragma once
 
 #include <array>
@@ -23,17 +23,17 @@ namespace deburr::tb {
 
 class MorphologicalChecks {
  public:
-  // The setup must outlive it. Without `golden` nothing is compared.
+  // `setup` must outlive it. Without `golden` nothing is compared.
   MorphologicalChecks(const MorphologicalSetup& setup, bool golden);
 
-  // The engine's counters are 0.
+  // Call after a reset of the engine's counters.
   void clear_counters();
-  // The golden model works on a frame, which must outlive its checks.
+  // Runs the golden model on a frame, which must outlive its checks.
   void begin(const MorphologicalInput& frame);
-  // The frame begins again (after a reset).
+  // Restarts the frame after a reset.
   void restart();
 
-  // What a beat says of the frame, `left` pixels before its row's end.
+  // Checks the framing signals of a beat that starts `left` pixels before the end of its row.
   void got_frame(rtl::Cycle cycle, std::size_t position, std::size_t left,
                  const spec::morphological::BlendedBeat& beat);
   void got(const spec::morphological::Rgba8& pixel, const spec::morphological::BlendProbe& probe,
@@ -42,19 +42,19 @@ class MorphologicalChecks {
     pixels.got(pixel, cycle);
     probes.got(probe, cycle);
   }
-  // The order is broken; from here on it is that of this pixel.
+  // Resynchronises at this pixel after a framing error.
   void go_on_at(std::size_t position);
-  // With records alone: checked at the frame's end.
+  // Only with MorphologicalSetup::descriptors: collected here, compared at the end of the frame.
   void got(const spec::morphological::RunDescriptor& run) { runs_.push_back(run); }
   void got(const spec::morphological::LineDescriptor& line) { lines_.push_back(line); }
-  // What memory has recorded, and forgets then.
+  // Checks and clears the accesses that memory has recorded.
   void check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle);
-  // The frame of this number is done.
+  // Ends frame number `frame`.
   void end(rtl::Cycle cycle, std::size_t frame);
-  // All of them are: how much must have been compared, and the counters.
+  // After all frames: sets the required number of comparisons and checks the counters.
   void finish(std::span<const MorphologicalInput> frames, const spec::morphological::Work& work,
               std::uint64_t frame_cycles, platform::RegisterBus& registers);
-  // The same of counters that are not registers; no memory with line buffers.
+  // Checks counters that are not registers. `memory`: null with line buffers.
   void check_figures(std::span<const MorphologicalInput> frames,
                      const rtl::morphological::MorphologicalEngine& engine,
                      const platform::MemoryModel* memory);
@@ -81,8 +81,8 @@ class MorphologicalChecks {
   const MorphologicalSetup& setup_;
   bool used_;
   golden::morphological::MorphologicalGolden golden_;
-  spec::morphological::Work work_;  // of the golden model, of all frames since the last reset
-  std::array<std::uint64_t, 2> iterations_{};  // the same, by axis
+  spec::morphological::Work work_;  // golden model's counts of all frames since the last reset
+  std::array<std::uint64_t, 2> iterations_{};  // the same, per axis
   std::uint64_t unreadable_lines_ = 0;         // the same
   const MorphologicalInput* frame_ = nullptr;
   std::vector<spec::morphological::RunDescriptor> runs_;

@@ -67,7 +67,7 @@ Coverage morphological_coverage(const golden::morphological::MorphologicalGolden
   const auto same = [](const std::string& name) { return name; };
   add(golden.coverage().bins(), same);
   add(golden.smaa_coverage().bins(), same);
-  // Runs have bins called border, too.
+  // Prefixed, because runs also have bins called border.
   add(golden.bypass_coverage().bins(),
       [](const std::string& name) { return name.starts_with("border/") ? "leave-" + name : name; });
   add(golden.guard_coverage().bins(), same);

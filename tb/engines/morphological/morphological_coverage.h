@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of the morphological engine: what the golden model met in the frames of a
-// run, in runs and predictions, in SMAA's blocks, in marks, in learned weights and in the text
-// guard.
+// Functional coverage of the morphological engine: runs and predictions, SMAA's blocks, marks,
+// learned weights and the text guard, as the golden model meets them.
 #pragma once
 
 #include <span>
@@ -11,9 +10,9 @@
 
 namespace deburr::tb {
 
-// Every bin, with the golden model's hits. Single words of the weight tables are no bins: some can
-// be named by records that no frame is known to have (tb/system/morphological_weights_test.cpp says
-// how many frames reach).
+// Every bin with the golden model's hits. Single words of the weight tables are not bins, because
+// no known frame reaches some of them (tb/system/morphological_weights_test.cpp says how many
+// frames reach).
 Coverage morphological_coverage(const golden::morphological::MorphologicalGolden& golden);
 std::span<const CoverageGroup> morphological_coverage_groups();
 

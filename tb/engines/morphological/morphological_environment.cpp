@@ -34,7 +34,7 @@ std::span<const MorphologicalInput> checked(std::span<const MorphologicalInput> 
 
 }  // namespace
 
-// ---- building -----------------------------------------------------------------------------------
+// ---- construction -------------------------------------------------------------------------------
 
 MorphologicalEnvironment::MorphologicalEnvironment(Simulation& simulation,
                                                    std::span<const MorphologicalInput> frames,
@@ -128,7 +128,7 @@ spec::morphological::Parameters MorphologicalEnvironment::as_built() const {
   return programs() ? unprogrammed(run) : run;
 }
 
-// ---- running ------------------------------------------------------------------------------------
+// ---- simulation ---------------------------------------------------------------------------------
 
 void MorphologicalEnvironment::configure() {
   driver_.identify();
@@ -169,8 +169,8 @@ void MorphologicalEnvironment::watch() {
 
 void MorphologicalEnvironment::restart() {
   if (memory_) {
-    // What was asked of memory before is still on its way; it goes by before the frame begins. In a
-    // composition frames begin by themselves, so it has seen to that during reset.
+    // Earlier requests are still outstanding; they complete before the frame starts. A composition
+    // starts frames itself and has waited during the reset.
     if (source_) drain_memory();
     memory_->clear_statistics();
   }
@@ -215,8 +215,7 @@ Amount MorphologicalEnvironment::amount() const {
           engine_.sequencer.beats.value() * static_cast<std::uint64_t>(lanes()), all, "pixel"};
 }
 
-// ---- checking
-// ------------------------------------------------------------------------------------
+// ---- checking -----------------------------------------------------------------------------------
 
 Environment::Boards MorphologicalEnvironment::outputs() const {
   Boards boards = {&checks_.pixels, &checks_.probes};
@@ -255,7 +254,7 @@ void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
     ++position_;
     ++progress_.delivered;
   }
-  // A row that came too short or too long spoils no other one.
+  // Resynchronise at the nearest row, so that a row of the wrong length does not affect later ones.
   if (beat.end_of_row && position_ % width != 0) {
     position_ = (position_ + width / 2) / width * width;
     checks_.go_on_at(position_);
@@ -277,7 +276,7 @@ std::vector<PictureMap> MorphologicalEnvironment::maps() const {
                : std::vector<PictureMap>();
 }
 
-// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+// Defined here, because inlined copies can keep the compiler from optimising the units.
 MorphologicalEnvironment::~MorphologicalEnvironment() = default;
 
 }  // namespace deburr::tb

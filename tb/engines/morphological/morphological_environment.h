@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine on one or several frames.
+// Environment of the morphological engine for one or several frames.
 //
-//   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, probes: against the golden
-//   frame
-//                                │       └ registers ◄─ RegisterHost: SIZE, and the counters at the
-//                                end
+//   frames ─► FrameSource ─► MorphologicalEngine ─► Sink ─► pixels, probes
+//                                │       └ registers ◄─ RegisterHost
 //                            MemoryModel (storage = memory) ─► lines written, lines read
 //
-// The golden model works on a frame before it is sent. Every pixel that leaves the engine is
-// checked as it comes, with its tap (axis, weights, edge bits); runs and lines inside too, if asked
-// for.
+//   RegisterHost  writes SIZE; reads the counters at the end
+//
+// The golden model processes a frame before it is sent. Every output pixel is checked as it
+// appears, with its probe of the blend decision (axis, weights, edge bits); optionally also runs
+// and lines inside the engine.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +42,9 @@ namespace deburr::tb {
 
 class MorphologicalEnvironment final : public Environment {
  public:
-  // The frames, which must outlive it, are what the golden model smooths. With a name it is part of
-  // a composition, which puts the frames into `pixels`. ConfigError for wrong parameters or a frame
-  // that the engine does not take.
+  // The golden model processes the frames, which must outlive the environment. With a name it is
+  // part of a composition, which sends the frames to `pixels`. Throws ConfigError for invalid
+  // parameters or a frame that the engine does not support.
   MorphologicalEnvironment(Simulation& simulation, std::span<const MorphologicalInput> frames,
                            const MorphologicalSetup& setup, std::string name = {});
   ~MorphologicalEnvironment() override;
@@ -80,16 +80,16 @@ class MorphologicalEnvironment final : public Environment {
 
   const MorphologicalMeter& meter() const { return meter_; }
   std::uint64_t delivered_in_all() const { return progress_.delivered; }
-  // Of the last frame: what the engine delivered, and cycles from its first to its last input beat.
+  // For the last frame: the engine's output, and the cycles from its first to its last input beat.
   const Image& frame() const { return frame_; }
   std::size_t delivered() const { return position_; }
   const std::vector<spec::morphological::BlendProbe>& probes() const { return probes_; }
   rtl::Cycle input_cycles() const { return progress_.input_cycles(); }
-  // The golden model, which has seen every frame (none without golden).
+  // The golden model after all frames so far; unused if SimulationOptions::golden is false.
   const golden::morphological::MorphologicalGolden& golden_model() const {
     return checks_.golden_model();
   }
-  // Over all pixels and taps in order.
+  // Hash of all pixels and probes in order.
   std::uint64_t pixel_hash() const { return hash_.value(); }
 
   rtl::morphological::MorphologicalEngine& engine() { return engine_; }
@@ -101,7 +101,7 @@ class MorphologicalEnvironment final : public Environment {
   bool in_memory() const {
     return setup_.morphological.storage == spec::morphological::Storage::kMemory;
   }
-  // Of the model and of its parameters; memory alone is called that.
+  // Name of the memory model and of its parameters; "memory" outside a composition.
   std::string memory_name() const {
     return name().empty() ? "memory" : std::string(kMorphologicalMemory);
   }
@@ -115,7 +115,7 @@ class MorphologicalEnvironment final : public Environment {
   MorphologicalSetup setup_;
   MorphologicalFaults faults_;
   rtl::Link<spec::morphological::BlendedBeat> blended_;
-  std::unique_ptr<FrameSource> source_;  // alone
+  std::unique_ptr<FrameSource> source_;  // null in a composition
   rtl::morphological::MorphologicalEngine engine_;
   Sink<spec::morphological::BlendedBeat> sink_;
   std::unique_ptr<platform::MemoryModel> memory_;
@@ -125,16 +125,16 @@ class MorphologicalEnvironment final : public Environment {
   MorphologicalMeter meter_;
   MorphologicalChecks checks_;
 
-  std::size_t current_ = 0;  // of frames_
+  std::size_t current_ = 0;  // index in frames_
   Image frame_;
   std::vector<spec::morphological::BlendProbe> probes_;
-  std::size_t position_ = 0;        // of the next pixel in the frame
-  std::uint64_t taken_before_ = 0;  // beats that were taken before this frame's
-  rtl::Cycle first_taken_ = 0;      // when the engine took the first of this frame
+  std::size_t position_ = 0;        // index of the next pixel in the frame
+  std::uint64_t taken_before_ = 0;  // beats taken before this frame
+  rtl::Cycle first_taken_ = 0;      // cycle in which the engine took this frame's first beat
   OutputHash hash_;
   std::optional<MorphologicalMaps> maps_;
   std::optional<MorphologicalHistory> history_;
-  bool ended_ = false;  // the current frame
+  bool ended_ = false;  // the current frame is done
 };
 
 }  // namespace deburr::tb

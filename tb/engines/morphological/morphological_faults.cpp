@@ -13,7 +13,7 @@
 namespace deburr::tb {
 namespace {
 
-// Of T and of the floor, U8.16.
+// Largest threshold T and largest floor, U8.16.
 constexpr std::int32_t kMostThreshold = (1 << spec::morphological::kThresholdBits) - 1;
 
 }  // namespace
@@ -50,7 +50,7 @@ std::vector<InjectedFault> MorphologicalFaults::list() const {
   return list;
 }
 
-// Of edges from colour and learned weights.
+// Faults of colour edges and of learned weights.
 std::vector<InjectedFault> MorphologicalFaults::weights_faults() const {
   const spec::morphological::Parameters& p = setup_.morphological;
   const std::string needs =
@@ -76,7 +76,7 @@ std::vector<InjectedFault> MorphologicalFaults::weights_faults() const {
        "drop:morphological.lines_h0:20", needs}};
 }
 
-// Of SMAA's blocks. Those without a link are injected by as_built() and plant().
+// Faults of SMAA's blocks. Those without a link fault are injected by as_built() and plant().
 std::vector<InjectedFault> MorphologicalFaults::smaa_faults() const {
   const spec::morphological::Parameters& p = setup_.morphological;
   const auto unless = [](bool built, std::string needs) {
@@ -134,7 +134,7 @@ std::vector<InjectedFault> MorphologicalFaults::smaa_faults() const {
 
 spec::morphological::Parameters MorphologicalFaults::as_built() const {
   spec::morphological::Parameters p = setup_.morphological;
-  // A fault that would change nothing is rejected by what it needs.
+  // A fault without effect in this configuration is rejected by its `needs`.
   if (injected("wrong-rule")) p.steps = std::max(0, p.steps - 1);
   if (injected("wrong-guard")) p.text_guard = false;
   if (injected("wrong-threshold")) {
@@ -171,7 +171,7 @@ void MorphologicalFaults::inject(rtl::morphological::MorphologicalEngine& engine
   };
   constexpr std::uint16_t kHalf = 0;
   constexpr std::uint32_t kWord = 0;
-  // Tiles as the layout stores them, a parity of 64 words each.
+  // Tile index in the ROM's layout; each parity of a tile has 64 words.
   using spec::morphological::AreaSource;
   const AreaSource layout = setup_.morphological.area;
   const std::uint64_t tile_of_6 = layout == AreaSource::kTableFull     ? 6
@@ -198,7 +198,7 @@ void MorphologicalFaults::inject(rtl::morphological::MorphologicalEngine& engine
   constexpr std::uint8_t kWeight = 0;
   if (injected("wrong-weight"))
     in_rom("weights_a", kEntry, [](auto& rom) {
-      // Codes 1 and 1, at distances 0 and 0.
+      // Crossing codes 1 and 1, distances 0 and 0.
       rom.backdoor(5 * 64) = static_cast<std::int8_t>(rom.backdoor(5 * 64) ^ 1 << 4);
     });
   for (const auto& [fault, name] :

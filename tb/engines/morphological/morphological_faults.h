@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What can be wrong with a morphological engine on purpose: on its links, in how it is built and in
-// its ROMs.
+// Injected faults of the morphological engine: on links, in build parameters and in ROMs.
 #pragma once
 
 #include <span>
@@ -18,13 +17,13 @@ namespace deburr::tb {
 
 class MorphologicalFaults : public EngineFaults {
  public:
-  // Frames and setup must outlive it.
+  // `frames` and `setup` must outlive it.
   MorphologicalFaults(const FaultPlan& plan, std::string environment,
                       std::span<const MorphologicalInput> frames, const MorphologicalSetup& setup)
       : EngineFaults(plan, std::move(environment)), frames_(frames), setup_(setup) {}
 
   std::vector<InjectedFault> list() const;
-  // What the engine is built with; the golden model always gets what was ordered.
+  // Parameters of the hardware with faults; the golden model always gets the intended ones.
   spec::morphological::Parameters as_built() const;
   void inject(rtl::morphological::MorphologicalEngine& engine) const;
 

@@ -53,7 +53,7 @@ LoadedFrame rendered(const FrameParameters& p, std::uint32_t seed,
   return frame;
 }
 
-// Bit 0 of alpha: 0 where the mask is set, else 1.
+// Bit 0 of alpha becomes 0 where the mask is set, else 1.
 void apply_mask(const std::string& file, LoadedFrame& frame) {
   ReadReport report;
   const Image mask = read_image(file, &report);
@@ -90,13 +90,15 @@ FrameParameters in_frame(FrameParameters p, const FrameLists& lists, int frame) 
 bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters.source); }
 
 bool looks_like_a_picture(const DepthImage& depth) {
-  constexpr std::size_t kEnough = 64;  // values; fewer, as of a few flat walls, say nothing
-  constexpr double kAlike = 0.5;       // correlation of the steps of two channels
+  // Values; fewer, as from a few flat walls, are not conclusive.
+  constexpr std::size_t kEnough = 64;
+  constexpr double kAlike = 0.5;  // correlation of the differences of two channels
   const std::vector<std::uint32_t> codes = depth_codes(depth);
-  std::array<double, 3> squares{}, products{};  // of the steps of R, G, B; of RG, GB, BR
+  std::array<double, 3> squares{}, products{};  // of differences in R, G, B; products of RG, GB, BR
   std::set<std::uint32_t> values;
   for (std::size_t i = 1; i < codes.size(); ++i) {
-    if (codes[i] == codes[i - 1] || codes[i] == 0 || codes[i - 1] == 0) continue;  // silhouettes
+    // Skip silhouettes.
+    if (codes[i] == codes[i - 1] || codes[i] == 0 || codes[i - 1] == 0) continue;
     std::array<double, 3> step{};
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = [&](std::uint32_t code) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine is given: an image file with depth and reference beside it, or a
-// scene rendered without anti-aliasing, with its depth and its supersampled reference. Files become
-// codes by the rules of docs/reference/morphological/algorithm.md, "Conversion of images".
+// Input of the morphological engine: an image file, optionally with depth and reference files, or a
+// scene rendered without anti-aliasing, with its depth and a supersampled reference. Files are
+// converted to codes as in docs/reference/morphological/algorithm.md, "Conversion of images".
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct FrameParameters {
   std::int32_t width = 640, height = 480;
   std::int32_t reference_samples = 8;
   std::int32_t count = 1;
-  CameraMove move{};  // of a scene's camera; no parameter
+  CameraMove move{};  // of a scene's camera; not a parameter
 };
 
 template <class Visitor>
@@ -58,26 +58,26 @@ void describe(FrameParameters& p, Visitor& v) {
     v.is_work(name, GivenWork::kSetting);
 }
 
-// What parameters say of each frame: all files may be lists.
+// Per-frame values: all files may be lists.
 FrameLists lists_of(const FrameParameters& parameters);
 FrameParameters in_frame(FrameParameters parameters, const FrameLists& lists, int frame);
 
-// Whether the source is a scene or a mesh, and not an image file.
+// Whether the source is a scene or a mesh, not an image file.
 bool is_rendered(const FrameParameters& parameters);
 
 struct LoadedFrame {
   MorphologicalInput input;
   std::optional<Image> reference;
   std::optional<DepthImage> depth;
-  std::string reference_name;            // "supersampled-64", or the file's name
-  std::vector<std::string> conversions;  // what the reader of images or meshes changed
-  std::optional<golden::morphological::WeightTables> weights;  // else those of the ROMs
-  std::vector<std::filesystem::path> inputs;  // files that it was made of, or looked for in vain
+  std::string reference_name;            // "supersampled-64", or the file name
+  std::vector<std::string> conversions;  // changes by the reader of images or meshes
+  std::optional<golden::morphological::WeightTables> weights;  // if absent, those of the ROMs
+  std::vector<std::filesystem::path> inputs;                   // files that were read or looked for
 };
 
-// FileError for files that cannot be read; ConfigError for sizes that do not agree; Interrupted
-// once `interrupted` says so.
-// Pictures of a scene pass through `kept`, which may know them already.
+// Renderings of a scene go through a cache of this type. Loading a frame throws FileError for
+// unreadable files, ConfigError for sizes that do not match, and Interrupted once `interrupted`
+// returns true.
 using KeptFrames = std::function<LitFrames(const std::function<LitFrames()>& make)>;
 LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
                        const std::function<bool()>& interrupted = nullptr,
@@ -87,13 +87,13 @@ LoadedFrame load_frame(const FrameParameters& parameters, std::uint32_t seed,
 std::vector<std::filesystem::path> frame_files(const FrameParameters& parameters,
                                                MeshFiles& meshes);
 
-// What the golden model makes of a frame; null: with the weights that it is built with.
+// Golden model of a frame; null weights: those of the ROMs.
 golden::morphological::MorphologicalGolden golden_frame(
     const MorphologicalInput& input, const spec::morphological::Parameters& parameters,
     const golden::morphological::WeightTables* weights = nullptr);
 
-// Whether 24-bit depths, taken apart into R, G and B, change from pixel to pixel as a picture does:
-// two of them alike. Of depth, G and B are the lower digits of R: they fall as it rises.
+// Whether 24-bit depths, split into R, G and B, look like a colour image: two channels change alike
+// from pixel to pixel. In true depth G and B are lower digits of R and fall as R rises.
 bool looks_like_a_picture(const DepthImage& depth);
 
 }  // namespace deburr::tb

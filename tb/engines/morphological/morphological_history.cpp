@@ -23,7 +23,7 @@ using spec::morphological::RunDescriptor;
 struct MorphologicalHistory::Side {
   std::string_view name;
   Axis axis;   // of its runs
-  int beyond;  // lines of runs from the pixel's own row or column on
+  int beyond;  // offset of the line of runs from the pixel's own row or column
 };
 
 namespace {
@@ -59,7 +59,7 @@ std::string text_of(const LineDescriptor& l) {
                      static_cast<double>(l.slope) / (1 << 24), l.span);
 }
 
-// The others have no line.
+// Whether the run has a line: it has a side, or its weights are learned.
 bool has_line(const LineDescriptor& line) {
   const spec::morphological::RunShape& shape = spec::morphological::kRunShapes[line.run.shape & 15];
   return line.learned || shape.before != spec::morphological::Side::kNone ||
@@ -69,7 +69,7 @@ bool has_line(const LineDescriptor& line) {
 const RunDescriptor& run_of(const RunDescriptor& run) { return run; }
 const RunDescriptor& run_of(const LineDescriptor& line) { return line.run; }
 
-// Those of one side, one a record of its runs, in the order of the runs.
+// Compares the records of those runs that `wanted` selects, in the order of runs.
 template <class Descriptor, class Wanted>
 void add_descriptors(const std::string& step, const std::string& item,
                      const std::vector<std::pair<Descriptor, rtl::Cycle>>& seen,
@@ -120,7 +120,7 @@ int position_of(Axis axis, const PixelAddress& pixel) {
 
 }  // namespace
 
-// The pixel is one of those along the run.
+// Whether the pixel is next to the run, on either side.
 bool MorphologicalHistory::is_near(const RunDescriptor& run) const {
   const int position = position_of(run.axis, pixel_), line = line_of(run.axis, pixel_);
   return (run.line == line || run.line == line + 1) && position >= run.start &&
@@ -170,7 +170,7 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
                  .golden = std::move(expected),
                  .hardware = std::move(got)});
   };
-  // A part of what is delivered, once.
+  // Adds a part of the delivered pixel once.
   const auto add_delivered = [&](const std::string& step, const std::string& item, bool known,
                                  const auto& expected, const auto& got) {
     all.compare_records(
@@ -187,7 +187,7 @@ PixelHistory MorphologicalHistory::history(const MorphologicalInput& frame, bool
         },
         {known, ended});
   };
-  // What a pixel is made of comes before it.
+  // Inputs of a pixel are observed before the pixel itself.
   const PixelSides came{golden != nullptr, ended || !delivered_.empty()};
   if (delivered_.empty())
     all.note = ended ? "the pixel was not delivered"

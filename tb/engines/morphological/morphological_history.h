@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that happens to one pixel in the morphological engine: edges, runs and lines of its
-// four sides, weights, blend; golden beside the hardware (docs/reference/run.md, "One pixel").
+// History of one pixel in the morphological engine: edges, runs and lines of its four sides,
+// weights, blend, with golden model and hardware side by side (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <optional>
@@ -19,27 +19,26 @@ class MorphologicalHistory {
  public:
   explicit MorphologicalHistory(const PixelAddress& pixel) : pixel_(pixel) {}
 
-  // The next frame, so wide; what was seen of the one before is forgotten.
+  // Starts the next frame, of this width, and discards observations of the previous one.
   void begin(int width);
   void see(const spec::morphological::RunDescriptor& run, rtl::Cycle cycle);
   void see(const spec::morphological::LineDescriptor& line, rtl::Cycle cycle);
   struct Delivered {
     spec::morphological::Rgba8 pixel;
     spec::morphological::BlendProbe probe;
-    bool first = false, last = false;  // what its beat says: of the frame, of its row
+    bool first = false, last = false;  // framing signals of its beat: start of frame, end of row
     rtl::Cycle cycle;
   };
-  // What was delivered as number `position` of the frame.
+  // Records output pixel number `position` of the frame.
   void see(std::size_t position, const Delivered& pixel);
-  // `golden`: null without one. `ended`: all of the frame was done, so what was not seen does not
-  // come.
+  // `golden`: null if disabled. `ended`: the frame is complete, so nothing more will be observed.
   PixelHistory history(const MorphologicalInput& frame, bool ended,
                        const golden::morphological::MorphologicalGolden* golden) const;
 
  private:
   template <class T>
   using Seen = std::vector<std::pair<T, rtl::Cycle>>;
-  // Runs along one of the pixel's sides.
+  // Runs along one side of the pixel.
   struct Side;
   bool is_at(const Side& side, const spec::morphological::RunDescriptor& run) const;
   bool is_near(const spec::morphological::RunDescriptor& run) const;
@@ -50,7 +49,7 @@ class MorphologicalHistory {
   int width_ = 0;
   Seen<spec::morphological::RunDescriptor> runs_;
   Seen<spec::morphological::LineDescriptor> lines_;
-  std::vector<Delivered> delivered_;  // one, of an engine that is right
+  std::vector<Delivered> delivered_;  // one, if the engine is correct
 };
 
 }  // namespace deburr::tb

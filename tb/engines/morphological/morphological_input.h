@@ -9,7 +9,7 @@
 
 namespace deburr::tb {
 
-// A frame and its depth, U24; no depth: empty.
+// A frame and its depth, U24; empty without depth.
 struct MorphologicalInput {
   Image image;
   std::vector<std::uint32_t> depth;

@@ -12,7 +12,7 @@ enum : std::size_t { kEdges, kRunLength, kSteps };
 
 using spec::morphological::RunDescriptor;
 
-// Pixels at the lower or right side of a run.
+// Visits the pixels at the lower or right side of a run.
 template <class Visit>
 void each_pixel(const RunDescriptor& run, Visit&& visit) {
   const bool horizontal = run.axis == spec::morphological::Axis::kHorizontal;
@@ -72,7 +72,7 @@ std::vector<PictureMap> MorphologicalMaps::maps(
   const auto edge_pixels = static_cast<double>(engine.work().edge_pixels);
   all[kEdges].account = {"work.edge_detector_edge_pixels", edge_pixels,
                          static_cast<double>(all[kEdges].pixels_above_zero())};
-  // In the middle of a run beyond the reach there is no record.
+  // The middle part of a run beyond the search range lacks a descriptor.
   if (engine.extractor.long_runs.value() == 0)
     all[kRunLength].account = {"the number of pixels with an edge", edge_pixels,
                                static_cast<double>(all[kRunLength].pixels_above_zero())};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine found and did for each pixel of a frame: edges, lengths of runs,
-// steps of the predictors. From the beats that it delivers and the records that it stores.
+// Per-pixel maps of the morphological engine: edges, run lengths, steps of the predictors. Their
+// sources are the beats that it delivers and the run descriptors that it stores.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,18 @@ namespace deburr::tb {
 
 class MorphologicalMaps {
  public:
-  // The next frame; what was seen of the one before is forgotten.
+  // Starts the next frame and discards observations of the previous one.
   void begin(int width, int height);
   void see(std::size_t position, const spec::morphological::BlendProbe& probe);
   void see(const spec::morphological::RunDescriptor& run);
   void see(const spec::morphological::LineDescriptor& line);
-  // `only_frame`: the engine's counters are of this frame, and its maps must come to them.
+  // `only_frame`: the engine's counters cover this frame only, so the totals of the maps are
+  // checked against them.
   std::vector<PictureMap> maps(const rtl::morphological::MorphologicalEngine& engine,
                                bool only_frame) const;
 
  private:
-  std::vector<PictureMap> maps_;  // edges, run_length, steps; none before a frame has begun
+  std::vector<PictureMap> maps_;  // edges, run_length, steps; empty before the first frame
 };
 
 }  // namespace deburr::tb

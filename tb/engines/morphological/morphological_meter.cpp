@@ -102,8 +102,8 @@ void MorphologicalMeter::collect_cycles(Result& result, double clock_mhz) const 
       "byte/pixel", "Pixel bytes written and read again; 0 with line buffers.");
   add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
       "Frames of this size per second at the given clock frequency.");
-  // As slow for its cycles as this frame was, if that was slower than the formula; unknown before
-  // the first frame is through.
+  // Scales the formula by this frame's slowdown, if it was slower than the formula; unknown before
+  // the first frame is complete.
   const double slowness = std::max(1.0, ratio(number(frame_cycles), number(by_formula)));
   const double hd = slowness * clock_for_60(frame_cycles_by_formula(p, 1920, 1080));
   add(result, "clock_for_1080p60", frame_cycles ? WorkValue(hd) : WorkValue(), "MHz",

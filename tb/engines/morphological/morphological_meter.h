@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of the morphological engine: units and counters, and its cycles against those of the
-// formulas (docs/reference/morphological/hardware.md).
+// Figures of the morphological engine: units and counters, and its cycles compared with the
+// formulas of docs/reference/morphological/hardware.md.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,27 @@
 
 namespace deburr::tb {
 
-// ---- figures of the engine by formula (docs/reference/morphological/hardware.md) ----------------
+// ---- cycles by formula (docs/reference/morphological/hardware.md) -------------------------------
 
-// Unstalled cycles from a beat being popped to the same beat being pushed.
+// Cycles without stalls from the pop of a beat to its push.
 std::uint64_t latency_by_formula(const spec::morphological::Parameters& parameters, int width);
-// Unstalled cycles of a frame, from its first pop to its last push.
+// Cycles without stalls of a frame, from its first pop to its last push.
 std::uint64_t frame_cycles_by_formula(const spec::morphological::Parameters& parameters, int width,
                                       int height);
 
-// How far the environment is.
+// Progress of the environment.
 struct MorphologicalProgress {
-  int width = 0, height = 0;                      // of the frame under way
-  std::uint64_t delivered = 0;                    // pixels of all frames
-  const FrameSource* source = nullptr;            // none in a composition
-  const platform::MemoryModel* memory = nullptr;  // none with line buffers
-  // Cycles of the last frame from its first to its last input beat.
+  int width = 0, height = 0;                      // of the current frame
+  std::uint64_t delivered = 0;                    // pixels, total of all frames
+  const FrameSource* source = nullptr;            // null in a composition
+  const platform::MemoryModel* memory = nullptr;  // null with line buffers
+  // Cycles of the last frame from first to last input beat.
   rtl::Cycle input_cycles() const { return source->last_cycle() - source->first_cycle() + 1; }
 };
 
 class MorphologicalMeter : public Meter {
  public:
-  // All of these must outlive it.
+  // All arguments must outlive it.
   MorphologicalMeter(std::string name, const rtl::morphological::MorphologicalEngine& engine,
                      const MorphologicalProgress& progress, const MorphologicalSetup& setup)
       : Meter(std::move(name)), engine_(engine), progress_(progress), setup_(setup) {}

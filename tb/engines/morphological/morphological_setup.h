@@ -12,18 +12,18 @@
 
 namespace deburr::tb {
 
-// Of a composition, where others have memories too.
+// Name in a composition with several memories.
 inline constexpr std::string_view kMorphologicalMemory = "frame_memory";
 
 struct MorphologicalSetup {
   spec::morphological::Parameters morphological;
-  MemoryParameters memory;   // storage = memory only
-  bool descriptors = false;  // runs and lines inside the engine are compared too
+  MemoryParameters memory;   // only for storage = memory
+  bool descriptors = false;  // also compare runs and lines inside the engine
   std::uint32_t pixel_base = 0;
-  // Loaded before the first frame; else the engine has those that it was built with.
+  // Loaded before the first frame; if absent, the engine keeps the weights of its ROMs.
   std::optional<golden::morphological::WeightTables> weights = std::nullopt;
-  // A golden model that has worked on the frames, which are all the same, already; null: it works
-  // here. Its parameters may differ in what is built. Never with errors of memory.
+  // A golden model that has already processed the frames, which must be identical; null: it runs
+  // with the hardware. Its build parameters may differ. Must be null with memory errors.
   std::shared_ptr<const golden::morphological::MorphologicalGolden> expectation = nullptr;
 };
 

@@ -9,8 +9,8 @@
 
 namespace deburr::tb {
 
-// The same hardware with other rules as reset values, of which software must write each. Rules that
-// say which blocks and memories are built stay.
+// The same hardware with a different configuration as reset values, which software must overwrite
+// completely. Parameters that select blocks and memories are unchanged.
 inline spec::morphological::Parameters unprogrammed(spec::morphological::Parameters p) {
   using spec::morphological::EdgeSource, spec::morphological::ThresholdMode;
   constexpr std::array<std::string_view, 13> kBuilt = {
@@ -19,8 +19,8 @@ inline spec::morphological::Parameters unprogrammed(spec::morphological::Paramet
       "text_guard",   "window_rows",          "search_columns"};
   OtherConfiguration other(kBuilt);
   describe(static_cast<spec::morphological::Configuration&>(p), other);
-  // Luma and colour are built alike, so are depth and predicated; the first of each has a dynamic
-  // threshold.
+  // Luma and colour share their hardware, as do depth and predicated. Only the first of each pair
+  // has a dynamic threshold.
   const bool fixed = p.threshold_mode == ThresholdMode::kFixed;
   switch (p.edge_source) {
     case EdgeSource::kLuma:

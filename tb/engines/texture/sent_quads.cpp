@@ -16,7 +16,7 @@ void show(const traces::TracedQuad& quad, const spec::texture::Colour& colour, I
 void SentQuads::add(const traces::TracedQuad& quad) {
   DEBURR_CHECK(quad.quad.tag == next_, fmt::format("quad {} has the tag {}", next_, quad.quad.tag));
   ++next_;
-  // Colours come in the order of the quads.
+  // Colours arrive in the order of quads.
   while (quads_.size() >= kKept &&
          (quads_.front().pending == 0 || quads_.front().quad.quad.tag < taken_))
     quads_.pop_front();

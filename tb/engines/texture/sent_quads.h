@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The quads that were sent into the texture unit and may still come out of it, so that a colour
-// finds its pixel without a list of all of them.
+// Quads in flight in the texture unit, so that a colour finds its pixel without a list of all
+// quads.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,29 @@
 
 namespace deburr::tb {
 
-// Puts a colour where its quad says, if it is to be seen.
+// Writes a colour to the pixel of its quad if the lane is visible.
 void show(const traces::TracedQuad& quad, const spec::texture::Colour& colour, Image& picture);
 
 class SentQuads {
  public:
-  // In the order of their tags, which count from 0.
+  // Quads must be added in tag order, from 0.
   void add(const traces::TracedQuad& quad);
-  // nullptr for a tag that was not sent, or so long ago that it is forgotten.
+  // Returns nullptr for a tag that was not sent or is no longer kept.
   const traces::TracedQuad* find(std::uint32_t tag) const;
-  // The quad of a colour that has come, once a lane; else CheckFailed if the colour is `trusted`,
-  // and nullptr if it may be anything.
+  // Returns the quad of a received colour, once per lane. Otherwise throws CheckFailed if the
+  // colour is `trusted`, and returns nullptr if not.
   const traces::TracedQuad* take(const spec::texture::Colour& colour, bool trusted);
 
  private:
-  // More than the unit holds: colours that come twice or too late find their pixel too.
+  // More than the unit holds, so that duplicated and late colours also find their pixel.
   static constexpr std::size_t kKept = 4096;
   struct Sent {
     traces::TracedQuad quad;
-    std::uint8_t pending;  // bit i: the colour of lane i has not come
+    std::uint8_t pending;  // bit i: lane i has not been received
   };
   std::deque<Sent> quads_;
-  std::uint32_t next_ = 0;   // tag
-  std::uint32_t taken_ = 0;  // the largest tag that has come
+  std::uint32_t next_ = 0;   // next tag
+  std::uint32_t taken_ = 0;  // largest tag received
 };
 
 }  // namespace deburr::tb

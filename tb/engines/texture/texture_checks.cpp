@@ -15,7 +15,8 @@ namespace {
 using golden::texture::TextureGolden;
 using spec::texture::Colour;
 
-constexpr std::uint64_t kMemoryGrain = 64;  // longer reads are recorded in parts of this size
+// The memory model records longer reads in parts of this size.
+constexpr std::uint64_t kMemoryGrain = 64;
 
 std::string describe_colour(const Colour& c) {
   return fmt::format("tag {} lane {}{} RGBA ({}, {}, {}, {})", c.tag, c.lane, c.last ? " last" : "",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit does against its golden model: colours and line fills in order as they
-// come, the registers at the end.
+// Compares the texture unit with its golden model: colours and line fills in order as they appear,
+// registers at the end.
 #pragma once
 
 #include <cstdint>
@@ -29,29 +29,28 @@ class TextureChecks {
     friend bool operator==(const Fill&, const Fill&) = default;
   };
 
-  // Scene, setup and the quads that were sent must outlive it. Without `golden` nothing is
-  // compared.
+  // `scene`, `setup` and `sent` must outlive it. Without `golden` nothing is compared.
   TextureChecks(const TextureScene& scene, const TextureSetup& setup, const SentQuads& sent,
                 bool golden);
   TextureChecks(const TextureChecks&) = delete;
   TextureChecks& operator=(const TextureChecks&) = delete;
 
-  // Before the first quad; `blank` is a picture without any fragment.
+  // Call before the first quad; `blank` is the picture without fragments.
   void begin(const Image& blank);
-  // What the golden model makes of the quad that is sent as number `number`; with `history` it is
-  // one that covers the pixel which that follows.
+  // Expects the golden model's output for quad number `number`. `history`: not null if the quad
+  // covers the pixel whose history is recorded.
   void expect(const traces::TracedQuad& quad, std::uint64_t number,
               TextureHistory* history = nullptr);
-  // True if the colour is as expected, so that its tag and lane are those of a quad.
+  // Returns whether the colour is as expected, so its tag and lane can be trusted.
   bool got(const spec::texture::Colour& colour, rtl::Cycle cycle);
-  // What memory has recorded since the last call, which it forgets then if it may.
+  // Checks accesses that memory has recorded since the last call; `forget` clears the record.
   void check_traffic(platform::MemoryModel& memory, rtl::Cycle cycle, bool forget);
-  // All begins again (after a reset): begin() comes next.
+  // Restarts after a reset; begin() must follow.
   void restart();
-  // All quads are done: how much must have been compared, and the counters.
+  // After all quads: sets the required number of comparisons and checks the counters.
   void finish(std::uint64_t fragments, const platform::MemoryModel& memory,
               platform::RegisterBus& registers);
-  // The same of counters that are not registers.
+  // Checks counters that are not registers.
   void check_figures(const rtl::texture::TextureUnit& unit, const platform::MemoryModel& memory);
 
   const golden::texture::TextureGolden& golden_model() const { return golden_; }
@@ -78,7 +77,7 @@ class TextureChecks {
   bool used_;
   golden::texture::TextureGolden golden_;
   Image golden_frame_;
-  // Of the lines that memory still knows.
+  // among the lines that memory still has on record
   std::size_t fills_checked_ = 0;
 };
 

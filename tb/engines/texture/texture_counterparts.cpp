@@ -19,7 +19,7 @@ using StandIns = rtl::texture::TextureUnit::StandIns;
 
 struct CounterpartUnit {
   std::string_view name;
-  std::vector<std::string_view> parameters;  // that are compiled into a model of it
+  std::vector<std::string_view> parameters;  // those that are compiled into a model of the unit
 };
 const std::array<CounterpartUnit, 3>& known_units() {
   static const std::array<CounterpartUnit, 3> all = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of the texture unit: what the fragments of a run asked of it, as the golden
-// model analyses them, and what its cache met.
+// Functional coverage of the texture unit: properties of the run's fragments, as the golden model
+// analyses them, and events in the cache.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ class TextureCoverage {
   explicit TextureCoverage(const spec::texture::Configuration& configuration)
       : configuration_(configuration) {}
 
-  // A quad that the unit is given.
+  // Adds a quad that is sent to the unit.
   void see(const golden::texture::TextureGolden& golden, const spec::texture::Quad& quad);
   void clear() { *this = TextureCoverage(configuration_); }
-  // With what the unit counted itself.
+  // Also adds the unit's own counts.
   Coverage bins(const rtl::texture::TextureUnit& unit) const;
 
   // Every bin, without hits.

@@ -12,11 +12,11 @@
 namespace deburr::tb {
 namespace {
 
-constexpr std::size_t kLineBytes = 64;  // of the line that is read twice
+constexpr std::size_t kLineBytes = 64;  // size of the line that is read twice
 
 }  // namespace
 
-// ---- building -----------------------------------------------------------------------------------
+// ---- construction -------------------------------------------------------------------------------
 
 TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScene& scene,
                                        const TextureSetup& setup, std::string name)
@@ -122,7 +122,7 @@ void TextureEnvironment::clear_outputs() {
   came_.assign(frame_.pixels.size(), 0);
 }
 
-// ---- running ------------------------------------------------------------------------------------
+// ---- simulation ---------------------------------------------------------------------------------
 
 void TextureEnvironment::configure() {
   driver_.identify();
@@ -133,7 +133,7 @@ void TextureEnvironment::configure() {
 
 void TextureEnvironment::watch() {
   if (fetch_again_ && memory_.lines_read().size() > kFaultyRequest) fetch_again();
-  if (!memory_.lines_read().empty())  // in most cycles it is
+  if (!memory_.lines_read().empty())  // usually empty
     checks_.check_traffic(memory_, simulation().clock().cycle(), !fetch_again_);
 }
 
@@ -166,15 +166,15 @@ Amount TextureEnvironment::amount() const {
   return {delivered_, unit_.address.derivative.fragments.value(), fragments(), "fragment"};
 }
 
-// ---- checking
-// ------------------------------------------------------------------------------------
+// ---- checking -----------------------------------------------------------------------------------
 
 void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   ++delivered_;
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
   for (const std::uint8_t channel : colour.rgba) hash_.add(channel);
-  // After a mismatch tags and lanes may be anything; the picture then shows what can be placed.
+  // After a mismatch tags and lanes may be wrong; the picture then shows only colours with a known
+  // pixel.
   const bool trusted = checks_.got(colour, cycle);
   const traces::TracedQuad* quad = sent_.take(colour, trusted);
   if (!quad || !quad->shows(colour.lane)) return;
@@ -213,7 +213,7 @@ Coverage TextureEnvironment::coverage() const {
   return coverage_ ? coverage_->bins(unit_) : TextureCoverage::declared();
 }
 
-// Here, and not in each place that destroys one, whose compiler may leave its units slow.
+// Defined here, because inlined copies can keep the compiler from optimising the units.
 TextureEnvironment::~TextureEnvironment() = default;
 
 }  // namespace deburr::tb

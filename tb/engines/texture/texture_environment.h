@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The texture unit on a scene.
+// Environment of the texture unit for a scene.
 //
 //   TextureScene ─► Driver ─► TextureUnit ─► Sink ─► scoreboard, frame
 //                     │        │      └ registers ◄─ RegisterHost
 //                     ▼      MemoryModel ─► scoreboard of line fills
 //                   golden model (expected colours, expected fills)
 //
-// The golden model gets each quad when the driver sends it, so the comparison needs no more memory
-// than what is in flight, and every output is checked as it comes.
+// The golden model processes each quad when the driver sends it, so only expectations of quads in
+// flight are kept. Every output is checked as it appears.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -45,8 +45,9 @@ namespace deburr::tb {
 
 class TextureEnvironment final : public Environment {
  public:
-  // The scene must outlive it. With a name it is part of a composition, which takes the colours
-  // from `colours` and shows them to check_output(). ConfigError for wrong parameters.
+  // `scene` must outlive the environment. With a name it is part of a composition, which takes the
+  // colours from `colours` and passes them to check_output(). Throws ConfigError for invalid
+  // parameters.
   TextureEnvironment(Simulation& simulation, const TextureScene& scene, const TextureSetup& setup,
                      std::string name = {});
   ~TextureEnvironment() override;
@@ -81,16 +82,16 @@ class TextureEnvironment final : public Environment {
 
   rtl::Link<spec::texture::Colour> colours{"colours"};
   void check_output(rtl::Cycle cycle, const spec::texture::Colour& colour);
-  bool sent() const { return quad_driver_.done(); }  // every quad
+  bool sent() const { return quad_driver_.done(); }  // all quads
 
   const Image& frame() const { return frame_; }
-  // By pixel, whether a colour came for it.
+  // Per pixel, whether a colour has been received.
   const std::vector<std::uint8_t>& came() const { return came_; }
-  // The golden model's picture of the same fragments (empty without golden).
+  // The golden model's picture of the same fragments; empty if SimulationOptions::golden is false.
   const Image& golden_frame() const { return checks_.golden_frame(); }
   const golden::texture::TextureWork& golden_work() const { return checks_.work(); }
   std::uint64_t delivered() const { return delivered_; }
-  // Over all colours and tags in order.
+  // Hash of all colours and tags in order.
   std::uint64_t colour_hash() const { return hash_.value(); }
 
   const rtl::texture::TextureUnit& unit() const { return unit_; }
@@ -98,7 +99,7 @@ class TextureEnvironment final : public Environment {
   platform::RegisterHost& host() { return host_; }
 
  private:
-  // For the fault of a fetch that nobody ordered.
+  // Additional initiator for the fault of an unrequested fetch.
   struct Stranger : sc_core::sc_module {
     explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
     tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
@@ -115,7 +116,7 @@ class TextureEnvironment final : public Environment {
   rtl::Link<spec::texture::Quad> quads_{"quads"};
   Driver<spec::texture::Quad> quad_driver_;
   rtl::texture::TextureUnit unit_;
-  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // alone
+  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // null in a composition
   platform::MemoryModel memory_;
   platform::RegisterHost host_;
   platform::TextureDriver driver_;
@@ -123,15 +124,15 @@ class TextureEnvironment final : public Environment {
   Stranger stranger_;
 
   traces::QuadSource source_;
-  traces::TracedQuad quad_;  // the one that is being sent
+  traces::TracedQuad quad_;  // currently sent
   SentQuads sent_;
   TextureChecks checks_;
   Image frame_;
   std::vector<std::uint8_t> came_;
   std::unique_ptr<TextureMaps> maps_;
   std::unique_ptr<TextureHistory> history_;
-  bool ended_ = false;     // the frame
-  bool followed_ = false;  // the quad that is being sent covers its pixel
+  bool ended_ = false;     // the frame is done
+  bool followed_ = false;  // the quad being sent covers the recorded pixel
   std::optional<TextureCoverage> coverage_;
   std::uint64_t delivered_ = 0;
   OutputHash hash_;

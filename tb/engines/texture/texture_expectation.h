@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the golden texture unit expects of a scene, made once for several runs: colours and line
-// fills in order, and the counters at the end.
+// Golden results of a scene, computed once for several runs: colours and line fills in order, and
+// the final counters.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace deburr::tb {
 
 struct TextureExpectation {
-  struct Behind {  // a quad: so many there are by then
+  struct Behind {  // number of colours and fills after a quad
     std::size_t colours = 0, fills = 0;
   };
   std::vector<Behind> behind;
@@ -24,7 +24,7 @@ struct TextureExpectation {
   golden::texture::TextureWork work;
 };
 
-// Of memory without errors.
+// For a memory without errors.
 TextureExpectation expected_of(const TextureScene& scene,
                                const spec::texture::Parameters& parameters);
 

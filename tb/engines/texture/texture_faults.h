@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be wrong with a texture unit on purpose: on its links, in how it is built, in memory and
-// on its way there.
+// Injected faults of the texture unit: on links, in build parameters, in memory and on the way to
+// memory.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ namespace deburr::tb {
 
 class TextureFaults : public EngineFaults {
  public:
-  // The setup must outlive it.
+  // `setup` must outlive it.
   TextureFaults(const FaultPlan& plan, std::string environment, const TextureSetup& setup)
       : EngineFaults(plan, std::move(environment)), setup_(setup) {}
 
   static std::vector<InjectedFault> list();
-  // What the unit is built with; the golden model always gets what was ordered.
+  // Parameters of the hardware with faults; the golden model always gets the intended ones.
   spec::texture::Parameters as_built() const;
-  // The textures, as they go to memory.
+  // Writes the textures to memory, with faults.
   void load(platform::TextureDriver& driver, const platform::TextureMemory& textures) const;
   bool fetches_again() const { return injected("duplicate-fetch"); }
 

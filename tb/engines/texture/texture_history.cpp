@@ -15,7 +15,7 @@ using golden::texture::BilinearRequest;
 using golden::texture::QuadColours;
 using rtl::texture::LookUp;
 
-// Binary fractions as the numbers that they are, to the last bit.
+// Exact decimal value of a binary fraction.
 std::string fixed(std::int64_t value, int fraction_bits) {
   return fmt::format("{}", static_cast<double>(value) / static_cast<double>(1LL << fraction_bits));
 }
@@ -32,7 +32,7 @@ std::string words_text(const std::array<std::uint32_t, 4>& w) {
   return fmt::format("{:#x}, {:#x}, {:#x}, {:#x}", w[0], w[1], w[2], w[3]);
 }
 
-// Distinct lines of a request, in the order of first use.
+// Distinct lines of a request, in order of first use.
 std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_t line_bytes) {
   std::vector<std::uint32_t> lines;
   for (const std::uint32_t address : request.addresses)
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_
 
 }  // namespace
 
-// ---- watching -----------------------------------------------------------------------------------
+// ---- observation --------------------------------------------------------------------------------
 
 TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                                const rtl::Link<spec::texture::Quad>& quads,
@@ -65,7 +65,7 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
   see(clock, link_of<LevelToken>(unit, "address_unit.levels"), &Fragment::level);
   see_all(clock, link_of<SampleToken>(unit, "address_unit.samples"), &Fragment::samples);
   see_all(clock, link_of<TexelToken>(unit, "texels"), &Fragment::texels);
-  // A request leaves the tags in the clock of its look-ups.
+  // A request leaves the TagStage in the cycle of its lookups.
   unit.cache.tag_stage.observer = [this](rtl::Cycle cycle, std::uint32_t line, LookUp outcome) {
     if (!looked_up_.empty() && looked_up_.front().cycle != cycle) looked_up_.clear();
     looked_up_.push_back({cycle, line, outcome});
@@ -80,7 +80,7 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
           fragment->lookups.back().first = looked_up_;
       }));
   see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
-  // As they are taken: what happens to a colour while it waits has happened to it.
+  // Colours are recorded when taken, to include changes while they wait.
   monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
       clock, colours, Monitor<spec::texture::Colour>::Callback(),
       [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
@@ -147,7 +147,7 @@ QuadColours TextureHistory::expect(const traces::TracedQuad& quad,
   return colours;
 }
 
-// ---- telling ------------------------------------------------------------------------------------
+// ---- report -------------------------------------------------------------------------------------
 
 class TextureHistory::Writer {
  public:
@@ -172,7 +172,7 @@ class TextureHistory::Writer {
   static Clock clock(const Seen<T>& seen) {
     return seen ? Clock(seen->second) : std::nullopt;
   }
-  // Text of what was seen, if it was.
+  // Text of an observed value; empty if not observed.
   template <class T, class Text>
   static std::string text(const Seen<T>& seen, const Text& of) {
     return seen ? of(seen->first) : std::string();
@@ -181,12 +181,12 @@ class TextureHistory::Writer {
   static Seen<T> at(const AllSeen<T>& all, std::size_t i) {
     return i < all.size() ? Seen<T>(all[i]) : std::nullopt;
   }
-  // The same of what the golden model decided, of a fragment that it could filter.
+  // Text of a golden value; empty if the fragment could not be filtered.
   template <class Text>
   std::string golden(const Text& of) const {
     return f_.golden && f_.analysis.valid ? of(f_.analysis) : std::string();
   }
-  // A fragment's steps come before its colour. Without a descriptor there are none.
+  // A fragment's steps precede its colour. A fragment without a descriptor has no steps.
   PixelSides came() const {
     if (!f_.golden || !f_.analysis.valid) return {};
     return {true, ended_ || !f_.delivered.empty()};
@@ -201,7 +201,7 @@ class TextureHistory::Writer {
             .clock = at,
             .detail = detail};
   }
-  // Of one side by nature.
+  // Adds a step that only one side can have.
   void tell(std::string step, std::string item, std::string golden, std::string hardware,
             Clock at = std::nullopt, bool detail = false) {
     history_.compare(
@@ -289,7 +289,7 @@ class TextureHistory::Writer {
            text(data, [](const auto& t) { return words_text(t.texel); }), clock(data), true);
   }
 
-  // The golden model knows no time: a line whose fill is under way is a hit to it.
+  // The golden model is untimed: it counts a line whose fill is outstanding as a hit.
   void lines(std::size_t i, const std::string& step, const BilinearRequest* golden) {
     constexpr std::array<const char*, 3> kOutcomes = {"hit", "merged", "miss"};
     const std::vector<LookedUp> seen =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that happens to one pixel in the texture unit: what the golden model decides beside
-// what is seen on the unit's links and at its tags (docs/reference/run.md, "One pixel").
+// History of one pixel in the texture unit: decisions of the golden model side by side with values
+// observed on the unit's links and at its tags (docs/reference/run.md, "One pixel").
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace deburr::tb {
 
 class TextureHistory {
  public:
-  // `quads` and `colours`: the links in front of the unit and behind it. All must outlive it.
+  // `quads` and `colours`: the unit's input and output links. All arguments must outlive it.
   TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                  const rtl::Link<spec::texture::Quad>& quads,
                  const rtl::Link<spec::texture::Colour>& colours, const PixelAddress& pixel);
@@ -30,17 +30,18 @@ class TextureHistory {
   TextureHistory& operator=(const TextureHistory&) = delete;
 
   void clear();
-  // A quad that is sent; true: a lane of it covers the pixel.
+  // Records a quad that is sent; returns whether one of its lanes covers the pixel.
   bool send(const traces::TracedQuad& quad);
-  // What the golden model makes of it. After send() was true, instead of golden.process(quad).
+  // Runs the golden model on the quad; call it instead of golden.process(quad) after send()
+  // returned true.
   golden::texture::QuadColours expect(const traces::TracedQuad& quad,
                                       golden::texture::TextureGolden& golden);
-  // `ended`: all of the frame was done, so what was not seen does not come. `all_sent`: every quad
-  // was.
+  // `ended`: the frame is complete, so nothing more will be observed. `all_sent`: every quad was
+  // sent.
   PixelHistory history(bool ended, bool all_sent) const;
 
  private:
-  // What a link carried, and the clock in which it was put there.
+  // A value carried by a link, and the cycle of its push.
   template <class T>
   using Seen = std::optional<std::pair<T, rtl::Cycle>>;
   template <class T>
@@ -65,13 +66,13 @@ class TextureHistory {
     Seen<rtl::texture::LevelToken> level{};
     AllSeen<rtl::texture::SampleToken> samples{};
     AllSeen<rtl::texture::TexelToken> texels{};
-    AllSeen<std::vector<LookedUp>> lookups{};  // by request
+    AllSeen<std::vector<LookedUp>> lookups{};  // per request
     AllSeen<rtl::texture::TexelQuadToken> data{};
-    AllSeen<spec::texture::Colour> delivered{};  // one, of a unit that is right
+    AllSeen<spec::texture::Colour> delivered{};  // one, if the unit is correct
   };
   class Writer;
 
-  int lane_of(const traces::TracedQuad& quad) const;  // -1: none
+  int lane_of(const traces::TracedQuad& quad) const;  // -1 if none
   Fragment* find(std::uint32_t tag, int lane);
   template <class T>
   void see(rtl::ClockDomain& clock, const rtl::Link<T>& link, Seen<T> Fragment::*where);
@@ -82,7 +83,7 @@ class TextureHistory {
   std::uint32_t line_bytes_;
   bool two_axes_;
   std::vector<Fragment> fragments_;
-  std::vector<LookedUp> looked_up_;  // in the last clock with any
+  std::vector<LookedUp> looked_up_;  // lookups of the last cycle that had any
   std::vector<std::unique_ptr<rtl::Clocked>> monitors_;
 };
 

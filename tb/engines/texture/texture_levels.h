@@ -9,7 +9,7 @@
 
 namespace deburr::tb {
 
-// A mip chain as textures in memory are made of it; the images are someone else's.
+// Views of a mip chain's images as texture levels; the images must outlive them.
 inline std::vector<platform::TextureLevel> levels_of(std::span<const Image> images) {
   std::vector<platform::TextureLevel> levels;
   levels.reserve(images.size());

@@ -10,7 +10,7 @@
 
 namespace deburr::tb {
 
-// A link inside of the unit, by its name there.
+// Finds a link inside the unit by its name there.
 template <class T>
 const rtl::Link<T>& link_of(const rtl::texture::TextureUnit& unit, const std::string& name) {
   const auto* link = dynamic_cast<const rtl::Link<T>*>(

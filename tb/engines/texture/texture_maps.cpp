@@ -31,7 +31,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
   const auto add = [this](std::uint32_t tag, std::uint8_t lane, PictureMap& map, double value,
                           double* unplaced) {
     const traces::TracedQuad* quad = sent_.find(tag);
-    if (!quad || lane >= 4) return;  // of a injected fault
+    if (!quad || lane >= 4) return;  // corrupted by an injected fault
     if (quad->placed)
       map.add(quad->x(lane), quad->y(lane), value);
     else if (unplaced)
@@ -62,7 +62,7 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
       }));
   monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
       clock, colours, [this, add](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-        // It can be taken in the clock behind.
+        // The colour can be taken from the next cycle on.
         add(colour.tag, colour.lane, latency_,
             static_cast<double>(cycle + 1 - taken_[colour.tag % kKept]), &unplaced_.latency);
       }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit did for each pixel, seen on its links: samples, level, misses, latency.
+// Per-pixel maps of the texture unit, observed on its links: samples, level, misses, latency.
 #pragma once
 
 #include <array>
@@ -17,20 +17,20 @@ namespace deburr::tb {
 
 class TextureMaps {
  public:
-  // `quads` and `colours`: the links in front of the unit and behind it. `sent` tells where a quad
-  // lies in the picture of `width` x `height` pixels. All must outlive it.
+  // `quads` and `colours`: the unit's input and output links. `sent` gives the position of a quad
+  // in the picture of `width` x `height` pixels. All arguments must outlive it.
   TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
               const rtl::Link<spec::texture::Quad>& quads,
               const rtl::Link<spec::texture::Colour>& colours, const SentQuads& sent, int width,
               int height);
   void clear();
-  // With what the unit counted itself.
+  // Checked against the unit's own counts.
   std::vector<PictureMap> maps() const;
 
  private:
   // More quads than the unit holds at a time.
   static constexpr std::size_t kKept = 4096;
-  // What belongs to fragments without a place counts all the same.
+  // Counts of fragments without a position, so that totals match.
   struct Unplaced {
     double samples = 0, misses = 0, latency = 0;
   };
@@ -39,7 +39,7 @@ class TextureMaps {
   const SentQuads& sent_;
   PictureMap samples_, level_, misses_, latency_;
   Unplaced unplaced_;
-  std::array<rtl::Cycle, kKept> taken_{};  // by the quad's tag, modulo
+  std::array<rtl::Cycle, kKept> taken_{};  // indexed by the quad's tag modulo kKept
   std::vector<std::unique_ptr<rtl::Clocked>> monitors_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of the texture unit: units and counters, and what a fragment costs.
+// Figures of the texture unit: units and counters, and costs per fragment.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace deburr::tb {
 
 class TextureMeter : public Meter {
  public:
-  // All of these must outlive it.
+  // All arguments must outlive it.
   TextureMeter(std::string name, const rtl::texture::TextureUnit& unit,
                const platform::MemoryModel& memory, const platform::TextureMemory& textures)
       : Meter(std::move(name)), unit_(unit), memory_(memory), textures_(textures) {}
@@ -25,7 +25,7 @@ class TextureMeter : public Meter {
   void collect_headline(Result& result) const;
 
  private:
-  // The look-ups are counted; nobody counts those of a cache that is replaced.
+  // Whether lookups are counted; a replaced cache does not count them.
   bool looks_up() const { return !unit_.cache.tag_stage.replaced(); }
   void collect_lookups(Result& result, double texel_hits) const;
 

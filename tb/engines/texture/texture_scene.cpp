@@ -35,8 +35,8 @@ Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed, const 
   options.texture_size = p.texture_size;
   options.seed = seed;
   Scene scene = load_scene(p.source, options);
-  // Before anything is made of it: the rasteriser (which shifts coordinates by whole repeats) and
-  // the reference go by it as well.
+  // Set wrap modes first: the rasteriser (which shifts coordinates by whole repeats) and the
+  // reference also depend on them.
   for (Texture& texture : scene.mesh.textures) {
     texture.wrap_s = chosen(wrap, texture.wrap_s);
     texture.wrap_t = chosen(wrap, texture.wrap_t);
@@ -148,7 +148,7 @@ TextureGolden make_golden(const TextureScene& scene, const spec::texture::Parame
 
 GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters,
                          const std::optional<ErrorRange>& errors) {
-  // Only a cache that is followed knows of lines with errors.
+  // Lines with errors are known only if cache traffic is predicted.
   const auto traffic = errors ? TextureGolden::Traffic::kPredict : TextureGolden::Traffic::kIgnore;
   TextureGolden golden = make_golden(scene, parameters, traffic, errors);
   FrameAssembler frame(scene.stream(), scene.scene());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything that goes into the texture unit for one picture: the scene's fragments, its textures
-// laid out in memory, and the state of the sampler. Shared by the hardware bench, the golden
-// renderings and the reports.
+// Input of the texture unit for one picture: the scene's fragments, its textures laid out in
+// memory, and the sampler state. Shared by environment, golden renderings and reports.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +67,7 @@ inline constexpr std::array<std::string_view, 5> kAnisotropyNames = {"1", "2", "
 struct SamplerParameters {
   spec::texture::MinFilter mode = spec::texture::MinFilter::kLinearMipmapLinear;
   spec::texture::MagFilter magnification = spec::texture::MagFilter::kLinear;
-  std::uint8_t anisotropy = 4;  // index into kAnisotropyNames: lb N_max
+  std::uint8_t anisotropy = 4;  // index into kAnisotropyNames: log2 of N_max
   WrapChoice wrap = WrapChoice::kScene;
   spec::texture::Format format = spec::texture::Format::kRgba8;
   spec::texture::Layout layout = spec::texture::Layout::kTiled;
@@ -96,20 +95,21 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
 }
 
-// The parameters "sampler.*": `trilinear` is a word for linear_mipmap_linear.
+// Adds the parameters "sampler.*"; `trilinear` is an alias of linear_mipmap_linear.
 void add_sampler(ParameterSet& set, SamplerParameters& sampler);
 
 class TextureScene final : public DrawnScene {
  public:
-  // Loads, rasterises and lays out. ConfigError and FileError as of tb/scene.
+  // Loads, rasterises and lays out a scene. Throws ConfigError and FileError as tb/scene.
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
                const CameraMove& move = {});
-  // Its textures and sampler alone, for fragments that come from elsewhere: an empty stream.
+  // Textures and sampler only, with an empty fragment stream; for fragments from another source.
   static TextureScene without_fragments(const SceneParameters& scene,
                                         const SamplerParameters& sampler, std::uint32_t seed,
                                         int width, int height);
 
-  // With the wrap modes of the sampler, so that its reference is what the unit is asked for.
+  // The scene with the sampler's wrap modes, so that its reference matches the unit's
+  // configuration.
   const Scene& scene() const override { return scene_; }
   const FragmentStream& stream() const override { return stream_; }
   const platform::TextureMemory& memory() const { return memory_; }
@@ -125,16 +125,16 @@ class TextureScene final : public DrawnScene {
   platform::TextureMemory memory_;
 };
 
-// The smallest picture of a scene, to elaborate with.
+// The smallest picture of a scene, for elaboration.
 TextureScene smallest(SceneParameters scene, const SamplerParameters& sampler);
 
-// What parameters say of each frame: meshes and cameras may be lists.
+// Per-frame values: meshes and cameras may be lists.
 FrameLists lists_of(const SceneParameters& scene);
 SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int frame);
 // TextureScene::inputs(), without loading.
 std::vector<std::filesystem::path> frame_files(const SceneParameters& scene, MeshFiles& meshes);
 
-// A golden model with the scene's textures, of a memory that answers with errors in `errors`. The
+// Golden model with the scene's textures; memory answers with errors in the range `errors`. The
 // scene must outlive it.
 golden::texture::TextureGolden make_golden(const TextureScene& scene,
                                            const spec::texture::Parameters& parameters,
@@ -142,10 +142,10 @@ golden::texture::TextureGolden make_golden(const TextureScene& scene,
                                                golden::texture::TextureGolden::Traffic::kIgnore,
                                            const std::optional<ErrorRange>& errors = std::nullopt);
 
-// The whole picture by the golden model.
+// Golden model's result for the whole picture.
 struct GoldenFrame {
   Image image;
-  std::vector<std::uint8_t> rgba;  // of all covered lanes in order, 4 bytes each
+  std::vector<std::uint8_t> rgba;  // all covered lanes in order, 4 bytes each
   golden::texture::TextureWork work;
 };
 GoldenFrame golden_frame(const TextureScene& scene, const spec::texture::Parameters& parameters,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flicker of many filters at once over the same moving camera: how much more or less a pixel
-// changes from frame to frame than its reference does. What a single picture's PSNR does not show.
+// Compares the flicker of many filters over the same camera movement: how a pixel's change from
+// frame to frame differs from that of the reference. The PSNR of a single picture does not show it.
 #pragma once
 
 #include <cstdint>
@@ -15,30 +15,30 @@
 
 namespace deburr::tb {
 
-// Steps of 1/255 over R, G and B, of the pixels that both frames draw.
+// In steps of 1/255 over R, G and B, for pixels drawn in both frames.
 struct Flicker {
   double mean = 0;   // root mean square over all pairs of frames
-  double worst = 0;  // of the pair with the most
+  double worst = 0;  // for the worst pair
 };
 
 struct SequenceOptions {
-  int reference_samples = 16;  // each way in a pixel
+  int reference_samples = 16;  // per axis and pixel
   RenderOptions reference{};   // sampling and averaging of the reference
 };
 
-// Those that hold a surface.
+// Pixels that show a surface.
 Mask drawn_pixels(const TextureScene& scene);
 
-// A picture of a scene by any filter.
+// Renders a scene with a filter.
 using FrameFilter = std::function<Image(const TextureScene&)>;
 
-// Of the scene's own camera, moved, by each filter.
+// Flicker of each filter, for a movement of the scene's own camera.
 std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
                                 std::uint32_t seed, const SequenceParameters& sequence,
                                 std::span<const FrameFilter> filters,
                                 const SequenceOptions& options = {});
 
-// The same of the golden model by each set of rules.
+// As above, for the golden model in each configuration.
 std::vector<Flicker> flicker_of(const SceneParameters& scene, const SamplerParameters& sampler,
                                 std::uint32_t seed, const SequenceParameters& sequence,
                                 std::span<const spec::texture::Parameters> configuration,

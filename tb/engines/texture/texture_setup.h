@@ -16,31 +16,31 @@
 
 namespace deburr::tb {
 
-// Where fragments come from, if not from the scene's rasteriser.
+// Fragments from a source other than the scene's rasteriser.
 struct ForeignFragments {
-  std::function<traces::QuadSource()> open;  // from the first quad on, each time
-  std::uint64_t fragments = 0;               // covered lanes in all
+  std::function<traces::QuadSource()> open;  // starts again from the first quad at each call
+  std::uint64_t fragments = 0;               // total of covered lanes
 };
 
 struct TextureSetup {
   spec::texture::Parameters texture;
   MemoryParameters memory;
   ForeignFragments foreign{};
-  // Sees every quad as it is sent.
+  // Called for every quad as it is sent.
   std::function<void(const traces::TracedQuad&)> observer{};
-  // What the golden model found already; null: it works beside the hardware. Never with errors of
-  // memory, nor with a pixel that is followed.
+  // Precomputed golden results; null: the golden model runs with the hardware. Must be null
+  // with memory errors or a recorded pixel.
   std::shared_ptr<const TextureExpectation> expectation = nullptr;
-  // Connects the engine with its memory; null: directly.
+  // Connects the engine to its memory; null: directly.
   std::function<void(rtl::Engine&, platform::MemoryModel&)> connect{};
-  // What does the work of units of the engine; null: nothing (texture_counterparts.h).
+  // Replacements of the engine's units; empty: none (texture_counterparts.h).
   rtl::texture::TextureUnit::StandIns stand_ins{};
 };
-// What this memory takes at most.
+// Upper bound of the cycles of a memory access.
 inline rtl::MemoryCycles memory_cycles(const TextureSetup& setup) {
   return memory_cycles(setup.memory, setup.texture.cache_line_bytes);
 }
-// With the depth of the FIFO that is built.
+// Parameters with the FIFO depth that is built.
 inline spec::texture::Parameters as_built(spec::texture::Parameters parameters,
                                           const rtl::MemoryCycles& memory) {
   parameters.cache_fifo_depth = rtl::texture::LatencyFifo::depth(parameters, memory);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the traces that only a texture unit has (docs/reference/traces.md).
+// Trace parameters that only a texture unit has (docs/reference/traces.md).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace deburr::tb {
 
-// Of every engine with a texture unit in it.
+// For every engine that contains a texture unit.
 struct LookupTrace {
   bool lookups = false;
 };
