@@ -39,16 +39,16 @@ TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
                                           "memory.bytes_per_cycle",
                                           "units.run_extractor.stalls.descriptors"};
   for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
-           {"run.reference", "run.reference"},
-           {"frame.reference", "frame.reference"},
-           {"texture.axis_cycles", "texture.axis_cycles"},
+           {"run.truth", "run.reference"},
+           {"frame.truth", "frame.reference"},
+           {"texture.axis_clocks", "texture.axis_cycles"},
            {"units.filter.busy", "units.filter_pipeline.busy"},
            {"units.texture_filter.busy", "units.texture_filter_pipeline.busy"},
            {"work.divider_h_divides", "work.line_unit_h_divides"},
            {"work.extractor_record_stalls", "work.run_extractor_descriptor_stalls"},
            {"work.level_two_levels", "work.level_unit_two_levels"},
            {"unit.leave", "unit.bypass"},
-           {"memory.bytes_per_cycle", "memory.bytes_per_cycle"},
+           {"memory.bytes_per_clock", "memory.bytes_per_cycle"},
            {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"}}) {
     EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
   }
