@@ -2,6 +2,7 @@
 // Handles of the C interface for tests.
 #pragma once
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -51,17 +52,17 @@ inline std::uint64_t counter_of(deburr_golden* golden, const std::string& name) 
   return value;
 }
 
-}  // namespace deburr::tb::c
+// A call that must be taken, and one that must not, with words of its complaint; by a pointer to
+// the handle or its owner.
+template <class Golden>
+void expect_taken(const Golden& golden, int status) {
+  EXPECT_EQ(status, DEBURR_OK) << error_of(&*golden, status);
+}
+template <class Golden>
+void expect_rejected(const Golden& golden, const std::string& words, int status,
+                     int expected = DEBURR_ARGUMENT) {
+  EXPECT_EQ(status, expected) << words;
+  EXPECT_THAT(error_of(&*golden, status), testing::HasSubstr(words));
+}
 
-// A call that must be taken, and one that must not, with words of its complaint.
-#define DEBURR_EXPECT_TAKEN(golden, call)                                                        \
-  do {                                                                                           \
-    const int status_of_call = (call);                                                           \
-    EXPECT_EQ(status_of_call, DEBURR_OK) << deburr::tb::c::error_of(&*(golden), status_of_call); \
-  } while (false)
-#define DEBURR_EXPECT_REJECTED(golden, status, words, call)                                      \
-  do {                                                                                           \
-    const int status_of_call = (call);                                                           \
-    EXPECT_EQ(status_of_call, (status));                                                         \
-    EXPECT_THAT(deburr::tb::c::error_of(&*(golden), status_of_call), testing::HasSubstr(words)); \
-  } while (false)
+}  // namespace deburr::tb::c

@@ -18,6 +18,7 @@ namespace deburr::threads_test {
 namespace {
 
 using tb::c::error_of;
+using tb::c::expect_taken;
 using tb::c::Handle;
 
 // A frame of noise, smoothed by a handle that is used a few hundred times on the way.
@@ -61,7 +62,7 @@ TEST(Threads, WithHandlesOfTheirOwnDoNotDisturbEachOther) {
 TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
   const Handle handle(deburr_geometric_new());
   deburr_golden* const golden = handle.get();
-  DEBURR_EXPECT_TAKEN(golden, deburr_set(golden, "mark", "true"));
+  expect_taken(golden, deburr_set(golden, "mark", "true"));
   EXPECT_EQ(deburr_set(golden, "mark", "perhaps"), DEBURR_ARGUMENT);
   char text[300] = "before";
   std::uint32_t number = 77;

@@ -16,7 +16,6 @@ using golden::geometric::classify;
 using golden::geometric::classify_faces;
 using golden::geometric::FacingBits;
 using golden::geometric::FrameCounts;
-using golden::geometric::is_kept;
 using golden::geometric::preset_parameters;
 using golden::geometric::rejection;
 using spec::geometric::CoarseLines;
@@ -108,43 +107,33 @@ TEST(Classify, IndicesEndWhereTheCountsEnd) {
   }
 }
 
-TEST(Classify, KeepsWhatCanBeSeenAsAnEdge) {
-  using enum EdgeClass;
-  for (const EdgeClass c : {kBoundary, kSilhouette, kCrease, kUnclassified})
-    EXPECT_TRUE(is_kept(c));
-  for (const EdgeClass c : {kInvalid, kBack, kFlat}) EXPECT_FALSE(is_kept(c));
-}
-
 // ---- configuration ------------------------------------------------------------------------------
 
 TEST(Configuration, PresetsAreThePages) {
-  const Parameters gpaa = preset_parameters(Preset::kGpaa);
+  using spec::geometric::Combine;
+  using spec::geometric::CoverageRule;
+  const Parameters gpaa = preset_parameters(Preset::kGpaa),
+                   optimised = preset_parameters(Preset::kGpaaOptimised), untouched;
   EXPECT_EQ(gpaa.select, Select::kAll);
-  EXPECT_EQ(gpaa.combine, spec::geometric::Combine::kLast);
-  EXPECT_TRUE(gpaa.frame_copy);
-  const Parameters optimised = preset_parameters(Preset::kGpaaOptimised);
   EXPECT_EQ(optimised.select, Select::kEdges);
   EXPECT_EQ(optimised.crease, Crease::kPaper);
-  EXPECT_EQ(optimised.combine, spec::geometric::Combine::kLast);
-  EXPECT_TRUE(optimised.frame_copy);
-  const Parameters deburr = preset_parameters(Preset::kDeburr), untouched;
-  EXPECT_EQ(deburr.crease, Crease::kShading);
-  EXPECT_EQ(deburr.crease, untouched.crease);
-  EXPECT_EQ(deburr.combine, untouched.combine);
-  EXPECT_EQ(deburr.combine, spec::geometric::Combine::kOutermost);
-  EXPECT_EQ(deburr.coverage, spec::geometric::CoverageRule::kArea);
-  EXPECT_EQ(deburr.coverage, untouched.coverage);
-  EXPECT_EQ(deburr.crease_depth, 3);
-  EXPECT_EQ(deburr.crease_depth, untouched.crease_depth);
-  EXPECT_EQ(deburr.cull, Cull::kNone);
-  EXPECT_EQ(deburr.cull, untouched.cull);
   for (const Parameters& p : {gpaa, optimised}) {
-    EXPECT_EQ(p.coverage, spec::geometric::CoverageRule::kDistance);
+    EXPECT_EQ(p.combine, Combine::kLast);
+    EXPECT_EQ(p.coverage, CoverageRule::kDistance);
     EXPECT_EQ(p.crease_depth, 0);
     EXPECT_EQ(p.cull, Cull::kBack);
+    EXPECT_TRUE(p.frame_copy);
+    EXPECT_NO_THROW(check_build(p));
   }
-  EXPECT_EQ(deburr.frame_copy, untouched.frame_copy);
-  for (const Parameters& p : {gpaa, optimised, deburr}) EXPECT_NO_THROW(check_build(p));
+  for (const Parameters& p : {preset_parameters(Preset::kDeburr), untouched}) {
+    EXPECT_EQ(p.crease, Crease::kShading);
+    EXPECT_EQ(p.combine, Combine::kOutermost);
+    EXPECT_EQ(p.coverage, CoverageRule::kArea);
+    EXPECT_EQ(p.crease_depth, 3);
+    EXPECT_EQ(p.cull, Cull::kNone);
+    EXPECT_FALSE(p.frame_copy);
+    EXPECT_NO_THROW(check_build(p));
+  }
 }
 
 void rejected(void (*change)(Parameters&), const char* name) {

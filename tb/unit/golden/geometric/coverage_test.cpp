@@ -23,11 +23,21 @@ using spec::geometric::CacheLines;
 using spec::geometric::CoarseLines;
 using spec::geometric::Combine;
 using spec::geometric::Crease;
+using spec::geometric::EdgeClass;
 using spec::geometric::Layout;
 using spec::geometric::Parameters;
 using spec::geometric::Region;
 using spec::geometric::Select;
 using tb::geometric::Drawing;
+
+using Hits = std::map<std::string, std::uint64_t>;
+// The bins of a group, or all, that were hit.
+Hits hits_of(const EdgeCoverage& coverage, const std::string& group = "") {
+  Hits hits;
+  for (const CoverageBin& bin : coverage.bins())
+    if (bin.hits != 0 && bin.name.starts_with(group)) hits[bin.name] = bin.hits;
+  return hits;
+}
 
 // Random edges of all lengths; coordinates often on centres and borders.
 Drawing random_drawing(std::uint64_t seed) {
@@ -137,29 +147,6 @@ TEST(Coverage, EveryBinCanBeReached) {
   EXPECT_GT(sum.bins().size(), 170u);
 }
 
-// A test of depth looks up the line of the neighbour only if it is another one than the pixel's.
-TEST(Coverage, TwoDepthsOfOneLineAreOneLookUp) {
-  const auto lookups_of_eight = [](std::int32_t y) {
-    Parameters p;
-    p.layout = Layout::kTiled;
-    p.coverage = spec::geometric::CoverageRule::kDistance;
-    Drawing d(70, 50);
-    d.vertices = {{16 * 256, y, 1, true}, {24 * 256, y, 1, true}};
-    d.set_facing(0, true);
-    d.edges.push_back({0, 1, 0, 0, spec::geometric::flag::kBoundary});
-    GeometricGolden golden(p);
-    golden.process(d.input());
-    EXPECT_EQ(golden.candidates().size(), 8u);
-    std::uint64_t lookups = 0;
-    for (const CoverageBin& bin : golden.coverage().bins())
-      if (bin.name.rfind("fetch/depth/", 0) == 0 && bin.name != "fetch/depth/replaced")
-        lookups += bin.hits;
-    return lookups;
-  };
-  EXPECT_EQ(lookups_of_eight(9 * 256 + 64), 8u);   // rows 9 and 8, both of a line
-  EXPECT_EQ(lookups_of_eight(8 * 256 + 64), 16u);  // rows 8 and 7
-}
-
 TEST(Coverage, BinsCountWhatTheWorkCounts) {
   GeometricGolden golden(Parameters{});
   golden.process(tb::geometric::vector_drawing().input());
@@ -193,16 +180,20 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
       work.passed);
   // An edge looks up the lines of its vertices, which may be one; what is not found is read.
   const auto drawing = tb::geometric::vector_drawing();
-  std::uint64_t vertex_lines = 0, in_one_line = 0;
+  std::uint64_t vertex_lines = 0, in_one_line = 0, turned_away = 0;
   for (std::size_t i = 0; i < drawing.edges.size(); ++i) {
-    if (!golden::geometric::is_kept(golden.classes()[i])) continue;
     const auto& edge = drawing.edges[i];
+    const auto c = golden.classes()[i];
+    if (c == EdgeClass::kCrease || c == EdgeClass::kFlat)  // its faces are turned the same way
+      turned_away += (drawing.facing[edge.f0 / 8] >> (edge.f0 % 8) & 1) == 0 ? 1 : 0;
+    if (!golden::geometric::is_kept(c)) continue;
     const bool one =
         edge.v0 / spec::geometric::kVerticesInLine == edge.v1 / spec::geometric::kVerticesInLine;
     in_one_line += one ? 1 : 0;
     vertex_lines += one ? 1 : 2;
   }
   EXPECT_GT(in_one_line, 0u);
+  EXPECT_EQ(sum("turned-away"), turned_away);
   EXPECT_EQ(sum("fetch/vertex"), vertex_lines);
   for (const auto& [cache, region] :
        {std::pair{"vertex", Region::kVertices}, {"depth", Region::kDepth}}) {
@@ -212,11 +203,6 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   }
   golden.clear_coverage();
   for (const CoverageBin& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u);
-}
-
-template <class... Names>
-std::map<std::string, std::uint64_t> once(Names... names) {
-  return {{names, 1}...};
 }
 
 // What the choices that leave traffic out count, over their lists.
@@ -235,6 +221,7 @@ TEST(Coverage, BinsCountWhatIsLeftOut) {
   for (const CoverageBin& bin : golden.coverage().bins()) hits[bin.name] = bin.hits;
   const auto& traffic = golden.traffic();
   const auto& work = golden.work();
+  EXPECT_EQ(hits.at("fetch/depth/miss"), traffic.read(Region::kDepth).size());  // all fit
   EXPECT_EQ(hits.at("fetch/colour/miss"), 20u);
   EXPECT_EQ(hits.at("fetch/colour/miss") + hits.at("fetch/colour/replaced"),
             traffic.read(Region::kColour).size());
@@ -275,30 +262,19 @@ TEST(Coverage, CoarseBinsAreOfTheLimitAndTheTiles) {
     p.coarse_lines = CoarseLines::k4;
     GeometricGolden golden(p);
     golden.process(d.input());
-    std::map<std::string, std::uint64_t> result;
-    for (const CoverageBin& bin : golden.coverage().bins())
-      if (bin.hits != 0 && bin.name.starts_with("coarse/")) result[bin.name] = bin.hits;
-    return result;
+    return hits_of(golden.coverage(), "coarse/");
   };
   // 25600 less its 512th.
-  EXPECT_EQ(hits(25549, 25600, 25600), once("coarse/right/dropped"));
-  EXPECT_EQ(hits(25550, 25600, 25600), once("coarse/equal"));
-  EXPECT_TRUE(hits(25551, 25600, 25600).empty());
-  EXPECT_TRUE(hits(0, 0, 0).empty());
-  EXPECT_EQ(hits(25551, 25600, 25856), once("coarse/lesser/own"));
-  EXPECT_EQ(hits(25551, 25856, 25600), once("coarse/lesser/other"));
-  // Both in the same 256.
-  EXPECT_TRUE(hits(25551, 25601, 25855).empty());
+  EXPECT_EQ(hits(25549, 25600, 25600), (Hits{{"coarse/right/dropped", 1}}));
+  EXPECT_EQ(hits(25550, 25600, 25600), (Hits{{"coarse/equal", 1}}));
+  EXPECT_EQ(hits(25551, 25600, 25600), Hits{});
+  EXPECT_EQ(hits(0, 0, 0), Hits{});
+  EXPECT_EQ(hits(25551, 25600, 25856), (Hits{{"coarse/lesser/own", 1}}));
+  EXPECT_EQ(hits(25551, 25856, 25600), (Hits{{"coarse/lesser/other", 1}}));
+  EXPECT_EQ(hits(25551, 25601, 25855), Hits{});  // both in the same 256
 }
 
 // ---- what each bin counts, one thing at a time --------------------------------------------------
-
-std::map<std::string, std::uint64_t> hits_of(const EdgeCoverage& coverage) {
-  std::map<std::string, std::uint64_t> hits;
-  for (const CoverageBin& bin : coverage.bins())
-    if (bin.hits != 0) hits[bin.name] = bin.hits;
-  return hits;
-}
 
 // Holes in the list of bins itself would not show as bins that nobody hits. Of 7 classes, `all` can
 // give three, `edges` five without creases and six with either rule, `mesh` three and four.
@@ -326,99 +302,224 @@ TEST(Coverage, ListsEveryBinOfEveryGroup) {
                                                        {"lines", 10 + 5}}));
 }
 
-// In a frame of 20 x 10.
-std::map<std::string, std::uint64_t> line_hits(int x0, int y0, int x1, int y1) {
+// The names of the bins that a call hits, each once, in the order of the alphabet.
+template <class Count>
+std::string counted(Count&& count) {
   EdgeCoverage coverage;
-  coverage.count_line({x0, y0, 0, true}, {x1, y1, 0, true}, 20, 10);
-  return hits_of(coverage);
+  count(coverage);
+  std::string names;
+  for (const auto& [name, hits] : hits_of(coverage)) {
+    EXPECT_EQ(hits, 1u) << name;
+    names += (names.empty() ? "" : " ") + name;
+  }
+  return names;
 }
 
-TEST(Coverage, LinesHaveTheOctantOfTheirDirection) {
-  const auto octant = [](int dx, int dy) { return line_hits(1000, 1000, 1000 + dx, 1000 + dy); };
-  const auto is = [](const std::string& name) {
-    return once("line/" + name + "/below-four", std::string("columns/none"),
-                std::string("rows/inside"));
+// A line in a frame of 20 x 10; a length of four pixels and a diagonal are borders between bins.
+TEST(Coverage, LinesHaveAnOctantALengthAndTheirCuts) {
+  constexpr int kRight = 20 * 256, kBottom = 10 * 256;
+  struct Row {
+    int x0, y0, x1, y1;
+    const char* bins;
   };
-  EXPECT_EQ(octant(300, 299), is("right-down"));
-  EXPECT_EQ(octant(300, 0), is("right-down"));
-  EXPECT_EQ(octant(300, -1), is("right-up"));
-  EXPECT_EQ(octant(300, -299), is("right-up"));
-  EXPECT_EQ(octant(-300, 299), is("left-down"));
-  EXPECT_EQ(octant(-300, 0), is("left-down"));
-  EXPECT_EQ(octant(-300, -1), is("left-up"));
-  // A diagonal goes along the rows.
-  EXPECT_EQ(octant(300, 300), is("down-right"));
-  EXPECT_EQ(octant(0, 300), is("down-right"));
-  EXPECT_EQ(octant(-1, 300), is("down-left"));
-  EXPECT_EQ(octant(-300, 300), is("down-left"));
-  EXPECT_EQ(octant(300, -300), is("up-right"));
-  EXPECT_EQ(octant(0, -300), is("up-right"));
-  EXPECT_EQ(octant(-1, -300), is("up-left"));
-}
-
-TEST(Coverage, LinesEndBelowAPixelAndBelowFour) {
-  const auto length = [](int dx) { return line_hits(100, 1000, 100 + dx, 1000); };
-  const auto is = [](const std::string& name) {
-    return once("line/right-down/" + name, std::string("columns/none"), std::string("rows/inside"));
+  const auto octant = [](int dx, int dy, const char* bins) {
+    return Row{1000, 1000, 1000 + dx, 1000 + dy, bins};
   };
-  EXPECT_EQ(length(1), is("below-pixel"));
-  EXPECT_EQ(length(255), is("below-pixel"));
-  EXPECT_EQ(length(256), is("below-four"));
-  EXPECT_EQ(length(1023), is("below-four"));
-  EXPECT_EQ(length(1024), is("longer"));
-}
-
-// The frame cuts off the columns whose centres it does not have: that at -1/2 and that half a pixel
-// behind the last one's end.
-TEST(Coverage, ColumnsAreCutAtTheCentresBesideTheFrame) {
-  const auto cut = [](int from, int to, bool horizontal) {
-    const auto hits = horizontal ? line_hits(from, 300, to, 300) : line_hits(300, from, 300, to);
-    EXPECT_EQ(hits.size(), 3u);
-    return hits.begin()->first;  // "columns/" is the first of them
-  };
-  for (const bool horizontal : {true, false}) {
-    const int end = horizontal ? 20 * 256 : 10 * 256;
-    EXPECT_EQ(cut(-127, end + 128, horizontal), "columns/none");
-    EXPECT_EQ(cut(-128, end + 128, horizontal), "columns/start");
-    EXPECT_EQ(cut(-127, end + 129, horizontal), "columns/end");
-    EXPECT_EQ(cut(-128, end + 129, horizontal), "columns/both");
-    EXPECT_EQ(cut(end + 128, -128, horizontal), "columns/start");
-    EXPECT_EQ(cut(end + 129, -127, horizontal), "columns/end");
+  for (const Row& row : {
+           octant(300, 299, "columns/none line/right-down/below-four rows/inside"),
+           octant(300, 0, "columns/none line/right-down/below-four rows/inside"),
+           octant(300, -1, "columns/none line/right-up/below-four rows/inside"),
+           octant(-300, 299, "columns/none line/left-down/below-four rows/inside"),
+           octant(-300, 0, "columns/none line/left-down/below-four rows/inside"),
+           octant(-300, -299, "columns/none line/left-up/below-four rows/inside"),
+           octant(300, 300, "columns/none line/down-right/below-four rows/inside"),
+           octant(0, 300, "columns/none line/down-right/below-four rows/inside"),
+           octant(-300, 300, "columns/none line/down-left/below-four rows/inside"),
+           octant(300, -300, "columns/none line/up-right/below-four rows/inside"),
+           octant(0, -300, "columns/none line/up-right/below-four rows/inside"),
+           octant(-1, -300, "columns/none line/up-left/below-four rows/inside"),
+           octant(255, 0, "columns/none line/right-down/below-pixel rows/inside"),
+           octant(256, 0, "columns/none line/right-down/below-four rows/inside"),
+           octant(1023, 0, "columns/none line/right-down/below-four rows/inside"),
+           octant(1024, 0, "columns/none line/right-down/longer rows/inside"),
+           // The frame cuts off the columns whose centres it does not have: that at -1/2 and that
+           // half a pixel after the last one's end.
+           {-127, 300, kRight + 128, 300, "columns/none line/right-down/longer rows/inside"},
+           {-128, 300, kRight + 128, 300, "columns/start line/right-down/longer rows/inside"},
+           {-127, 300, kRight + 129, 300, "columns/end line/right-down/longer rows/inside"},
+           {kRight + 129, 300, -128, 300, "columns/both line/left-down/longer rows/inside"},
+           {300, -127, 300, kBottom + 128, "columns/none line/down-right/longer rows/inside"},
+           {300, kBottom + 129, 300, -127, "columns/end line/up-right/longer rows/inside"},
+           // Rows are those across the line.
+           {128, 0, 5000, kBottom - 1, "columns/none line/right-down/longer rows/inside"},
+           {128, -1, 5000, 0, "columns/none line/right-down/longer rows/enters-before"},
+           {5000, 0, 128, -1, "columns/none line/left-up/longer rows/enters-before"},
+           {128, 0, 5000, -1, "columns/none line/right-up/longer rows/leaves-before"},
+           {128, kBottom, 5000, 0, "columns/none line/right-up/longer rows/enters-after"},
+           {5000, kBottom, 128, 0, "columns/none line/left-up/longer rows/leaves-after"},
+       }) {
+    EXPECT_EQ(counted([&](EdgeCoverage& c) {
+                c.count_line({row.x0, row.y0, 0, true}, {row.x1, row.y1, 0, true}, 20, 10);
+              }),
+              row.bins)
+        << row.x0 << ' ' << row.y0 << " to " << row.x1 << ' ' << row.y1;
   }
 }
 
-TEST(Coverage, RowsAreEnteredAndLeftAtTheFramesBorders) {
-  const auto rows = [](int from, int to, bool swapped) {
-    auto hits = swapped ? line_hits(5000, to, 128, from) : line_hits(128, from, 5000, to);
-    EXPECT_EQ(std::erase_if(hits, [](const auto& bin) { return bin.first[0] != 'r'; }), 2u);
-    return hits;
-  };
-  constexpr int kEnd = 10 * 256;
-  for (const bool swapped : {false, true}) {
-    EXPECT_EQ(rows(0, kEnd - 1, swapped), once("rows/inside"));
-    EXPECT_EQ(rows(kEnd - 1, 0, swapped), once("rows/inside"));
-    EXPECT_EQ(rows(-1, 0, swapped), once("rows/enters-before"));
-    EXPECT_EQ(rows(0, -1, swapped), once("rows/leaves-before"));
-    EXPECT_EQ(rows(kEnd, 0, swapped), once("rows/enters-after"));
-    EXPECT_EQ(rows(0, kEnd, swapped), once("rows/leaves-after"));
-    EXPECT_EQ(rows(-1, kEnd, swapped), once("rows/enters-before", "rows/leaves-after"));
-  }
-}
-
-TEST(Coverage, TiesAreOfTheAxisAndTheSlope) {
-  const auto tie = [](spec::geometric::Axis axis, int slope) {
-    EdgeCoverage coverage;
-    spec::geometric::LineRecord line;
-    line.axis = axis;
-    line.slope = slope;
-    coverage.count_tie(line);
-    return hits_of(coverage);
-  };
+TEST(Coverage, EachCountHasItsBin) {
+  using golden::geometric::Buffered;
+  using golden::geometric::CacheKind;
+  using golden::geometric::Fetch;
+  using golden::geometric::GroupEnd;
+  using golden::geometric::LineFate;
+  using golden::geometric::Original;
+  using golden::geometric::PairFetch;
+  using golden::geometric::TwoTiles;
   using spec::geometric::Axis;
-  EXPECT_EQ(tie(Axis::kHorizontal, -1), once("tie/horizontal-rising"));
-  EXPECT_EQ(tie(Axis::kHorizontal, 0), once("tie/horizontal-level"));
-  EXPECT_EQ(tie(Axis::kHorizontal, 1), once("tie/horizontal-falling"));
-  for (const int slope : {-1, 0, 1}) EXPECT_EQ(tie(Axis::kVertical, slope), once("tie/vertical"));
+  using spec::geometric::Cull;
+  using spec::geometric::LineRecord;
+  struct Row {
+    const char* bin;
+    void (*count)(EdgeCoverage&);
+  };
+  using C = EdgeCoverage;
+  for (const Row& row : {
+           Row{"", [](C& c) { c.count_fate(LineFate::kLine); }},
+           Row{"fate/outside", [](C& c) { c.count_fate(LineFate::kOutside); }},
+           Row{"fate/degenerate", [](C& c) { c.count_fate(LineFate::kDegenerate); }},
+           Row{"fate/empty-columns", [](C& c) { c.count_fate(LineFate::kEmptyColumns); }},
+           Row{"fate/empty-before", [](C& c) { c.count_fate(LineFate::kEmptyBefore); }},
+           Row{"fate/empty-after", [](C& c) { c.count_fate(LineFate::kEmptyAfter); }},
+           Row{"group/length", [](C& c) { c.count_group(GroupEnd::kLength); }},
+           Row{"group/across", [](C& c) { c.count_group(GroupEnd::kAcross); }},
+           Row{"group/along", [](C& c) { c.count_group(GroupEnd::kAlong); }},
+           Row{"group/line", [](C& c) { c.count_group(GroupEnd::kLine); }},
+           Row{"original/none", [](C& c) { c.count_original(Original::kNone); }},
+           Row{"original/above", [](C& c) { c.count_original(Original::kAbove); }},
+           Row{"original/left", [](C& c) { c.count_original(Original::kLeft); }},
+           Row{"coarse/equal", [](C& c) { c.count_coarse_equal(); }},
+           Row{"coarse/lesser/own", [](C& c) { c.count_two_tiles(TwoTiles::kOwnLess); }},
+           Row{"coarse/lesser/other", [](C& c) { c.count_two_tiles(TwoTiles::kOtherLess); }},
+           Row{"depth/own/behind", [](C& c) { c.count_depth(1, 2, false); }},
+           Row{"depth/own/passed", [](C& c) { c.count_depth(1, 2, true); }},
+           Row{"depth/other/behind", [](C& c) { c.count_depth(2, 1, false); }},
+           Row{"depth/other/passed", [](C& c) { c.count_depth(2, 1, true); }},
+           Row{"depth/equal/behind", [](C& c) { c.count_depth(2, 2, false); }},
+           Row{"depth/equal/passed", [](C& c) { c.count_depth(2, 2, true); }},
+           Row{"depth/background/passed", [](C& c) { c.count_depth(0, 2, true); }},
+           Row{"depth/background/passed", [](C& c) { c.count_depth(2, 0, true); }},
+           Row{"turned-away/back/back",
+               [](C& c) { c.count_turned_away(Cull::kBack, EdgeClass::kBack); }},
+           Row{"turned-away/none/crease",
+               [](C& c) { c.count_turned_away(Cull::kNone, EdgeClass::kCrease); }},
+           Row{"turned-away/none/flat",
+               [](C& c) { c.count_turned_away(Cull::kNone, EdgeClass::kFlat); }},
+           // Weights of an axis against those of the other.
+           Row{"resolve/up-down",
+               [](C& c) {
+                 c.count_probe({10, 20, 15, 14});
+               }},
+           Row{"resolve/tie",
+               [](C& c) {
+                 c.count_probe({10, 20, 15, 15});
+               }},
+           Row{"resolve/left-right",
+               [](C& c) {
+                 c.count_probe({10, 20, 15, 16});
+               }},
+           Row{"resolve/up-down",
+               [](C& c) {
+                 c.count_probe({0, 1, 0, 0});
+               }},
+           Row{"resolve/left-right",
+               [](C& c) {
+                 c.count_probe({0, 0, 1, 0});
+               }},
+       })
+    EXPECT_EQ(counted(row.count), row.bin);
+  for (const int slope : {-1, 0, 1}) {
+    LineRecord line;
+    line.slope = slope;
+    const auto tie = [&](EdgeCoverage& c) { c.count_tie(line); };
+    line.axis = Axis::kHorizontal;
+    EXPECT_EQ(counted(tie), slope < 0    ? "tie/horizontal-rising"
+                            : slope == 0 ? "tie/horizontal-level"
+                                         : "tie/horizontal-falling");
+    line.axis = Axis::kVertical;
+    EXPECT_EQ(counted(tie), "tie/vertical");
+  }
+  const std::array<std::string, 4> caches = {"vertex", "depth", "block", "colour"};
+  const std::array<std::string, 4> fetches = {"hit", "miss", "replaced", "read-back"};
+  for (std::size_t cache = 0; cache < caches.size(); ++cache) {
+    for (std::size_t fetch = 0; fetch < fetches.size(); ++fetch) {
+      if (fetches[fetch] == "read-back" && caches[cache] != "block") continue;
+      EXPECT_EQ(counted([&](EdgeCoverage& c) {
+                  c.count_fetch(static_cast<CacheKind>(cache), static_cast<Fetch>(fetch));
+                }),
+                "fetch/" + caches[cache] + '/' + fetches[fetch]);
+    }
+  }
+  const std::array<std::string, 6> pairs = {"boundary-pair/hit",   "boundary-pair/miss",
+                                            "other-pair/hit",      "other-pair/miss",
+                                            "pair-number/invalid", "pair-vertex/invalid"};
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
+              "fetch/" + pairs[i]);
+  const std::array<std::string, 5> buffered = {"hit", "empty", "leaves", "full-at-end",
+                                               "not-full-at-end"};
+  for (std::size_t i = 0; i < buffered.size(); ++i)
+    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
+              "fetch/write-buffer/" + buffered[i]);
+  for (std::size_t lines = 1; lines <= 10; ++lines) {
+    for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
+      if (layout == Layout::kTiled && lines > 5) continue;
+      EXPECT_EQ(
+          counted([&](EdgeCoverage& c) { c.count_block_lines(layout, lines); }),
+          (layout == Layout::kRaster ? "lines/raster/" : "lines/tiled/") + std::to_string(lines));
+    }
+  }
+}
+
+// Of a weight of 10, 20, 30 or 40 and another line's.
+TEST(Coverage, EachCountOfADirectionHasItsBin) {
+  using spec::geometric::Direction;
+  using spec::geometric::Weights;
+  const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto to = static_cast<Direction>(i);
+    const auto expect = [&](const std::string& group, const std::string& what, auto&& count) {
+      EXPECT_EQ(counted(count), group + '/' + names[i] + what);
+    };
+    expect("coarse", "/dropped", [&](EdgeCoverage& c) { c.count_dropped(to); });
+    expect("border", "", [&](EdgeCoverage& c) { c.count_outside(to); });
+    for (const bool yes : {false, true}) {
+      expect("second", yes ? "/other" : "/same", [&](EdgeCoverage& c) { c.count_second(to, yes); });
+      expect("crease", yes ? "/near" : "/far", [&](EdgeCoverage& c) { c.count_crease(to, yes); });
+    }
+    const Weights before = {10, 20, 30, 40};
+    const auto weight = [&](Combine rule, bool nearer, int more, const char* what) {
+      expect("weight", what,
+             [&](EdgeCoverage& c) { c.count_weight(rule, nearer, before, to, before[i] + more); });
+    };
+    for (const bool nearer : {false, true}) {
+      weight(Combine::kMax, nearer, 1, "/raised");
+      weight(Combine::kMax, nearer, -1, "/kept");
+      weight(Combine::kMax, nearer, 0, "/equal");
+      // The outermost one is the largest where the pixel is not nearer, or there is none yet.
+      weight(Combine::kOutermost, nearer, 1, nearer ? "/held" : "/raised");
+      weight(Combine::kOutermost, nearer, -1, nearer ? "/lowered" : "/kept");
+      weight(Combine::kOutermost, nearer, 0, "/equal");
+    }
+    expect("weight", "/raised",
+           [&](EdgeCoverage& c) { c.count_weight(Combine::kOutermost, true, {}, to, 1); });
+    // The last line overwrites all four, so that any of them counts.
+    Weights one = {};
+    one[(i + 1) % 4] = 1;
+    expect("weight", "/overwritten",
+           [&](EdgeCoverage& c) { c.count_weight(Combine::kLast, false, one, to, 5); });
+    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_weight(Combine::kLast, false, {}, to, 5); }),
+              "");
+  }
 }
 
 TEST(Coverage, AColumnIsATieWhereItsLineMeetsAPixelsCentre) {
@@ -431,193 +532,10 @@ TEST(Coverage, AColumnIsATieWhereItsLineMeetsAPixelsCentre) {
     GeometricGolden golden(p);
     golden.process(d.input());
     EXPECT_EQ(golden.candidates().size(), 16u);
-    auto hits = hits_of(golden.coverage());
-    std::erase_if(hits, [](const auto& bin) { return !bin.first.starts_with("tie/"); });
-    return hits;
+    return hits_of(golden.coverage(), "tie/");
   };
-  EXPECT_EQ(ties(8 * 256 + 128),
-            (std::map<std::string, std::uint64_t>{{"tie/horizontal-level", 16}}));
+  EXPECT_EQ(ties(8 * 256 + 128), (Hits{{"tie/horizontal-level", 16}}));
   EXPECT_TRUE(ties(8 * 256 + 129).empty());
-}
-
-TEST(Coverage, DepthIsThatOfTheFartherPixel) {
-  const auto depth = [](std::uint32_t own, std::uint32_t other, bool passed) {
-    EdgeCoverage coverage;
-    coverage.count_depth(own, other, passed);
-    return hits_of(coverage);
-  };
-  EXPECT_EQ(depth(1, 2, false), once("depth/own/behind"));
-  EXPECT_EQ(depth(1, 2, true), once("depth/own/passed"));
-  EXPECT_EQ(depth(2, 1, false), once("depth/other/behind"));
-  EXPECT_EQ(depth(2, 1, true), once("depth/other/passed"));
-  EXPECT_EQ(depth(2, 2, false), once("depth/equal/behind"));
-  EXPECT_EQ(depth(2, 2, true), once("depth/equal/passed"));
-  EXPECT_EQ(depth(0, 2, true), once("depth/background/passed"));
-  EXPECT_EQ(depth(2, 0, true), once("depth/background/passed"));
-  EXPECT_EQ(depth(0, 0, true), once("depth/background/passed"));
-}
-
-TEST(Coverage, EdgesTurnedAwayAreDroppedOrClassified) {
-  using spec::geometric::Cull;
-  using spec::geometric::EdgeClass;
-  const auto turned = [](Cull cull, EdgeClass c) {
-    EdgeCoverage coverage;
-    coverage.count_turned_away(cull, c);
-    return hits_of(coverage);
-  };
-  EXPECT_EQ(turned(Cull::kBack, EdgeClass::kBack), once("turned-away/back/back"));
-  EXPECT_EQ(turned(Cull::kNone, EdgeClass::kCrease), once("turned-away/none/crease"));
-  EXPECT_EQ(turned(Cull::kNone, EdgeClass::kFlat), once("turned-away/none/flat"));
-}
-
-TEST(Coverage, SecondPixelsAndCreasesAreOfADirection) {
-  const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto direction = static_cast<spec::geometric::Direction>(i);
-    for (const bool yes : {false, true}) {
-      EdgeCoverage second, crease;
-      second.count_second(direction, yes);
-      crease.count_crease(direction, yes);
-      EXPECT_EQ(hits_of(second), once("second/" + names[i] + (yes ? "/other" : "/same")));
-      EXPECT_EQ(hits_of(crease), once("crease/" + names[i] + (yes ? "/near" : "/far")));
-    }
-  }
-}
-
-TEST(Coverage, WeightsAreRaisedKeptOverwrittenOrLowered) {
-  using spec::geometric::Direction;
-  using spec::geometric::Weights;
-  const auto weight = [](Combine rule, const Weights& before, Direction to, int coverage,
-                         bool nearer = false) {
-    EdgeCoverage result;
-    result.count_weight(rule, nearer, before, to, coverage);
-    return hits_of(result);
-  };
-  const Weights before = {10, 20, 30, 40};
-  const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto to = static_cast<Direction>(i);
-    const std::string name = "weight/" + names[i];
-    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] + 1), once(name + "/raised"));
-    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] - 1), once(name + "/kept"));
-    EXPECT_EQ(weight(Combine::kMax, before, to, before[i]), once(name + "/equal"));
-    // The last line overwrites all four, so that any of them counts.
-    Weights one = {};
-    one[(i + 1) % 4] = 1;
-    EXPECT_EQ(weight(Combine::kLast, one, to, 5), once(name + "/overwritten"));
-    EXPECT_TRUE(weight(Combine::kLast, {}, to, 5).empty());
-    // The outermost one is the largest where the pixel is not nearer, or there is none yet.
-    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] + 1), once(name + "/raised"));
-    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] - 1), once(name + "/kept"));
-    EXPECT_EQ(weight(Combine::kOutermost, {}, to, 1, true), once(name + "/raised"));
-    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] + 1, true), once(name + "/held"));
-    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i] - 1, true),
-              once(name + "/lowered"));
-    EXPECT_EQ(weight(Combine::kOutermost, before, to, before[i], true), once(name + "/equal"));
-    EXPECT_EQ(weight(Combine::kMax, before, to, before[i] - 1, true), once(name + "/kept"));
-  }
-}
-
-TEST(Coverage, TapsAreOfTheHeavierAxis) {
-  const auto probe = [](const spec::geometric::Weights& weights) {
-    EdgeCoverage coverage;
-    coverage.count_probe(weights);
-    return hits_of(coverage);
-  };
-  for (const bool swapped : {false, true}) {
-    const auto w = [&](int a, int b, int c, int d) {
-      const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
-      return swapped ? spec::geometric::Weights{byte(b), byte(a), byte(d), byte(c)}
-                     : spec::geometric::Weights{byte(a), byte(b), byte(c), byte(d)};
-    };
-    EXPECT_EQ(probe(w(10, 20, 15, 14)), once("resolve/up-down"));
-    EXPECT_EQ(probe(w(10, 20, 15, 15)), once("resolve/tie"));
-    EXPECT_EQ(probe(w(10, 20, 15, 16)), once("resolve/left-right"));
-    EXPECT_EQ(probe(w(1, 0, 0, 0)), once("resolve/up-down"));
-    EXPECT_EQ(probe(w(0, 0, 1, 0)), once("resolve/left-right"));
-  }
-}
-
-// Each counter by itself: the bin's name, and no other bin.
-TEST(Coverage, EnumerationsHaveABinEach) {
-  using golden::geometric::Buffered;
-  using golden::geometric::CacheKind;
-  using golden::geometric::Fetch;
-  using golden::geometric::GroupEnd;
-  using golden::geometric::LineFate;
-  using golden::geometric::Original;
-  using golden::geometric::PairFetch;
-  using golden::geometric::TwoTiles;
-  const auto after = [](auto&& count) {
-    EdgeCoverage coverage;
-    count(coverage);
-    return hits_of(coverage);
-  };
-  const auto fate = [&](LineFate f) { return after([&](EdgeCoverage& c) { c.count_fate(f); }); };
-  EXPECT_TRUE(fate(LineFate::kLine).empty());
-  EXPECT_EQ(fate(LineFate::kOutside), once("fate/outside"));
-  EXPECT_EQ(fate(LineFate::kDegenerate), once("fate/degenerate"));
-  EXPECT_EQ(fate(LineFate::kEmptyColumns), once("fate/empty-columns"));
-  EXPECT_EQ(fate(LineFate::kEmptyBefore), once("fate/empty-before"));
-  EXPECT_EQ(fate(LineFate::kEmptyAfter), once("fate/empty-after"));
-  const auto group = [&](GroupEnd end) {
-    return after([&](EdgeCoverage& c) { c.count_group(end); });
-  };
-  EXPECT_EQ(group(GroupEnd::kLength), once("group/length"));
-  EXPECT_EQ(group(GroupEnd::kAcross), once("group/across"));
-  EXPECT_EQ(group(GroupEnd::kAlong), once("group/along"));
-  EXPECT_EQ(group(GroupEnd::kLine), once("group/line"));
-  const auto original = [&](Original where) {
-    return after([&](EdgeCoverage& c) { c.count_original(where); });
-  };
-  EXPECT_EQ(original(Original::kNone), once("original/none"));
-  EXPECT_EQ(original(Original::kAbove), once("original/above"));
-  EXPECT_EQ(original(Original::kLeft), once("original/left"));
-  const std::array<std::string, 4> caches = {"vertex", "depth", "block", "colour"};
-  const std::array<std::string, 4> fetches = {"hit", "miss", "replaced", "read-back"};
-  for (std::size_t cache = 0; cache < caches.size(); ++cache) {
-    for (std::size_t fetch = 0; fetch < fetches.size(); ++fetch) {
-      if (fetches[fetch] == "read-back" && caches[cache] != "block") continue;
-      EXPECT_EQ(after([&](EdgeCoverage& c) {
-                  c.count_fetch(static_cast<CacheKind>(cache), static_cast<Fetch>(fetch));
-                }),
-                once("fetch/" + caches[cache] + '/' + fetches[fetch]));
-    }
-  }
-  const std::array<std::string, 6> pairs = {"boundary-pair/hit",   "boundary-pair/miss",
-                                            "other-pair/hit",      "other-pair/miss",
-                                            "pair-number/invalid", "pair-vertex/invalid"};
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
-              once("fetch/" + pairs[i]));
-  const std::array<std::string, 5> buffered = {"hit", "empty", "leaves", "full-at-end",
-                                               "not-full-at-end"};
-  for (std::size_t i = 0; i < buffered.size(); ++i)
-    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
-              once("fetch/write-buffer/" + buffered[i]));
-  const std::array<std::string, 4> borders = {"top", "bottom", "left", "right"};
-  for (std::size_t i = 0; i < borders.size(); ++i) {
-    const auto direction = static_cast<spec::geometric::Direction>(i);
-    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_dropped(direction); }),
-              once("coarse/" + borders[i] + "/dropped"));
-    EXPECT_EQ(after([&](EdgeCoverage& c) { c.count_outside(direction); }),
-              once("border/" + borders[i]));
-  }
-  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_coarse_equal(); }), once("coarse/equal"));
-  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_two_tiles(TwoTiles::kOwnLess); }),
-            once("coarse/lesser/own"));
-  EXPECT_EQ(after([](EdgeCoverage& c) { c.count_two_tiles(TwoTiles::kOtherLess); }),
-            once("coarse/lesser/other"));
-  for (std::size_t lines = 1; lines <= 10; ++lines) {
-    const std::string n = std::to_string(lines);
-    const auto block = [&](Layout layout) {
-      return after([&](EdgeCoverage& c) { c.count_block_lines(layout, lines); });
-    };
-    EXPECT_EQ(block(Layout::kRaster), once("lines/raster/" + n));
-    if (lines <= 5) {
-      EXPECT_EQ(block(Layout::kTiled), once("lines/tiled/" + n));
-    }
-  }
 }
 
 // What one engine counted is added to what another did, bin by bin.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "golden/geometric/resolve.h"
 #include "golden/morphological/blend.h"
@@ -41,18 +42,19 @@ Vertex vertex(int major, int minor, bool horizontal, std::uint32_t depth = 5) {
 
 // The columns whose centres lie in [m0, m1) and in the frame, one after the other.
 TEST(Columns, AreThoseWhoseCentresLieInTheLine) {
-  constexpr int kSide = 6;
+  constexpr int kWidth = 6, kHeight = 4;
   int lines = 0;
   for (const bool horizontal : {true, false}) {
-    for (const int around : {0, 256 * kSide}) {
+    const int side = horizontal ? kWidth : kHeight;
+    for (const int around : {0, 256 * side}) {
       for (int m0 = around - 800; m0 <= around + 800; m0 += 3) {
         for (const int length : {1, 2, 127, 128, 129, 255, 256, 257, 300, 511, 513, 767}) {
           const int m1 = m0 + length;
           LineRecord line;
           const LineFate fate = set_up_line(vertex(m0, 300, horizontal),
-                                            vertex(m1, 300, horizontal), kSide, kSide, line);
+                                            vertex(m1, 300, horizontal), kWidth, kHeight, line);
           int first = -1, count = 0;
-          for (int c = 0; c < kSide; ++c) {
+          for (int c = 0; c < side; ++c) {
             const int centre = 256 * c + 128;
             if (centre < m0 || centre >= m1) continue;
             if (first < 0) first = c;
@@ -71,14 +73,6 @@ TEST(Columns, AreThoseWhoseCentresLieInTheLine) {
     }
   }
   EXPECT_GT(lines, 9000);
-}
-
-TEST(Columns, SidesOfTheFrameAreThoseOfTheAxis) {
-  LineRecord line;
-  ASSERT_EQ(set_up_line({0, 300, 0, true}, {9000, 301, 0, true}, 20, 10, line), LineFate::kLine);
-  EXPECT_EQ(line.count, 20);
-  ASSERT_EQ(set_up_line({300, 0, 0, true}, {301, 9000, 0, true}, 20, 10, line), LineFate::kLine);
-  EXPECT_EQ(line.count, 10);
 }
 
 TEST(Fates, EachHasItsReason) {
@@ -194,21 +188,6 @@ TEST(Line, ShorterThanAPixelHasNoDepthStep) {
   }
 }
 
-TEST(Line, EvenSlopesMeetCentresExactly) {
-  for (const int rise : {0, 1, 2, -1, -2}) {  // slopes 0, 1/2, 1
-    const bool tie_axis = std::abs(rise) == 2;
-    LineRecord line;
-    ASSERT_EQ(set_up_line({128, 8320, 0, true}, {128 + 2 * 3072, 8320 + rise * 3072, 0, true}, 64,
-                          64, line),
-              LineFate::kLine);
-    EXPECT_EQ(line.axis, tie_axis ? Axis::kVertical : Axis::kHorizontal);
-    int ties = 0;
-    for (int n = 0; n < line.count; ++n)
-      ties += point_at(line.position + std::int64_t{n} * line.slope, 0).distance == 0 ? 1 : 0;
-    EXPECT_EQ(ties, std::abs(rise) == 1 ? (line.count + 1) / 2 : line.count);
-  }
-}
-
 TEST(Coverage, OfAllDistances) {
   for (int distance = -32768; distance < 32768; ++distance) {
     const double exact = 256 * (0.5 - std::abs(distance) / 65536.0);
@@ -318,28 +297,30 @@ TEST(Direction, OfAllSidesAndTies) {
     EXPECT_FALSE(is_forward(-1, tie));
     EXPECT_EQ(is_forward(0, tie), tie);
   }
-  EXPECT_EQ(direction(Axis::kHorizontal, true), Direction::kDown);
-  EXPECT_EQ(direction(Axis::kHorizontal, false), Direction::kUp);
-  EXPECT_EQ(direction(Axis::kVertical, true), Direction::kRight);
-  EXPECT_EQ(direction(Axis::kVertical, false), Direction::kLeft);
-  using golden::geometric::opposite;
-  EXPECT_EQ(opposite(Direction::kUp), Direction::kDown);
-  EXPECT_EQ(opposite(Direction::kDown), Direction::kUp);
-  EXPECT_EQ(opposite(Direction::kLeft), Direction::kRight);
-  EXPECT_EQ(opposite(Direction::kRight), Direction::kLeft);
-  LineRecord line;
-  const auto tie_forward = [&](int dx, int dy) {
+  struct Row {
+    Axis axis;
+    bool forward;
+    Direction to, back;
+  };
+  for (const Row& row : {Row{Axis::kHorizontal, true, Direction::kDown, Direction::kUp},
+                         Row{Axis::kHorizontal, false, Direction::kUp, Direction::kDown},
+                         Row{Axis::kVertical, true, Direction::kRight, Direction::kLeft},
+                         Row{Axis::kVertical, false, Direction::kLeft, Direction::kRight}}) {
+    EXPECT_EQ(direction(row.axis, row.forward), row.to);
+    EXPECT_EQ(golden::geometric::opposite(row.to), row.back);
+  }
+  for (const auto& [dx, dy, forward] : {std::tuple{900, 1, true},
+                                        {900, 0, false},
+                                        {900, -1, false},
+                                        {-900, 1, false},
+                                        {-900, -1, true},
+                                        {1, 900, false},
+                                        {-1, 900, false}}) {
+    LineRecord line;
     EXPECT_EQ(set_up_line({2000, 2000, 0, true}, {2000 + dx, 2000 + dy, 0, true}, 16, 16, line),
               LineFate::kLine);
-    return line.tie_forward;
-  };
-  EXPECT_TRUE(tie_forward(900, 1));
-  EXPECT_FALSE(tie_forward(900, 0));
-  EXPECT_FALSE(tie_forward(900, -1));
-  EXPECT_FALSE(tie_forward(-900, 1));
-  EXPECT_TRUE(tie_forward(-900, -1));
-  EXPECT_FALSE(tie_forward(1, 900));
-  EXPECT_FALSE(tie_forward(-1, 900));
+    EXPECT_EQ(line.tie_forward, forward) << dx << ' ' << dy;
+  }
 }
 
 // ---- depth --------------------------------------------------------------------------------------

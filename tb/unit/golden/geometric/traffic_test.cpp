@@ -36,11 +36,9 @@ using spec::geometric::RecordsLayout;
 using spec::geometric::Region;
 using spec::geometric::Rgba8;
 using spec::geometric::Select;
-using spec::geometric::Vertex;
 using spec::geometric::Weights;
 using tb::geometric::Drawing;
 using tb::geometric::kVectorBases;
-using tb::geometric::vector_drawing;
 using testing::ElementsAre;
 using testing::IsEmpty;
 namespace flag = spec::geometric::flag;
@@ -129,37 +127,6 @@ TEST(KeptColours, AreNotReadAgain) {
   }
 }
 
-// Eight lines, each looked up once more after all of them were read.
-TEST(KeptColours, LeaveInTheOrderOfTheirReads) {
-  Drawing d(16, 16);
-  // Tiled: lines are blocks. Row 7 looks down; then row 11 up, from the block above it.
-  add_line(d, 0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
-  add_line(d, 0, 8 * 256 + 64, 16 * 256, 8 * 256 + 64);
-  Parameters p;
-  // Blocks (0, 1).. read themselves and the ones below, blocks (0, 2).. the ones above and
-  // themselves, in raster order. Numbers of lines in the tiles: block (x, y) in tile (x / 2, y /
-  // 2).
-  const auto line = [](std::uint32_t x, std::uint32_t y) {
-    return 4 * (2 * (y / 2) + x / 2) + 2 * (y % 2) + x % 2;
-  };
-  std::vector<std::uint32_t> above, below;
-  for (std::uint32_t x = 0; x < 4; ++x) {
-    above.push_back(line(x, 1));
-    above.push_back(line(x, 2));
-    below.push_back(line(x, 1));
-    below.push_back(line(x, 2));
-  }
-  std::vector<std::uint32_t> both = above;
-  both.insert(both.end(), below.begin(), below.end());
-  const std::uint32_t base = kVectorBases.colour;
-  for (const int kept : {0, 1, 7}) {  // with 7 each is gone just before it is needed
-    p.colour_lines = kept;
-    EXPECT_EQ(golden_of(p, d).traffic().read(Region::kColour), lines(base, both)) << kept;
-  }
-  p.colour_lines = 8;
-  EXPECT_EQ(golden_of(p, d).traffic().read(Region::kColour), lines(base, above));
-}
-
 TEST(KeptColours, AreOfTheCopyWithFrameCopy) {
   Parameters p = raster(2);
   p.frame_copy = true;
@@ -232,55 +199,6 @@ Parameters small_cache(int write_buffer) {
   return p;
 }
 
-TEST(WriteBuffer, WritesInTheOrderInWhichBlocksLeaveIt) {
-  struct Row {
-    int places;
-    std::vector<std::uint32_t> reads, writes;  // of the blocks of the row, while edges are drawn
-  };
-  const std::vector<std::uint32_t> all = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const std::vector<std::uint32_t> rows = {8, 9, 10, 11, 0, 1, 2, 3, 4, 5, 6, 7};
-  const std::vector<Row> cases = {
-      // Without one: 0..11 go in the first turn, 12..15 and 0..11 in the second.
-      {0, all, {0,  1,  2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
-                14, 15, 0, 1, 2, 3, 4, 5, 6, 7, 8,  9,  10, 11}},
-      // A place is a delay of one; the last block that was replaced is written at the end.
-      {1, all, {0,  1,  2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
-                14, 15, 0, 1, 2, 3, 4, 5, 6, 7, 8,  9,  10, 11}},
-      // Ten places: 10 and 11 have taken those of 0 and 1, so that next is 2 when 0 comes back, and
-      // whatever comes back has just left. At the end next is 8.
-      {10, all, {0,  1,  2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
-                 14, 15, 0, 1, 2, 3, 4, 5, 6, 7, 8,  9,  10, 11}},
-      // Twelve: all of the first turn are there. 12..15 take the places of 0..3, 0..7 those of
-      // 4..11, and 8..11 those of 12..15; next is still 0.
-      {12, {}, rows},
-      // Twenty: the same, and eight empty places first.
-      {20, {}, rows}};
-  for (const Row& row : cases) {
-    const GeometricGolden golden = golden_of(small_cache(row.places), twice_over_a_row());
-    // In the second row of blocks. The resolve reads those that are not in the cache.
-    std::vector<std::uint32_t> reads = row.reads, writes = row.writes;
-    for (std::uint32_t x = 0; x < 12; ++x) reads.push_back(x);
-    const std::uint32_t base = kVectorBases.weights + 64 * 16;
-    EXPECT_EQ(golden.traffic().read(Region::kWeights), lines(base, reads)) << row.places;
-    EXPECT_EQ(golden.traffic().write(Region::kWeights), lines(base, writes)) << row.places;
-  }
-}
-
-// A hit while the ring is not in its first place: 0..5 are replaced by blocks that no one needs
-// again, block 3 comes back. Its place, not the next one, is taken.
-TEST(WriteBuffer, AHitTakesItsPlaceAndNotTheNext) {
-  Drawing d(64, 16);
-  add_line(d, 0, 8 * 256 - 64, 28 * 256, 8 * 256 - 64);         // blocks 0..6; 0, 1, 2 leave
-  add_line(d, 4 * 256, 8 * 256 - 64, 8 * 256, 8 * 256 - 64);    // 1: 5 leaves for it
-  add_line(d, 36 * 256, 8 * 256 - 64, 44 * 256, 8 * 256 - 64);  // 9, 10: 1 and 6 leave
-  const GeometricGolden golden = golden_of(small_cache(3), d);
-  // Places after the first line: 0, 1, 2; next is 0. Then 0, 5, 2. Then 1 for 0, and 6 for 5. The
-  // ring is 1, 6, 2 then, with 2 the next.
-  const std::uint32_t base = kVectorBases.weights + 64 * 16;
-  EXPECT_EQ(golden.traffic().write(Region::kWeights), lines(base, {0, 5, 2, 1, 6}));
-  EXPECT_EQ(golden.traffic().read(Region::kWeights), lines(base, {0, 1, 2, 5, 6}));
-}
-
 // What is hit is not read, so that memory cannot lose it. Block 15 is in the cache at last.
 TEST(WriteBuffer, KeepsWhatMemoryWouldLose) {
   for (const int places : {0, 12}) {
@@ -337,46 +255,6 @@ TEST(SplitRecords, AreReadInLinesOfTen) {
   EXPECT_THAT(golden_of(Parameters{}, mixed_edges()).traffic().read(Region::kPairs), IsEmpty());
 }
 
-// Others 0, 1, 2, 3, .. are the edges 1, 2, 4, 5, 7, 8, 10, 11, 13, 14, 16, 17, 19, 20, 22, 23.
-TEST(SplitRecords, PairsAreReadForKeptEdges) {
-  const auto reads = [](std::initializer_list<std::size_t> kept, Select select = Select::kEdges) {
-    Drawing d = mixed_edges();
-    for (const std::size_t i : kept) d.edges[i].flags = flag::kSeam;
-    return golden_of(split(select), d).traffic().read(Region::kPairs);
-  };
-  EXPECT_EQ(reads({}), lines(kPairs, {0}));
-  EXPECT_EQ(reads({5, 19}), lines(kPairs, {0, 1, 2}));
-  EXPECT_EQ(reads({14}), lines(kPairs, {0, 1}));  // number 9
-  EXPECT_EQ(reads({16}), lines(kPairs, {0, 2}));  // number 10
-  EXPECT_EQ(reads({5, 7, 8, 19, 20}), lines(kPairs, {0, 1, 2}));
-  EXPECT_EQ(reads({5, 19}, Select::kMesh), lines(kPairs, {0, 1, 2}));
-  EXPECT_EQ(reads({}, Select::kAll), lines(kPairs, {0, 1, 2}));
-  // Of eleven boundaries the last is in a second line, before which an other one was read.
-  Drawing d = mixed_edges();
-  for (std::size_t i : {22u, 23u}) d.edges[i].flags = flag::kBoundary;
-  d.edges[1].flags = flag::kSeam;
-  EXPECT_EQ(golden_of(split(), d).traffic().read(Region::kPairs), lines(kPairs, {0, 2, 1}));
-}
-
-// The pairs of both arrays, by the lines that come of them.
-TEST(SplitRecords, PairsAreThoseOfTheirEdges) {
-  Drawing d = mixed_edges();
-  tb::Random random(4);
-  for (int trial = 0; trial < 10; ++trial) {
-    for (Edge& edge : d.edges) edge.flags = static_cast<std::uint8_t>(random.below(16));
-    for (const Select select : {Select::kAll, Select::kEdges, Select::kMesh}) {
-      Parameters p = split(select);
-      const GeometricGolden golden = golden_of(p, d);
-      p.records = RecordsLayout::kJoined;
-      const GeometricGolden joined = golden_of(p, d);
-      EXPECT_EQ(golden.lines(), joined.lines());
-      EXPECT_EQ(golden.classes(), joined.classes());
-      EXPECT_EQ(golden.work(), joined.work());
-      EXPECT_EQ(golden.traffic().read(Region::kVertices), joined.traffic().read(Region::kVertices));
-    }
-  }
-}
-
 TEST(SplitRecords, OthersLieAfterTheBoundariesUnlessRegistersSayElse) {
   Drawing d = mixed_edges();
   d.edges[1].flags = flag::kSeam;
@@ -390,59 +268,6 @@ TEST(SplitRecords, OthersLieAfterTheBoundariesUnlessRegistersSayElse) {
   input.bases.other_pairs = {};
   input.bases.pairs = 32;
   EXPECT_THROW(golden.process(input), spec::CheckFailed);
-}
-
-// An edge whose vertices are not there counts in its class and as invalid; one that is dropped
-// anyway is never asked for them.
-TEST(SplitRecords, VerticesAreCheckedOfKeptEdges) {
-  for (const bool second : {false, true}) {
-    Drawing d = mixed_edges();
-    for (const std::size_t i : {3u, 4u}) (second ? d.edges[i].v1 : d.edges[i].v0) = 50;
-    const auto work = golden_of(split(), d).work();
-    EXPECT_EQ(work.boundary_edges, 9u);
-    EXPECT_EQ(work.flat_edges, 16u);
-    EXPECT_EQ(work.invalid_edges, 1u);
-    EXPECT_EQ(work.kept_edges, 8u);
-    EXPECT_EQ(work.lines, 8u);
-    const auto joined = golden_of(Parameters{}, d).work();
-    EXPECT_EQ(joined.boundary_edges, 8u);
-    EXPECT_EQ(joined.flat_edges, 15u);
-    EXPECT_EQ(joined.invalid_edges, 2u);
-    EXPECT_EQ(joined.kept_edges, 8u);
-    // The last vertex that there is.
-    for (const std::size_t i : {3u, 4u}) (second ? d.edges[i].v1 : d.edges[i].v0) = 49;
-    EXPECT_EQ(golden_of(split(), d).work().invalid_edges, 0u);
-    // What became of an edge, in order.
-    for (const std::size_t i : {3u, 4u}) d.edges[i].v0 = 50;
-    const GeometricGolden golden = golden_of(split(), d);
-    EXPECT_EQ(golden.classes()[3], EdgeClass::kInvalid);
-    EXPECT_EQ(golden.classes()[4], EdgeClass::kFlat);
-    EXPECT_EQ(golden.classes()[6], EdgeClass::kBoundary);
-  }
-  // Its line of pairs is read, those of vertices are not.
-  Drawing d = mixed_edges();
-  d.edges.resize(1);
-  d.edges[0].v1 = 50;
-  const GeometricGolden golden = golden_of(split(), d);
-  EXPECT_EQ(golden.traffic().read(Region::kPairs), lines(kPairs, {0}));
-  EXPECT_THAT(golden.traffic().read(Region::kVertices), IsEmpty());
-}
-
-TEST(SplitRecords, AnEdgeWhoseFacesAreNotThereIsInvalidFirst) {
-  Drawing d = mixed_edges();
-  d.edges[0].f0 = 1;  // a boundary, whose second face does not matter
-  d.edges[3].f1 = 1;
-  d.edges[4].f1 = 0xFFFFFF;  // written as 2^21 - 1
-  const GeometricGolden golden = golden_of(split(), d);
-  EXPECT_EQ(golden.work().boundary_edges, 8u);
-  EXPECT_EQ(golden.work().flat_edges, 15u);
-  EXPECT_EQ(golden.work().invalid_edges, 2u);
-  // It has its number all the same.
-  Drawing without = d;
-  without.edges.erase(without.edges.begin());
-  EXPECT_EQ(golden.lines(), golden_of(split(), without).lines());
-  for (const Select select : {Select::kAll, Select::kMesh})
-    EXPECT_EQ(golden_of(split(select), d).work().invalid_edges, 0u);
 }
 
 // BOUNDARY_COUNT is not what the flags say: nine boundaries and sixteen others.
@@ -620,28 +445,6 @@ Parameters coarse(DepthTest test = DepthTest::kFarther, CoarseLines lines = Coar
   return p;
 }
 
-// The entries of columns 7 and 8 are 1000 and 2000, or the other way round.
-TEST(CoarseDepth, TheLesserOfTwoTilesCountsIfTheNeighbourDoes) {
-  for (const bool own_less : {false, true}) {
-    Drawing d = column(7, 16, 8, 0);
-    for (std::size_t i = 0; i < d.depths.size(); ++i)
-      d.depths[i] = (i % 16 < 8) == own_less ? 1000 * 256 : 2000 * 256;
-    const auto dropped = [&](DepthTest test, std::uint32_t depth) {
-      d.vertices[0].depth = d.vertices[1].depth = depth;
-      const GeometricGolden golden = golden_of(coarse(test), d);
-      EXPECT_EQ(golden.work().candidates, 8u);
-      const bool none = golden.traffic().read(Region::kDepth).empty();
-      EXPECT_EQ(golden.work().passed, none ? 0u : 8u);
-      return none;
-    };
-    EXPECT_TRUE(dropped(DepthTest::kFarther, 1000 * 256 - 500 - 1));
-    EXPECT_FALSE(dropped(DepthTest::kFarther, 1000 * 256 - 500));
-    const std::uint32_t own = own_less ? 1000 * 256 - 500 : 2000 * 256 - 1000;
-    EXPECT_TRUE(dropped(DepthTest::kOwn, own - 1));
-    EXPECT_FALSE(dropped(DepthTest::kOwn, own));
-  }
-}
-
 // Columns 63 and 64 of 128 x 96 pixels: neighbours in another tile and another line, three lines of
 // entries one below the other, of which the third takes the first one's place among four.
 TEST(CoarseDepth, LinesAreReadOwnFirst) {
@@ -658,54 +461,20 @@ TEST(CoarseDepth, LinesAreReadOwnFirst) {
   EXPECT_EQ(reads(coarse(DepthTest::kFarther, CoarseLines::k16), d),
             lines(base, {0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(reads(coarse(DepthTest::kOwn), d), lines(base, {0, 2, 4, 0, 4}));
-  // The neighbour's tile is the same, or another one in the same line.
-  for (const int x : {62, 55}) {
-    Drawing same = column(x, 128, 96, 0xFFFFFF);
-    EXPECT_EQ(reads(coarse(), same), lines(base, {0, 2, 4})) << x;
-  }
-  // From column 64 to the left.
-  Drawing left(128, 8);
-  add_line(left, 64 * 256 + 64, 0, 64 * 256 + 64, 8 * 256);
-  EXPECT_EQ(reads(coarse(), left), lines(base, {1, 0}));
-  // Rows 31 and 32.
-  Drawing down(70, 50);
-  add_line(down, 0, 32 * 256 - 64, 70 * 256, 32 * 256 - 64);
-  EXPECT_EQ(reads(coarse(), down), lines(base, {0, 2, 1, 3}));
+  // The neighbour's tile is another one in the same line.
+  EXPECT_EQ(reads(coarse(), column(55, 128, 96, 0xFFFFFF)), lines(base, {0, 2, 4}));
   // Without candidates nothing is looked up.
   Drawing outside(70, 50);
   add_line(outside, 0, 64, 70 * 256, 64);
   EXPECT_THAT(reads(coarse(), outside), IsEmpty());
-  EXPECT_THAT(reads(Parameters{}, d), IsEmpty());
-  // A frame begins with none.
+  // Rows 31 and 32, and a frame begins with none.
+  Drawing down(70, 50);
+  add_line(down, 0, 32 * 256 - 64, 70 * 256, 32 * 256 - 64);
   GeometricGolden golden(coarse());
   for (const int frame : {0, 1}) {
     golden.process(down.input(kVectorBases));
     EXPECT_EQ(golden.traffic().read(Region::kCoarse), lines(base, {0, 2, 1, 3})) << frame;
   }
-}
-
-// Both candidates of a column go with the first one's pixel; that of a slope of 1/2 in a frame
-// whose left tiles hide everything.
-TEST(CoarseDepth, SecondCandidatesAreDroppedWithTheFirst) {
-  Drawing d(16, 16);
-  add_line(d, 0, 3 * 256 + 32, 16 * 256, 11 * 256 + 32, 5000);
-  for (std::size_t i = 0; i < d.depths.size(); ++i) d.depths[i] = i % 16 < 8 ? 1u << 20 : 5000;
-  const GeometricGolden golden = golden_of(coarse(), d), plain = golden_of(Parameters{}, d);
-  EXPECT_EQ(golden.work().candidates, 24u);
-  EXPECT_EQ(golden.work().passed, 12u);
-  EXPECT_EQ(golden.candidates(), plain.candidates());
-  for (const auto& candidate : golden.candidates()) EXPECT_EQ(candidate.passed, candidate.x >= 8);
-  // Blocks of the left half are read without the test alone; number: rows 3 to 7 and 7 to 12.
-  const auto is_left = [](std::uint32_t address) {
-    return (address - kVectorBases.depth) / 256 % 2 == 0;
-  };
-  const auto& with = golden.traffic().read(Region::kDepth);
-  const auto& without = plain.traffic().read(Region::kDepth);
-  EXPECT_EQ(std::count_if(with.begin(), with.end(), is_left), 0);
-  EXPECT_GT(std::count_if(without.begin(), without.end(), is_left), 0);
-  EXPECT_EQ(with.size() +
-                static_cast<std::size_t>(std::count_if(without.begin(), without.end(), is_left)),
-            without.size());
 }
 
 // The engine takes an entry as it is.
@@ -758,30 +527,23 @@ TEST(CoarseDepth, EntriesThatAreLostDropNothing) {
 
 // ---- select = mesh ------------------------------------------------------------------------------
 
-// Boundaries and creases from whichever side; no facing bit is read, and there need be none.
+// Nor need there be any.
 TEST(SelectMesh, ReadsNoFacingBits) {
   Drawing d = mixed_edges();
-  d.edges[1].flags = flag::kAngle;
-  d.edges[2].flags = flag::kSeam;
+  d.edges[1].flags = flag::kSeam;
   d.edges[1].f0 = 77;
   d.facing.clear();
   d.faces = 0;
   for (const RecordsLayout records : {RecordsLayout::kJoined, RecordsLayout::kSplit}) {
-    for (const auto crease : {spec::geometric::Crease::kOff, spec::geometric::Crease::kPaper,
-                              spec::geometric::Crease::kShading}) {
-      Parameters p;
-      p.records = records;
-      p.select = Select::kMesh;
-      p.crease = crease;
-      const GeometricGolden golden = golden_of(p, d);
-      const std::uint64_t creases = crease == spec::geometric::Crease::kOff ? 0 : 1;
-      EXPECT_EQ(golden.work().boundary_edges, 9u);
-      EXPECT_EQ(golden.work().crease_edges, creases);
-      EXPECT_EQ(golden.work().flat_edges, 16 - creases);
-      EXPECT_EQ(golden.work().kept_edges, 9 + creases);
-      EXPECT_EQ(golden.work().invalid_edges, 0u);
-      EXPECT_THAT(golden.traffic().read(Region::kFaces), IsEmpty());
-    }
+    Parameters p;
+    p.records = records;
+    p.select = Select::kMesh;
+    const GeometricGolden golden = golden_of(p, d);
+    EXPECT_EQ(golden.work().boundary_edges, 9u);
+    EXPECT_EQ(golden.work().crease_edges, 1u);
+    EXPECT_EQ(golden.work().kept_edges, 10u);
+    EXPECT_EQ(golden.work().invalid_edges, 0u);
+    EXPECT_THAT(golden.traffic().read(Region::kFaces), IsEmpty());
   }
 }
 
@@ -944,39 +706,6 @@ TEST(LessTraffic, SplitRecordsCountAnInvalidEdgeInItsClassToo) {
       EXPECT_EQ(work.flat_edges, expected.flat_edges);
       EXPECT_EQ(work.invalid_edges, expected.invalid_edges);
       EXPECT_EQ(work.kept_edges, expected.kept_edges);
-    }
-  }
-}
-
-// A block that went comes back or is resolved, as often as it was written; and what is kept is
-// still among the lines that a frame reads without it.
-TEST(LessTraffic, IsLessOfTheSame) {
-  for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
-    Parameters p = small_cache(0);
-    p.layout = layout;
-    const Drawing d = vector_drawing();
-    const GeometricGolden plain = golden_of(p, d);
-    for (const int places : {1, 2, 3, 16, 128}) {
-      p.write_buffer = p.colour_lines = places;
-      const GeometricGolden golden = golden_of(p, d);
-      auto read = golden.traffic().read(Region::kWeights),
-           written = golden.traffic().write(Region::kWeights);
-      EXPECT_LE(written.size(), plain.traffic().write(Region::kWeights).size());
-      std::sort(read.begin(), read.end());
-      std::sort(written.begin(), written.end());
-      EXPECT_EQ(read, written) << places;
-      const auto &kept = golden.traffic().read(Region::kColour),
-                 &all = plain.traffic().read(Region::kColour);
-      auto next = all.begin();
-      for (const std::uint32_t address : kept) {
-        next = std::find(next, all.end(), address);
-        ASSERT_NE(next, all.end());
-        ++next;
-      }
-      EXPECT_LT(kept.size(), all.size());
-      for (const auto list : {Region::kDepth, Region::kVertices, Region::kEdges})
-        EXPECT_EQ(golden.traffic().read(list), plain.traffic().read(list));
-      EXPECT_EQ(golden.traffic().write(Region::kColour), plain.traffic().write(Region::kColour));
     }
   }
 }

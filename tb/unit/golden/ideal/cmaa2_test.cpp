@@ -101,68 +101,51 @@ TEST(Cmaa2, BlendsAtTheBordersOfTheFrame) {
   }
 }
 
-// White over black, arms of 8 and 12 pixels. Of the left arm 4 pixels lie on the step's side of its
-// middle; the n-th from the step, from 0 on, takes (3.28 - n) / 3.78 / 2 of white. Of the right one
-// 6 pixels give (5.28 - n) / 5.78 / 2.
-bool step_is_right(const Cmaa2Settings& settings) {
-  const ColourFrame frame = one_step(20, 10, 8, 4);
-  ColourFrame expected = frame;
-  const int left[] = {111, 77, 43, 9}, right[] = {139, 161, 183, 205, 227, 249};
-  const auto set = [&](int x, int code) {
-    const auto stored = static_cast<std::uint8_t>(code);
-    expected.pixels[expected.index(x, 4)] = {stored, stored, stored, 255};
-  };
-  for (int i = 0; i < 4; ++i) set(7 - i, left[i]);
-  for (int i = 0; i < 6; ++i) set(8 + i, right[i]);
-  return cmaa2(frame, settings) == expected.pixels;
+// The codes of the row below the upper border of a step at a column, light over dark.
+std::vector<int> step_row(int width, int step, Rgba8 light, Rgba8 dark,
+                          const Cmaa2Settings& settings) {
+  ColourFrame frame = one_step(width, 10, step, 4);
+  for (Rgba8& pixel : frame.pixels) pixel = pixel[0] != 0 ? light : dark;
+  ColourFrame result{cmaa2(frame, settings), width, 10};
+  std::vector<int> row;
+  for (int x = 0; x < width; ++x) row.push_back(result.at(x, 4)[0]);
+  // No other pixel changes, and of a turned frame the same ones do.
+  EXPECT_EQ(cmaa2(turned(frame), settings), turned(result).pixels);
+  for (int x = 0; x < width; ++x) result.pixels[frame.index(x, 4)] = frame.at(x, 4);
+  EXPECT_EQ(result.pixels, frame.pixels);
+  return row;
 }
+constexpr Rgba8 kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
 
+// Of arms of 8 and 12 pixels 4 of the left one lie on the step's side of its middle; the n-th from
+// the step, from 0 on, takes (3.28 - n) / 3.78 / 2 of white. Of the right one 6 pixels give
+// (5.28 - n) / 5.78 / 2.
 TEST(Cmaa2, BlendsALongStepBetweenTheMiddlesOfItsArms) {
-  EXPECT_TRUE(step_is_right(in_codes()));
+  using Row = std::vector<int>;
+  const Row long_step = {0,   0,   0,   0,   9,   43,  77,  111, 139, 161,
+                         183, 205, 227, 249, 255, 255, 255, 255, 255, 255};
+  EXPECT_EQ(step_row(20, 8, kWhite, kBlack, in_codes()), long_step);
+  // The same shares where nothing ends at black or white.
+  EXPECT_EQ(step_row(20, 8, {200, 200, 200, 255}, {100, 100, 100, 255}, in_codes()),
+            (Row{100, 100, 100, 100, 104, 117, 130, 143, 154, 163,
+                 172, 180, 189, 198, 200, 200, 200, 200, 200, 200}));
+  // A left arm of one pixel at the frame's border takes 0.28 / 0.78 / 2, and a right one of eleven
+  // what one of twelve takes.
+  EXPECT_EQ(step_row(12, 1, kWhite, kBlack, in_codes()),
+            (Row{46, 139, 161, 183, 205, 227, 249, 255, 255, 255, 255, 255}));
+  // Arms of two and three pixels are just long enough: 0.28 / 0.78 / 2 on the left, 1.28 and 0.28 /
+  // 1.78 / 2 on the right.
+  EXPECT_EQ(step_row(5, 2, kWhite, kBlack, in_codes()), (Row{0, 46, 163, 235, 255}));
+  // Of shorter ones it is two corners.
+  EXPECT_EQ(step_row(4, 2, kWhite, kBlack, in_codes()), (Row{0, 51, 204, 255}));
   // Wrong rules are seen: a line that meets the arms' middles, arms that end early, linear light.
   Cmaa2Settings wrong = in_codes();
   wrong.symmetry = 0;
-  EXPECT_FALSE(step_is_right(wrong));
+  EXPECT_NE(step_row(20, 8, kWhite, kBlack, wrong), long_step);
   wrong = in_codes();
   wrong.longest_arm = 10;
-  EXPECT_FALSE(step_is_right(wrong));
-  EXPECT_FALSE(step_is_right({}));
-}
-
-// The same shares between 200 and 100, where nothing ends at black or white.
-TEST(Cmaa2, BlendsAStepOfGreysAndNoPixelMore) {
-  ColourFrame frame = one_step(20, 10, 8, 4);
-  for (Rgba8& pixel : frame.pixels)
-    for (std::size_t i = 0; i < 3; ++i) pixel[i] = pixel[i] != 0 ? 200 : 100;
-  const ColourFrame result{cmaa2(frame, in_codes()), 20, 10};
-  const int expected[] = {100, 100, 100, 100, 104, 117, 130, 143, 154, 163,
-                          172, 180, 189, 198, 200, 200, 200, 200, 200, 200};
-  for (int x = 0; x < 20; ++x) {
-    EXPECT_EQ(result.at(x, 3)[0], 200);
-    EXPECT_EQ(result.at(x, 4)[0], expected[x]) << x;
-    EXPECT_EQ(result.at(x, 5)[0], 100);
-  }
-}
-
-// The left arm is one pixel at the frame's border: it takes 0.28 / 0.78 / 2 of white, and the right
-// one of eleven what it takes of one of twelve.
-TEST(Cmaa2, BlendsAStepAtTheFirstColumn) {
-  const ColourFrame frame = one_step(12, 8, 1, 4);
-  const int expected[] = {46, 139, 161, 183, 205, 227, 249, 255, 255, 255, 255, 255};
-  for (const bool turn : {false, true}) {
-    const ColourFrame one = turn ? turned(frame) : frame;
-    const ColourFrame result{cmaa2(one, in_codes()), one.width, one.height};
-    for (int x = 0; x < 12; ++x)
-      EXPECT_EQ((turn ? result.at(4, x) : result.at(x, 4))[0], expected[x]) << x;
-  }
-}
-
-// Arms of two and three pixels are just long enough: 0.28 / 0.78 / 2 on the left, 1.28 and 0.28 /
-// 1.78 / 2 on the right.
-TEST(Cmaa2, AStepWithArmsOfFivePixelsIsLong) {
-  const ColourFrame result{cmaa2(one_step(5, 8, 2, 4), in_codes()), 5, 8};
-  const int expected[] = {0, 46, 163, 235, 255};
-  for (int x = 0; x < 5; ++x) EXPECT_EQ(result.at(x, 4)[0], expected[x]) << x;
+  EXPECT_NE(step_row(20, 8, kWhite, kBlack, wrong), long_step);
+  EXPECT_NE(step_row(20, 8, kWhite, kBlack, {}), long_step);
 }
 
 // What crosses an edge on one side ends an arm: of the right one six pixels are left, of which
@@ -214,14 +197,6 @@ TEST(Cmaa2, AStepAtTheThresholdIsAnEdge) {
     EXPECT_TRUE(edge(51));
     EXPECT_FALSE(edge(50));
   }
-}
-
-TEST(Cmaa2, AStepWithShortArmsIsTwoCorners) {
-  const ColourFrame frame = one_step(4, 6, 2, 2);
-  ColourFrame expected = frame;
-  expected.pixels[expected.index(1, 2)] = {51, 51, 51, 255};
-  expected.pixels[expected.index(2, 2)] = {204, 204, 204, 255};
-  EXPECT_EQ(cmaa2(frame, in_codes()), expected.pixels);
 }
 
 // Of a run of three, halves are two pixels: above the middle column and below it a pixel is

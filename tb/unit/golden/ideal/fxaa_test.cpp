@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "tb/unit/golden/ideal/support.h"
 
 namespace deburr::golden::ideal::fxaa_test {
@@ -40,57 +44,32 @@ TEST(Fxaa, LeavesContrastBelowItsThresholdsAlone) {
 }
 
 // An edge along an axis has no end, up to the border and beyond: only the sub-pixel term is left,
-// 1/3 of the range, eased to 7/27, squared, times 3/4: 0.0504 of 255 are 12.85.
-TEST(Fxaa, LeavesAnEdgeAlongAnAxisToTheSubpixelTerm) {
-  const ColourFrame edge = drawn(24, 12, [](int, int y) { return y < 6 ? 255 : 0; });
-  for (const ColourFrame& frame : {edge, turned(edge)}) {
-    FxaaSettings settings = ends_only();
-    EXPECT_EQ(fxaa(frame, settings), frame.pixels);
-    settings.subpixel = 0.75;
-    const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
-    for (int i = 0; i < 24; ++i) {
-      const auto at = [&](int across) {
-        return frame.width == 24 ? result.at(i, across)[0] : result.at(across, i)[0];
-      };
-      EXPECT_EQ(at(4), 255);
-      EXPECT_EQ(at(5), 242);
-      EXPECT_EQ(at(6), 13);
-      EXPECT_EQ(at(7), 0);
-    }
-  }
-}
-
-// A line of one pixel bends across its axis and not along it: it takes from the two beside it and
-// they from it. It differs from its neighbours by 2/3 of the range, eased to 20/27, squared, times
-// 3/4: 0.4115; they by 1/3, as above.
-TEST(Fxaa, TakesAcrossALineOfOnePixel) {
-  const ColourFrame line = drawn(24, 11, [](int, int y) { return y == 5 ? 255 : 0; });
-  for (const ColourFrame& frame : {line, turned(line)}) {
-    FxaaSettings settings = ends_only();
-    settings.subpixel = 0.75;
-    const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
-    for (int i = 0; i < 24; ++i) {
-      const auto at = [&](int across) {
-        return frame.width == 24 ? result.at(i, across)[0] : result.at(across, i)[0];
-      };
-      EXPECT_EQ(at(3), 0);
-      EXPECT_EQ(at(4), 13);
-      EXPECT_EQ(at(5), 150);
-      EXPECT_EQ(at(6), 13);
-      EXPECT_EQ(at(7), 0);
-    }
-  }
-}
-
-// A grey line on white bends across its axis as well.
-TEST(Fxaa, TakesAcrossAGreyLineOnWhite) {
-  const ColourFrame line = drawn(24, 11, [](int, int y) { return y == 5 ? 128 : 255; });
+// 1/3 of the range, eased to 7/27, squared, times 3/4: 0.0504 of 255 are 12.85. A line of one pixel
+// bends across its axis and not along it: it takes from the two beside it and they from it. It
+// differs from its neighbours by 2/3 of the range, eased to 20/27, squared, times 3/4: 0.4115.
+TEST(Fxaa, LeavesEdgesAndLinesAlongAnAxisToTheSubpixelTerm) {
+  struct Row {
+    std::vector<int> before, after;  // codes across
+  };
   FxaaSettings settings = ends_only();
-  settings.subpixel = 0.75;
-  // 2/3 of the range of 127 codes, as above.
-  EXPECT_NEAR(fxaa(line, settings)[line.index(9, 5)][0], 128 + 0.4115 * 127, 0.6);
-  EXPECT_EQ(fxaa(turned(line), settings),
-            turned(filtered(line, [&](const ColourFrame& f) { return fxaa(f, settings); })).pixels);
+  for (const Row& row :
+       {Row{{255, 255, 255, 255, 255, 0, 0, 0, 0, 0, 0},
+            {255, 255, 255, 255, 242, 13, 0, 0, 0, 0, 0}},
+        Row{{0, 0, 0, 0, 0, 255, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 13, 150, 13, 0, 0, 0, 0}},
+        Row{{255, 255, 255, 255, 255, 128, 255, 255, 255, 255, 255},
+            {255, 255, 255, 255, 249, 180, 249, 255, 255, 255, 255}}}) {
+    const auto picture = [](const std::vector<int>& codes) {
+      return drawn(24, 11, [&](int, int y) { return codes[static_cast<std::size_t>(y)]; });
+    };
+    const ColourFrame before = picture(row.before), after = picture(row.after);
+    settings.subpixel = 0.75;
+    EXPECT_EQ(fxaa(before, settings), after.pixels);
+    EXPECT_EQ(fxaa(turned(before), settings), turned(after).pixels);
+  }
+  settings.subpixel = 0;
+  const ColourFrame edge = drawn(24, 12, [](int, int y) { return y < 6 ? 255 : 0; });
+  EXPECT_EQ(fxaa(edge, settings), edge.pixels);
+  EXPECT_EQ(fxaa(turned(edge), settings), turned(edge).pixels);
 }
 
 // Of two sides of the same step the upper and the left one are taken. Both have a luma of 18970.
@@ -174,39 +153,27 @@ TEST(Fxaa, TheThresholdIsNotStrict) {
   EXPECT_FALSE(changes(101));
 }
 
-// The shares of a step, below, between 200 and 100: 0.4298 and 0.3983.
-TEST(Fxaa, SmoothsAStepOfGreysToo) {
-  ColourFrame frame = one_step(80, 12, 40, 5);
-  for (Rgba8& pixel : frame.pixels)
-    for (std::size_t i = 0; i < 3; ++i) pixel[i] = pixel[i] != 0 ? 200 : 100;
-  const ColourFrame result{fxaa(frame, ends_only()), frame.width, frame.height};
-  EXPECT_EQ(result.at(41, 5)[0], 157);
-  EXPECT_EQ(result.at(42, 5)[0], 160);
-  EXPECT_EQ(result.at(38, 5)[0], 143);
-  EXPECT_EQ(result.at(37, 5)[0], 140);
-  EXPECT_EQ(result.at(41, 6)[0], 100);
-  EXPECT_EQ(result.at(38, 4)[0], 200);
-}
-
 // One step in an edge that goes on beyond the reach of 26.5 pixels. The n-th pixel from the step
 // sees the end n + 1 pixels on, and the side that ends there takes 1/2 - (n + 1) / (n + 27.5) of
-// the other; the side that goes on takes nothing.
-bool step_is_right(const FxaaSettings& settings) {
-  const ColourFrame frame = one_step(80, 12, 40, 5);
+// the other; the side that goes on takes nothing. Of n = 1 and 2: 0.4298 and 0.3983.
+bool step_is_right(const FxaaSettings& settings, int light = 255, int dark = 0) {
+  ColourFrame frame = one_step(80, 12, 40, 5);
+  for (Rgba8& pixel : frame.pixels)
+    for (std::size_t i = 0; i < 3; ++i)
+      pixel[i] = static_cast<std::uint8_t>(pixel[i] != 0 ? light : dark);
   const ColourFrame result{fxaa(frame, settings), frame.width, frame.height};
-  bool right = true;
-  const auto expect = [&](int x, int y, int code) { right &= result.at(x, y)[0] == code; };
-  expect(41, 5, 145);  // n = 1: 0.4298
-  expect(42, 5, 153);  // n = 2: 0.3983
-  expect(38, 5, 110);
-  expect(37, 5, 102);
-  expect(41, 6, 0);
-  expect(38, 4, 255);
+  bool right = result.at(41, 6)[0] == dark && result.at(38, 4)[0] == light;
+  for (const auto& [n, share] : {std::pair{1, 0.4298}, {2, 0.3983}}) {
+    const int change = static_cast<int>(std::lround(share * (light - dark)));
+    right &= result.at(40 + n, 5)[0] == light - change;
+    right &= result.at(39 - n, 5)[0] == dark + change;
+  }
   return right;
 }
 
 TEST(Fxaa, SmoothsAStepTowardsItsEnds) {
   EXPECT_TRUE(step_is_right(ends_only()));
+  EXPECT_TRUE(step_is_right(ends_only(), 200, 100));
   // A list that ends a pixel too early is seen.
   FxaaSettings wrong = ends_only();
   static constexpr double kShort[] = {1, 1, 1, 1, 1, 1.5, 2, 2, 2, 2, 4, 7};

@@ -32,24 +32,6 @@ TEST(EllipseOfAFootprint, OfNothingIsAPoint) {
   EXPECT_EQ(point.d_min, 0.0);
 }
 
-TEST(EllipseOfAFootprint, OfASmallRectangleHasItsSides) {
-  PixelFootprint footprint{};
-  footprint.s_x = 0.5;
-  footprint.t_y = 0.25;
-  const Ellipse small = golden::ideal::ellipse(footprint);
-  EXPECT_DOUBLE_EQ(small.d_max, 0.5);
-  EXPECT_DOUBLE_EQ(small.d_min, 0.25);
-}
-
-TEST(EllipseOfAFootprint, OfARectangleHasItsSides) {
-  PixelFootprint footprint{};
-  footprint.s_x = 2;
-  footprint.t_y = 6;
-  const Ellipse upright = golden::ideal::ellipse(footprint);
-  EXPECT_DOUBLE_EQ(upright.d_max, 6.0);
-  EXPECT_DOUBLE_EQ(upright.d_min, 2.0);
-}
-
 // Sides of 2^4 to 2^12 texels, at angles from 0 to 45 degrees: in the middle of each of the many
 // parts that either is cut into.
 TEST(LevelError, LooksAtSidesOfAllLengthsAndAngles) {

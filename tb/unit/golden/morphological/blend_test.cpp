@@ -77,35 +77,6 @@ TEST(Blender, MixesSharesBySquares) {
   EXPECT_EQ(mixed_by_squares({false, 64, 32, 0}), (Weights{683, 171}));
 }
 
-// Of exact squares the blended code is at most one off, dark pixels beside bright ones included.
-TEST(Blender, MixesWithinACodeInLinearLight) {
-  const auto linear = [](int code) {
-    return spec::morphological::kLinear12FromSrgb[static_cast<std::size_t>(code)];
-  };
-  int most = 0, off = 0;
-  for (const int c : {0, 1, 3, 8, 30, 120, 255}) {
-    for (const auto& [n1, n2] : {std::pair{255, 255}, {255, 0}, {255, 90}, {40, 255}, {13, 17}}) {
-      for (int a = 1; a < 256; ++a) {
-        for (int b = 1; b < 256; ++b) {
-          const double sum = a + b, d1 = linear(n1) - linear(c), d2 = linear(n2) - linear(c);
-          const double exact = linear(c) + (a * a * d1 + b * b * d2) / (256 * sum);
-          const int wanted =
-              spec::morphological::kSrgbFromLinear12[static_cast<std::size_t>(std::lround(exact))];
-          spec::morphological::BlendProbe probe;
-          probe.first = static_cast<std::uint8_t>(a);
-          probe.second = static_cast<std::uint8_t>(b);
-          const int got =
-              blend_channel(true, c, n1, n2, golden::morphological::mixed_by_squares(probe));
-          most = std::max(most, std::abs(got - wanted));
-          off += got != wanted;
-        }
-      }
-    }
-  }
-  EXPECT_EQ(most, 1);
-  EXPECT_LT(off, 35 * 255 * 255 / 20);
-}
-
 TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
   const PixelWeights s{3, 4, 5, 6, 1, 2};
   EXPECT_EQ(probe_of(s, Decision::kLongerLeftRight),
@@ -129,24 +100,6 @@ TEST(Blender, RoundsTheMagnitude) {
   // Weights that are mixed are no multiples of 16.
   EXPECT_EQ(blend_channel(false, 0, 1, 0, {2047, 0}), 0);
   EXPECT_EQ(blend_channel(false, 1, 0, 0, {2047, 0}), 1);
-}
-
-TEST(Blender, InvertsWithItsInputsInGammaSpaceOnly) {
-  Random random(1);
-  bool broken_in_linear_light = false;
-  for (int i = 0; i < 200000; ++i) {
-    const int c = static_cast<int>(random.word() & 255), a = static_cast<int>(random.word() & 255),
-              b = static_cast<int>(random.word() & 255), wa = static_cast<int>(random.word() % 129),
-              wb = static_cast<int>(random.word() % 129);
-    const int result = blend_channel(false, c, a, b, {16 * wa, 16 * wb});
-    EXPECT_TRUE(result >= 0 && result <= 255);
-    EXPECT_EQ(blend_channel(false, 255 - c, 255 - a, 255 - b, {16 * wa, 16 * wb}), 255 - result);
-    const int linear = blend_channel(true, c, a, b, {16 * wa, 16 * wb});
-    EXPECT_TRUE(linear >= 0 && linear <= 255);
-    broken_in_linear_light |=
-        blend_channel(true, 255 - c, 255 - a, 255 - b, {16 * wa, 16 * wb}) != 255 - linear;
-  }
-  EXPECT_TRUE(broken_in_linear_light);
 }
 
 TEST(Blender, HalfOfBlackAndWhiteIsHalfTheLight) {

@@ -25,6 +25,7 @@ using spec::morphological::Rgba8;
 using tb::Random;
 using tb::morphological::Frame;
 using tb::morphological::grey;
+using tb::morphological::names_of;
 
 constexpr Preset kAll[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa, Preset::kSmaaDynamic,
                            Preset::kDeburrLine};
@@ -125,64 +126,6 @@ Frame step() {
   return {40, 8, [](int x, int y) { return grey(y < (x < 20 ? 4 : 5) ? 230 : 20); }};
 }
 
-// One mark at a place leaves that pixel, and with `beside` its four neighbours.
-TEST(Bypass, LooksAtFivePlaces) {
-  Parameters p = preset_parameters(Preset::kMlaa);
-  const Frame plain = step();
-  const Frame smoothed = smooth(p, plain);
-  ASSERT_NE(smoothed.at(12, 4), plain.at(12, 4));
-  struct Case {
-    int dx, dy;
-    bool left_by_mark, left_beside;
-  };
-  for (const Case& c :
-       {Case{0, 0, true, true}, Case{-1, 0, false, true}, Case{1, 0, false, true},
-        Case{0, -1, false, true}, Case{0, 1, false, true}, Case{-1, -1, false, false},
-        Case{1, 1, false, false}, Case{2, 0, false, false}, Case{0, -2, false, false}}) {
-    Frame frame = plain;
-    frame.at(12 + c.dx, 4 + c.dy)[3] = 254;
-    for (const Bypass bypass : {Bypass::kNone, Bypass::kMarked, Bypass::kBeside}) {
-      p.bypass = bypass;
-      const bool left = bypass == Bypass::kMarked   ? c.left_by_mark
-                        : bypass == Bypass::kBeside ? c.left_beside
-                                                    : false;
-      const Frame output = smooth(p, frame);
-      EXPECT_EQ(output.at(12, 4)[0], (left ? plain : smoothed).at(12, 4)[0]) << c.dx << ' ' << c.dy;
-      // The mark stays with `none` and ends with the others.
-      EXPECT_EQ(output.at(12 + c.dx, 4 + c.dy)[3], bypass == Bypass::kNone ? 254 : 255);
-    }
-  }
-}
-
-// The last pixel of a row and the first of the next are no neighbours, nor are the first and the
-// last row.
-TEST(Bypass, HasRulesAtTheBorders) {
-  Parameters p = preset_parameters(Preset::kMlaa);
-  p.bypass = Bypass::kBeside;
-  constexpr int kLast = 29;
-  const Frame diamond(kLast + 1, kLast + 1, [](int x, int y) {
-    return grey(std::abs(2 * x - kLast) + std::abs(2 * y - kLast) < 40 ? 230 : 20);
-  });
-  const Frame expected = smooth(p, diamond);
-  int tried = 0;
-  const auto stays_blended = [&](int x, int y, int marked_x, int marked_y) {
-    if (expected.at(x, y) == diamond.at(x, y)) return;
-    Frame frame = diamond;
-    frame.at(marked_x, marked_y)[3] = 0;
-    EXPECT_EQ(smooth(p, frame).at(x, y), expected.at(x, y)) << x << ' ' << y;
-    ++tried;
-  };
-  for (int i = 0; i <= kLast; ++i) {
-    if (i > 0) stays_blended(0, i, kLast, i - 1);
-    if (i < kLast) stays_blended(kLast, i, 0, i + 1);
-    stays_blended(0, i, kLast, i);
-    stays_blended(kLast, i, 0, i);
-    stays_blended(i, 0, i, kLast);
-    stays_blended(i, kLast, i, 0);
-  }
-  EXPECT_GE(tried, 12);
-}
-
 // Weights are halved before they are mixed by their squares: of 60 and 100 with the first neighbour
 // marked, 30 and 100 remain, which become 900 / 130 and 10000 / 130.
 TEST(Bypass, HalvesBeforeSquares) {
@@ -199,46 +142,6 @@ TEST(Bypass, HalvesBeforeSquares) {
             (golden::morphological::Weights{111, 1231}));
   EXPECT_EQ(remaining(Bypass::kHalf, kRight, BlendProbe{true, 0, 1, 0}), BlendProbe{});
   EXPECT_EQ(remaining(Bypass::kMarked, kUp, vertical), vertical);
-
-  // In a frame: SMAA's diagonals give pixels two weights.
-  Parameters p = preset_parameters(Preset::kSmaa);
-  Random random(8);
-  const Frame frame = marked(tb::morphological::noise_image(), random, 3);
-  MorphologicalGolden plain(p);
-  plain.process(frame.view());
-  p.bypass = Bypass::kHalf;
-  MorphologicalGolden golden(p);
-  golden.process(frame.view());
-  int two = 0;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * frame.width + x);
-      const BlendProbe before = plain.probes()[i], probe = golden.probes()[i];
-      const int dx = before.horizontal ? 1 : 0, dy = before.horizontal ? 0 : 1;
-      const bool first = has_mark(frame, x - dx, y - dy), second = has_mark(frame, x + dx, y + dy);
-      if (has_mark(frame, x, y)) {
-        EXPECT_EQ(probe.first | probe.second, 0);
-      } else if (before.first != 0 && before.second != 0 && first && !second) {
-        EXPECT_EQ(probe.first, before.first / 2);
-        EXPECT_EQ(probe.second, before.second);
-        ++two;
-      }
-    }
-  }
-  EXPECT_GT(two, 10);
-}
-
-// A marked pixel is as good a neighbour as any: what lies across from it takes its weight of it.
-TEST(Bypass, MarkedPixelsAreNeighbours) {
-  Parameters p = preset_parameters(Preset::kMlaa);
-  p.bypass = Bypass::kMarked;
-  Frame frame = step();
-  for (int x = 0; x < 40; ++x) frame.at(x, 3)[3] = 0;
-  const Frame without = smooth(p, step()), with = smooth(p, frame);
-  for (int x = 0; x < 40; ++x) {
-    EXPECT_EQ(with.at(x, 4), without.at(x, 4));
-    EXPECT_EQ(with.at(x, 3)[0], frame.at(x, 3)[0]);
-  }
 }
 
 // A line that memory does not give back is zeros, alpha too, so its pixels are marked.
@@ -303,84 +206,68 @@ TEST(BypassCoverage, EveryBinCanBeReached) {
   EXPECT_THAT(hit(beside), testing::IsEmpty());
 }
 
-// One pixel of a frame of 5 x 4 with these marks; (2, 1) lies on no border.
-std::set<std::string> counted(Bypass bypass, unsigned marks, const BlendProbe& probe, int x = 2,
-                              int y = 1) {
-  const Frame frame(5, 4, [](int, int) { return grey(1); });
-  golden::morphological::BypassCoverage coverage;
-  coverage.count_pixel(bypass, static_cast<golden::morphological::Marks>(marks), probe,
-                       frame.view(), x, y);
-  std::set<std::string> names;
-  for (const CoverageBin& bin : coverage.bins()) {
-    EXPECT_LE(bin.hits, 1u);
-    if (bin.hits != 0) names.insert(bin.name);
-  }
-  return names;
-}
-using Names = std::set<std::string>;
-constexpr unsigned kOwn = 1, kUp = 2, kBesideLeft = 4, kBesideRight = 8, kDown = 16;
-
-TEST(BypassCoverage, WithoutARuleNothingCounts) {
-  for (const Bypass bypass : {Bypass::kNone, Bypass::kMasked})
-    for (const unsigned marks : {0u, kOwn, kUp, 31u})
-      EXPECT_EQ(counted(bypass, marks, {false, 60, 100}), Names{});
-}
-
-TEST(BypassCoverage, OwnMarksAreOfTheirRule) {
-  EXPECT_EQ(counted(Bypass::kMarked, kOwn, {false, 60, 100}), Names{"left/marked/own"});
-  EXPECT_EQ(counted(Bypass::kMarked, 0, {false, 60, 100}), Names{});
-  EXPECT_EQ(counted(Bypass::kHalf, kOwn, {false, 60, 100}), Names{"left/half/own"});
-  EXPECT_EQ(counted(Bypass::kHalf, kOwn | kUp, {false, 60, 100}), Names{"left/half/own"});
-}
-
-TEST(BypassCoverage, NeighboursThatGiveHalfAreThoseOfTheTap) {
-  const BlendProbe vertical{false, 60, 100}, horizontal{true, 60, 100};
-  EXPECT_EQ(counted(Bypass::kHalf, 0, vertical), Names{});
-  EXPECT_EQ(counted(Bypass::kHalf, kUp, vertical), Names{"half/up"});
-  EXPECT_EQ(counted(Bypass::kHalf, kDown, vertical), Names{"half/down"});
-  EXPECT_EQ(counted(Bypass::kHalf, kUp | kDown, vertical), (Names{"half/up", "half/down"}));
-  EXPECT_EQ(counted(Bypass::kHalf, kBesideLeft | kBesideRight, vertical), Names{});
-  EXPECT_EQ(counted(Bypass::kHalf, kBesideLeft, horizontal), Names{"half/left"});
-  EXPECT_EQ(counted(Bypass::kHalf, kBesideRight, horizontal), Names{"half/right"});
-  EXPECT_EQ(counted(Bypass::kHalf, kUp | kDown, horizontal), Names{});
-  // What takes no weight cannot give half of it.
-  EXPECT_EQ(counted(Bypass::kHalf, kUp, {false, 0, 100}), Names{});
-  EXPECT_EQ(counted(Bypass::kHalf, kDown, {false, 60, 0}), Names{});
-  // Half of one is nothing, half of two is one.
-  EXPECT_EQ(counted(Bypass::kHalf, kUp, {false, 1, 0}), (Names{"half/up", "half/nothing"}));
-  EXPECT_EQ(counted(Bypass::kHalf, kDown, {false, 0, 1}), (Names{"half/down", "half/nothing"}));
-  EXPECT_EQ(counted(Bypass::kHalf, kUp, {false, 2, 0}), Names{"half/up"});
-  EXPECT_EQ(counted(Bypass::kHalf, kUp, {false, 1, 1}), Names{"half/up"});
-}
-
-TEST(BypassCoverage, BesideNamesTheOnePlaceOrSeveral) {
-  const BlendProbe probe{false, 60, 100};
-  EXPECT_EQ(counted(Bypass::kBeside, 0, probe), Names{});
-  EXPECT_EQ(counted(Bypass::kBeside, kOwn, probe), Names{"left/beside/own"});
-  EXPECT_EQ(counted(Bypass::kBeside, kUp, probe), Names{"left/beside/up"});
-  EXPECT_EQ(counted(Bypass::kBeside, kBesideLeft, probe), Names{"left/beside/left"});
-  EXPECT_EQ(counted(Bypass::kBeside, kBesideRight, probe), Names{"left/beside/right"});
-  EXPECT_EQ(counted(Bypass::kBeside, kDown, probe), Names{"left/beside/down"});
-  EXPECT_EQ(counted(Bypass::kBeside, kOwn | kUp, probe), Names{"left/beside/several"});
-  EXPECT_EQ(counted(Bypass::kBeside, 31, probe), Names{"left/beside/several"});
-}
-
-TEST(BypassCoverage, BordersAreThoseThatThePixelLiesOn) {
-  const auto borders = [](int x, int y, bool left) {
-    Names names = counted(Bypass::kBeside, left ? kOwn : 0, {false, 60, 100}, x, y);
-    EXPECT_EQ(names.erase("left/beside/own"), left ? 1u : 0u);
-    return names;
+// Of one pixel of a frame of 5 x 4 with marks; (2, 1) lies on no border.
+TEST(BypassCoverage, CountsWhatLeavesAPixelWhatGivesHalfAndBorders) {
+  constexpr unsigned kOwn = 1, kUp = 2, kBesideLeft = 4, kBesideRight = 8, kDown = 16, kEvery = 31;
+  constexpr BlendProbe kVertical{false, 60, 100}, kHorizontal{true, 60, 100};
+  struct Row {
+    Bypass bypass;
+    unsigned marks;
+    BlendProbe probe;
+    const char* bins;
+    int x = 2, y = 1;
   };
-  for (const bool left : {false, true}) {
-    const std::string what = left ? "/left" : "/blended";
-    EXPECT_EQ(borders(1, 1, left), Names{});
-    EXPECT_EQ(borders(3, 2, left), Names{});
-    EXPECT_EQ(borders(2, 0, left), Names{"border/top" + what});
-    EXPECT_EQ(borders(0, 2, left), Names{"border/left" + what});
-    EXPECT_EQ(borders(4, 2, left), Names{"border/right" + what});
-    EXPECT_EQ(borders(2, 3, left), Names{"border/bottom" + what});
-    EXPECT_EQ(borders(4, 3, left), (Names{"border/right" + what, "border/bottom" + what}));
-    EXPECT_EQ(borders(0, 0, left), (Names{"border/left" + what, "border/top" + what}));
+  for (const Row& row : {
+           // Without a rule nothing counts.
+           Row{Bypass::kNone, kEvery, kVertical, ""},
+           Row{Bypass::kMasked, kEvery, kVertical, ""},
+           Row{Bypass::kMarked, kOwn, kVertical, "left/marked/own"},
+           Row{Bypass::kMarked, 0, kVertical, ""},
+           Row{Bypass::kHalf, kOwn, kVertical, "left/half/own"},
+           Row{Bypass::kHalf, kOwn | kUp, kVertical, "left/half/own"},
+           // Neighbours that give half are those of the tap.
+           Row{Bypass::kHalf, 0, kVertical, ""},
+           Row{Bypass::kHalf, kUp, kVertical, "half/up"},
+           Row{Bypass::kHalf, kDown, kVertical, "half/down"},
+           Row{Bypass::kHalf, kUp | kDown, kVertical, "half/down half/up"},
+           Row{Bypass::kHalf, kBesideLeft | kBesideRight, kVertical, ""},
+           Row{Bypass::kHalf, kBesideLeft, kHorizontal, "half/left"},
+           Row{Bypass::kHalf, kBesideRight, kHorizontal, "half/right"},
+           Row{Bypass::kHalf, kUp | kDown, kHorizontal, ""},
+           // What takes no weight cannot give half of it.
+           Row{Bypass::kHalf, kUp, {false, 0, 100}, ""},
+           Row{Bypass::kHalf, kDown, {false, 60, 0}, ""},
+           // Half of one is nothing, half of two is one.
+           Row{Bypass::kHalf, kUp, {false, 1, 0}, "half/nothing half/up"},
+           Row{Bypass::kHalf, kDown, {false, 0, 1}, "half/down half/nothing"},
+           Row{Bypass::kHalf, kUp, {false, 2, 0}, "half/up"},
+           Row{Bypass::kHalf, kUp, {false, 1, 1}, "half/up"},
+           // Of several marks beside or on a pixel none is named.
+           Row{Bypass::kBeside, 0, kVertical, ""},
+           Row{Bypass::kBeside, kOwn, kVertical, "left/beside/own"},
+           Row{Bypass::kBeside, kUp, kVertical, "left/beside/up"},
+           Row{Bypass::kBeside, kBesideLeft, kVertical, "left/beside/left"},
+           Row{Bypass::kBeside, kBesideRight, kVertical, "left/beside/right"},
+           Row{Bypass::kBeside, kDown, kVertical, "left/beside/down"},
+           Row{Bypass::kBeside, kOwn | kUp, kVertical, "left/beside/several"},
+           Row{Bypass::kBeside, kEvery, kVertical, "left/beside/several"},
+           Row{Bypass::kBeside, 0, kVertical, "", 3, 2},
+           Row{Bypass::kBeside, 0, kVertical, "border/top/blended", 2, 0},
+           Row{Bypass::kBeside, 0, kVertical, "border/left/blended", 0, 2},
+           Row{Bypass::kBeside, 0, kVertical, "border/right/blended", 4, 2},
+           Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended", 2, 3},
+           Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended border/right/blended", 4, 3},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/top/left left/beside/own", 2, 0},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/left/left left/beside/own", 0, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/right/left left/beside/own", 4, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/bottom/left left/beside/own", 2, 3},
+       }) {
+    const Frame frame(5, 4, [](int, int) { return grey(1); });
+    golden::morphological::BypassCoverage coverage;
+    coverage.count_pixel(row.bypass, static_cast<golden::morphological::Marks>(row.marks),
+                         row.probe, frame.view(), row.x, row.y);
+    EXPECT_EQ(names_of(coverage.bins()), row.bins)
+        << static_cast<int>(row.bypass) << ' ' << row.marks << " at " << row.x << ' ' << row.y;
   }
 }
 

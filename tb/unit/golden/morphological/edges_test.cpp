@@ -207,6 +207,14 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
         const EdgePlanes edges = find_edges(p, frame.view(), DepthView(depth, size[0], size[1]));
         EXPECT_EQ(differences(edges, PlainEdges(p, frame, depth), size[0], size[1]), 0u)
             << size[0] << " x " << size[1];
+        // The least threshold: what is outside of the frame or masked is no step, nor is a flat
+        // one.
+        p.threshold = 1;
+        const Frame flat(size[0], size[1], [](int, int) { return tb::morphological::grey(93); });
+        for (const Frame* least : {&frame, &flat})
+          EXPECT_EQ(differences(find_edges(p, least->view(), DepthView(depth, size[0], size[1])),
+                                PlainEdges(p, *least, depth), size[0], size[1]),
+                    0u);
         ones += edges.left.count() + edges.top.count();
         pixels += frame.pixels.size();
       }
@@ -225,34 +233,40 @@ TEST(MorphologicalEdges, AWrongBitIsCaught) {
   EXPECT_EQ(differences(edges, PlainEdges(p, frame, {}), 40, 30), 1u);
 }
 
+// A step of one channel is an edge if the threshold is that step, and none if it is a unit more.
 TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
-  // Blue steps of luma are 4732 units.
-  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
-  p.local_contrast = spec::morphological::LocalContrast::kOff;
-  for (const int step : {1, 2, 77, 255}) {
-    const Frame frame(2, 1, [&](int x, int) {
-      return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
-    });
-    p.threshold = 4732 * step;
-    EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
-    p.threshold += 1;
-    EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
-  }
-}
-
-TEST(MorphologicalEdges, ThresholdsOfColourHoldToTheUnit) {
-  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
-  for (const std::size_t channel : {0u, 1u, 2u}) {
-    for (const int step : {1, 2, 77, 254}) {
-      const Frame frame(2, 1, [&](int x, int) {
-        spec::morphological::Rgba8 pixel{};
-        pixel[channel] = static_cast<std::uint8_t>(x * step);
-        return pixel;
-      });
-      p.threshold = 65536 * step;
-      EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
-      p.threshold += 1;
-      EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
+  using spec::morphological::Parameters;
+  using spec::morphological::Preset;
+  struct Row {
+    Preset preset;
+    std::array<int, 3> units;  // of a code of each channel
+    void (*set)(Parameters&, int);
+  };
+  const auto threshold = [](Parameters& p, int units) { p.threshold = units; };
+  for (const Row& row :
+       {Row{Preset::kDeburrLine, {13933, 46871, 4732}, threshold},
+        Row{Preset::kDeburr, {65536, 65536, 65536}, threshold},
+        // The floor of a dynamic threshold.
+        Row{Preset::kDeburrLine, {13933, 46871, 4732}, [](Parameters&p, int units) {
+              p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
+              p.alpha = 0;
+              p.floor = units;
+            }}}) {
+    auto p = golden::morphological::preset_parameters(row.preset);
+    p.local_contrast = spec::morphological::LocalContrast::kOff;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      for (const int step : {1, 2, 77, 255}) {
+        const Frame frame(2, 1, [&](int x, int) {
+          spec::morphological::Rgba8 pixel{};
+          pixel[channel] = static_cast<std::uint8_t>(x * step);
+          return pixel;
+        });
+        for (const int more : {0, 1}) {
+          row.set(p, row.units[channel] * step + more);
+          EXPECT_EQ(find_edges(p, frame.view()).left.at(1, 0), more == 0)
+              << channel << ' ' << step << ' ' << static_cast<int>(row.preset);
+        }
+      }
     }
   }
 }
@@ -285,46 +299,6 @@ TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
     EXPECT_EQ(find_edges(p, frame.view()).left.at(1, 0), step == 255);
     p.threshold = 255 * 65536 + 1;
     EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
-  }
-}
-
-// What lies outside of the frame is no step, of which a code would be enough.
-TEST(MorphologicalEdges, AFlatFrameHasNoneAtItsBorder) {
-  using spec::morphological::LocalContrast;
-  const Frame frame(5, 4, [](int, int) { return tb::morphological::grey(93); });
-  for (const auto preset :
-       {spec::morphological::Preset::kDeburr, spec::morphological::Preset::kDeburrLine}) {
-    auto p = golden::morphological::preset_parameters(preset);
-    p.threshold = 1;
-    for (const auto contrast : {LocalContrast::kOff, LocalContrast::kPaper,
-                                LocalContrast::kSymmetric, LocalContrast::kSmaa}) {
-      p.local_contrast = contrast;
-      const EdgePlanes edges = find_edges(p, frame.view());
-      EXPECT_EQ(edges.left.count() + edges.top.count(), 0u);
-    }
-  }
-}
-
-// Not even with the least threshold has a masked pixel an edge.
-TEST(MorphologicalEdges, AMaskHidesAStepOfOneCode) {
-  for (const auto preset :
-       {spec::morphological::Preset::kDeburr, spec::morphological::Preset::kDeburrLine}) {
-    auto p = golden::morphological::preset_parameters(preset);
-    p.threshold = 1;
-    for (const int masked : {-1, 0, 1}) {
-      for (const int step : {1, 255}) {
-        p.bypass = spec::morphological::Bypass::kMasked;
-        const auto pixel = [&](int i) {
-          auto result = tb::morphological::grey(i * step);
-          result[3] = i == masked ? 254 : 255;
-          return result;
-        };
-        const Frame across(2, 1, [&](int x, int) { return pixel(x); });
-        const Frame down(1, 2, [&](int, int y) { return pixel(y); });
-        EXPECT_EQ(find_edges(p, across.view()).left.at(1, 0), masked < 0);
-        EXPECT_EQ(find_edges(p, down.view()).top.at(0, 1), masked < 0);
-      }
-    }
   }
 }
 
@@ -381,23 +355,6 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
   }
 }
 
-// A tenth of the luma, as the preset has it, is an edge, and nothing below.
-TEST(MorphologicalEdges, AStepOfExactlyTheFactorStaysAnEdge) {
-  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kSmaaDynamic);
-  for (int tenth = 2; tenth <= 25; ++tenth) {
-    const auto edge = [&](int step) {
-      const Frame frame(
-          2, 1, [&](int x, int) { return tb::morphological::grey(10 * tenth - (x ? 0 : step)); });
-      return find_edges(p, frame.view()).left.at(1, 0);
-    };
-    p.alpha = 1677721;
-    EXPECT_TRUE(edge(tenth));
-    EXPECT_FALSE(edge(tenth - 1));
-    p.alpha = 1677722;  // rounded up it would be none
-    EXPECT_FALSE(edge(tenth));
-  }
-}
-
 // The floor of 2 codes and alpha are equal at 32 codes, of the luma that counts.
 TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
   using golden::morphological::PixelPair;
@@ -418,21 +375,6 @@ TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
     decides(DynamicLuma::kMin, codes(40, 32));
     decides(DynamicLuma::kMean, codes(10, 54));
   }
-}
-
-TEST(MorphologicalEdges, TheFloorIsNotStrict) {
-  auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
-  p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  p.local_contrast = spec::morphological::LocalContrast::kOff;
-  p.alpha = 0;
-  // A blue step of 255 codes is 255 x 4732 units: equality.
-  const Frame frame(2, 1, [](int x, int) {
-    return spec::morphological::Rgba8{0, 0, static_cast<std::uint8_t>(255 * x), 255};
-  });
-  p.floor = 1206660;
-  EXPECT_TRUE(find_edges(p, frame.view()).left.at(1, 0));
-  p.floor = 1206661;
-  EXPECT_FALSE(find_edges(p, frame.view()).left.at(1, 0));
 }
 
 // Each of the six steps is the largest once, at twice the edge's own and one code on either side.

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,26 @@ struct Frame : Image {
       : Image(stimuli::draw(w, h, std::forward<Picture>(picture))) {}
   golden::morphological::ImageView view() const { return {pixels, width, height}; }
 };
+
+using Hits = std::map<std::string, std::uint64_t>;
+// The bins that were hit.
+template <class Bins>
+Hits hits_of(const Bins& bins, const std::string& group = "") {
+  Hits hits;
+  for (const auto& bin : bins)
+    if (bin.hits != 0 && bin.name.starts_with(group)) hits[bin.name] = bin.hits;
+  return hits;
+}
+// Their names in the order of the alphabet; how often, unless once.
+template <class Bins>
+std::string names_of(const Bins& bins) {
+  std::string names;
+  for (const auto& [name, hits] : hits_of(bins)) {
+    names += (names.empty() ? "" : " ") + name;
+    if (hits != 1) names += " x " + std::to_string(hits);
+  }
+  return names;
+}
 
 inline Frame smooth(const spec::morphological::Parameters& parameters, const Frame& frame) {
   Frame result(frame.width, frame.height);

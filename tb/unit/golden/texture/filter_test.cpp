@@ -37,14 +37,6 @@ TEST(Decode, EverySixteenBitTexel) {
   }
 }
 
-TEST(Decode, WideningKeepsEndsAndIsWithinOneOfTheRatio) {
-  for (std::uint32_t v = 0; v < 32; ++v)
-    EXPECT_LE(std::abs(widened(v, 5) / 16.0 - v * 255 / 31.0), 1);
-  EXPECT_EQ(decode_texel(Format::kRgb565, 0xFFFF), (Texel{4080, 4080, 4080, 4080}));
-  EXPECT_EQ(decode_texel(Format::kRgb565, 0), (Texel{0, 0, 0, 4080}));
-  EXPECT_EQ(decode_texel(Format::kRgba4444, 0xF00F), (Texel{4080, 0, 0, 4080}));
-}
-
 TEST(Decode, EightBitFormatsAndTheOrderOfBytes) {
   EXPECT_EQ(decode_texel(Format::kRgba8, 0x04030201), (Texel{16, 32, 48, 64}));
   for (std::uint32_t c = 0; c < 256; ++c) {
@@ -62,30 +54,6 @@ TEST(Decode, TwoChannelFormIsTheSame) {
     for (const Format format :
          {Format::kRgba8, Format::kRgb565, Format::kRgba4444, Format::kL8, Format::kSrgb8A8}) {
       ASSERT_EQ(to_texel(decode_channels(format, word)), decode_texel(format, word));
-    }
-  }
-}
-
-// Exhaustive over the two fractions: four equal texels give exactly that texel.
-TEST(Filter, EqualTexelsComeThroughUnchanged) {
-  for (const std::uint32_t v : {0u, 1u, 15u, 16u, 2048u, 4079u, 4080u}) {
-    for (std::uint32_t f_u = 0; f_u < 256; ++f_u) {
-      const std::uint32_t row = horizontal_lerp(v, v, f_u);
-      ASSERT_EQ(row, v << 8);
-      for (std::uint32_t f_v = 0; f_v < 256; ++f_v) ASSERT_EQ(vertical_lerp(row, row, f_v), row);
-      ASSERT_EQ(level_lerp(row, row, f_u), row);
-    }
-  }
-}
-
-TEST(Filter, EqualSamplesComeThroughUnchangedForEveryKernelAndCount) {
-  for (std::uint32_t c = 0; c < 256; ++c) {
-    for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
-      for (int n = 1; n <= 16; ++n) {
-        std::uint32_t accumulator = 0;
-        for (int i = 0; i < n; ++i) accumulator += sample_weight(kernel, i, n) * (c << 12);
-        ASSERT_EQ(round_result(accumulator), c);
-      }
     }
   }
 }

@@ -312,52 +312,5 @@ TEST(Footprint, RealErrorsAreThoseOfThePapersTables) {
   EXPECT_NEAR(ideal::largest_level_error(0.3284), 0.090, 5e-4);
 }
 
-TEST(Footprint, FixedRulesHaveThePapersMeanSquareError) {
-  const auto mean_square = [](FootprintRule rule) {
-    constexpr std::uint32_t kOne = 1u << 20;
-    double sum = 0;
-    constexpr int kSteps = 4096;
-    for (int i = 0; i < kSteps; ++i) {
-      const double k = (i + 0.5) / kSteps;
-      const auto t = static_cast<std::uint32_t>(k * kOne);
-      const double error = footprint_side(rule, kOne, t) / double{kOne} - std::sqrt(1 + k * k);
-      sum += error * error;
-    }
-    return 100 * sum / kSteps;
-  };
-  EXPECT_NEAR(mean_square(FootprintRule::kHalf), 1.1604, 1e-3);
-  EXPECT_NEAR(mean_square(FootprintRule::kQuarter), 0.3842, 1e-3);
-  EXPECT_NEAR(mean_square(FootprintRule::kExact), 0, 1e-9);
-}
-
-// The design space of papers-errata 004: error of the level that a pair of rules gives.
-TEST(Footprint, LevelErrorsOfRulesTogether) {
-  struct Row {
-    FootprintRule footprint;
-    Log2Rule log2;
-    double rms, largest, floor_mismatch;
-  };
-  const Row rows[] = {
-      {FootprintRule::kHalf, Log2Rule::kMitchell, 0.079, 0.161, 0.119},
-      {FootprintRule::kQuarter, Log2Rule::kMitchell, 0.095, 0.264, 0.047},
-      {FootprintRule::kTwoSegment, Log2Rule::kMitchell, 0.064, 0.127, 0.0095},
-      {FootprintRule::kTwoSegment, Log2Rule::kCorrected, 0.014, 0.063, 0.015},
-      {FootprintRule::kExact, Log2Rule::kMitchell, 0.063, 0.086, 0},
-      {FootprintRule::kExact, Log2Rule::kSegments, 0.0025, 0.0056, 0.0005},
-      {FootprintRule::kExact, Log2Rule::kExact, 0.0002, 0.0005, 0},
-  };
-  for (const Row& row : rows) {
-    const auto error = golden::ideal::level_error([&](double a, double b) {
-      const auto fixed = [](double x) {
-        return static_cast<std::uint32_t>(std::lround(x * 65536));
-      };
-      return log2_fixed(row.log2, footprint_side(row.footprint, fixed(a), fixed(b))) / 4096.0;
-    });
-    EXPECT_NEAR(error.root_mean_square, row.rms, 0.0006);
-    EXPECT_NEAR(error.largest, row.largest, 0.0006);
-    EXPECT_NEAR(error.floor_mismatch, row.floor_mismatch, 0.0006);
-  }
-}
-
 }  // namespace
 }  // namespace deburr::footprint_test

@@ -39,29 +39,6 @@ tb::texture::Pyramid ramp(int size) {
 
 // ---- footprints ---------------------------------------------------------------------------------
 
-TEST(IdealFootprint, OfALaneIsItsOwnRowAndColumn) {
-  spec::texture::Quad quad;
-  const double one = spec::texture::kCoordinateOne;
-  quad.s = {0, static_cast<int>(one / 4), static_cast<int>(one / 8), static_cast<int>(one / 2)};
-  quad.t = {0, 0, static_cast<int>(one / 16), static_cast<int>(one / 16)};
-  const PixelFootprint f = pixel_footprint(quad, 3, 64, 32);
-  EXPECT_DOUBLE_EQ(f.s, 32);
-  EXPECT_DOUBLE_EQ(f.t, 2);
-  EXPECT_DOUBLE_EQ(f.s_x, 64 * 0.375);
-  EXPECT_DOUBLE_EQ(f.t_x, 0);
-  EXPECT_DOUBLE_EQ(f.s_y, 64 * 0.25);
-  EXPECT_DOUBLE_EQ(f.t_y, 2);
-  quad.coverage = 0b1010;
-  const spec::texture::Quad quads[] = {quad, quad};
-  EXPECT_EQ(pixel_footprints(quads, 64, 32).size(), 4u);
-  for (const int lane : {0, 2, 3}) {
-    quad.coverage = static_cast<std::uint8_t>(1 << lane);
-    const auto only = pixel_footprints(std::span(&quad, 1), 64, 32);
-    ASSERT_EQ(only.size(), 1u);
-    EXPECT_DOUBLE_EQ(only[0].s, pixel_footprint(quad, lane, 64, 32).s);
-  }
-}
-
 // Of coordinates that all differ: along the row of the lane, and along its column.
 TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
   spec::texture::Quad quad;
@@ -75,7 +52,26 @@ TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
     EXPECT_DOUBLE_EQ(f.t_x, low ? 34 : 5);
     EXPECT_DOUBLE_EQ(f.s_y, right ? 18 : 7);
     EXPECT_DOUBLE_EQ(f.t_y, right ? 46 : 17);
+    quad.coverage = static_cast<std::uint8_t>(1 << lane);
+    const auto only = pixel_footprints(std::span(&quad, 1), 256, 256);
+    ASSERT_EQ(only.size(), 1u);
+    EXPECT_DOUBLE_EQ(only[0].s, f.s);
   }
+}
+
+// By the rule of section 1.3 of paper 004: its figure 1, and sides that lie upon each other.
+TEST(IdealFootprint, OfThePaperHasTheLengthsOfItsSides) {
+  spec::texture::Descriptor descriptor;
+  descriptor.max_anisotropy_log2 = 4;
+  spec::texture::Parameters paper;
+  paper.axes = spec::texture::Axes::kTwo;
+  paper.count = spec::texture::CountRule::kFloor;
+  const PixelFootprint figure{.s_x = 6, .t_x = 3, .s_y = -1, .t_y = 2},
+      line{.s_x = 3, .t_x = 4, .s_y = 6, .t_y = 8};
+  EXPECT_DOUBLE_EQ(sides(figure).d_max, 3 * std::sqrt(5.0));
+  EXPECT_DOUBLE_EQ(sides(figure).d_min, std::sqrt(5.0));
+  for (const PixelFootprint& f : {figure, line})
+    EXPECT_EQ(level_of_detail(paper, descriptor, f).samples, 2);
 }
 
 TEST(IdealLevel, TheBiasIsAddedIn256ths) {
@@ -89,19 +85,6 @@ TEST(IdealLevel, TheBiasIsAddedIn256ths) {
   EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without + 0.5, 1e-12);
   descriptor.lod_bias = -128;
   EXPECT_NEAR(level_of_detail(parameters, descriptor, f).l, without - 0.5, 1e-12);
-}
-
-TEST(IdealFootprint, FigureOneOfThePaper) {
-  const PixelFootprint f{.s_x = 6, .t_x = 3, .s_y = -1, .t_y = 2};
-  const Sides d = sides(f);
-  EXPECT_DOUBLE_EQ(d.d_max, 3 * std::sqrt(5.0));
-  EXPECT_DOUBLE_EQ(d.d_min, std::sqrt(5.0));
-  spec::texture::Descriptor descriptor;
-  descriptor.max_anisotropy_log2 = 4;
-  spec::texture::Parameters paper;
-  paper.axes = spec::texture::Axes::kTwo;
-  paper.count = spec::texture::CountRule::kFloor;
-  EXPECT_EQ(level_of_detail(paper, descriptor, f).samples, 2);  // by the rule of section 1.3
 }
 
 // ---- ellipse ------------------------------------------------------------------------------------
@@ -133,18 +116,6 @@ TEST(Ellipse, AxesAreTheExtremesOfTheTurnedStep) {
     // Parallel, either way.
     ASSERT_NEAR(e.major_s * along_t - e.major_t * along_s, 0, 4e-3 * longest * longest);
   }
-}
-
-TEST(Ellipse, OfUprightFootprintsIsTheirSides) {
-  const Ellipse e = ellipse({0, 0, 6, 0, 0, 1});
-  EXPECT_DOUBLE_EQ(e.d_max, 6);
-  EXPECT_DOUBLE_EQ(e.d_min, 1);
-  EXPECT_DOUBLE_EQ(e.major_s, 6);
-  EXPECT_NEAR(e.major_t, 0, 1e-12);
-  const Ellipse line = ellipse({0, 0, 3, 4, 6, 8});
-  EXPECT_DOUBLE_EQ(line.d_min, 0);
-  EXPECT_NEAR(line.d_max, std::sqrt(125.0), 1e-12);
-  EXPECT_EQ(ellipse({}).d_max, 0);
 }
 
 // As many as the footprint wants, up to 16.
@@ -190,33 +161,7 @@ TEST(Level, TheCapOfTexelsIsOfTheCount) {
   EXPECT_EQ(sampled(spec::texture::CountRule::kCeil), 2);
 }
 
-TEST(Ellipse, FilteringALinearRampGivesItsCentre) {
-  const TextureImage texture = image(ramp(64));
-  spec::texture::Descriptor descriptor;
-  descriptor.max_anisotropy_log2 = 4;
-  descriptor.levels = 7;
-  for (const auto count : {spec::texture::CountRule::kFloor, spec::texture::CountRule::kCeil,
-                           spec::texture::CountRule::kAny}) {
-    spec::texture::Parameters parameters;
-    parameters.count = count;
-    const Colour c = along_ellipse(texture, parameters, descriptor, {32.3, 30.1, 5, 2, -0.3, 0.7});
-    EXPECT_NEAR(c[0], 2 * (32.3 - 0.5), 0.6);  // mip levels of the ramp are rounded
-    EXPECT_NEAR(c[1], 3 * (30.1 - 0.5), 0.6);
-  }
-}
-
 // ---- box ----------------------------------------------------------------------------------------
-
-TEST(Box, OfALinearRampIsItsCentre) {
-  const TextureImage texture = image(ramp(64));
-  const PixelFootprint f{32.3, 30.1, 5, 2, -1, 7};
-  for (const int n : {1, 4, 32}) {
-    const Colour c = box(texture, f, n);
-    EXPECT_NEAR(c[0], 2 * (32.3 - 0.5), 1e-3);
-    EXPECT_NEAR(c[1], 3 * (30.1 - 0.5), 1e-3);
-    EXPECT_NEAR(c[2], 10, 1e-4);
-  }
-}
 
 TEST(Box, OfACheckerboardIsTheWhiteArea) {
   const TextureImage texture = image(tb::texture::checkerboard(64, 8));
@@ -226,18 +171,6 @@ TEST(Box, OfACheckerboardIsTheWhiteArea) {
   EXPECT_NEAR(box(texture, f, 64, Tap::kPoint)[0], 255 * 36.0 / 64, 1e-3);
   // Far away: half of everything.
   EXPECT_NEAR(box(texture, {7, 6, 160, 3, -5, 160}, 64, Tap::kPoint)[0], 127.5, 3);
-}
-
-TEST(Box, HonoursWrapModes) {
-  const tb::texture::Pyramid picture = ramp(16);
-  const PixelFootprint outside{-3.5, 40.5, 0, 0, 0, 0};
-  EXPECT_NEAR(box(image(picture), outside, 1)[0], 2 * 12, 1e-4);
-  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kClampToEdge), outside, 1)[0], 0, 1e-4);
-  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kClampToEdge), outside, 1)[1], 3 * 15, 1e-4);
-  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kMirroredRepeat), outside, 1)[0], 2 * 3,
-              1e-4);
-  EXPECT_NEAR(box(image(picture, spec::texture::Wrap::kMirroredRepeat), outside, 1)[1], 3 * 8,
-              1e-4);
 }
 
 // Every texel and every channel of its own value, and positions on both sides of the origin.

@@ -136,25 +136,6 @@ int differences(const Select& select) {
 
 TEST(Level, IsGlsFormulaForEveryLevelModeAndCount) { EXPECT_EQ(differences(select_level), 0); }
 
-// Vulkan's rule: N follows the ratio without a step, and so does the level.
-TEST(Level, AnyCountHasNoSteps) {
-  spec::texture::Parameters p;
-  p.count = spec::texture::CountRule::kAny;
-  auto d = descriptor(MinFilter::kLinearMipmapLinear);
-  d.max_anisotropy_log2 = 4;
-  LevelOfDetail last = select_level(p, d, 6 << 12, 6 << 12);
-  for (std::int32_t anisotropy = 1; anisotropy <= 4 << 12; ++anisotropy) {
-    const LevelOfDetail now = select_level(p, d, 6 << 12, (6 << 12) - anisotropy);
-    ASSERT_GE(now.samples, last.samples);
-    ASSERT_LE(now.samples, last.samples + 1);
-    ASSERT_EQ(now.l, last.l - 1);
-    ASSERT_GE(now.samples, std::exp2((anisotropy - 72) / 4096.0) - 0.002);
-    ASSERT_LE(now.samples, std::exp2((anisotropy - 72) / 4096.0) + 1.002);
-    last = now;
-  }
-  EXPECT_EQ(last.samples, 16);
-}
-
 TEST(Level, CheckFindsPlantedFaults) {
   // Rounding of l at 8 bits truncated, GL's rounding to the nearest level off by one step, N_max
   // ignored.
@@ -202,24 +183,6 @@ TEST(Level, BiasAndClampsAsInTheContract) {
   }
 }
 
-TEST(Level, ALowerLimitAboveTheUpperOneGivesTheUpperOne) {
-  auto d = descriptor(MinFilter::kLinearMipmapNearest);
-  d.min_lod = 5 << 8;
-  d.max_lod = 2 << 8;
-  EXPECT_EQ(select_level({}, d, 0, 0).l, 2 << 12);
-  EXPECT_EQ(select_level({}, d, 9 << 12, 9 << 12).level, 2);
-  d.max_lod = 0;  // then everything is magnified
-  EXPECT_TRUE(select_level({}, d, 9 << 12, 9 << 12).magnified);
-}
-
-TEST(Level, SwitchesOverAtZero) {
-  for (const MinFilter filter : kMinFilters) {
-    const auto d = descriptor(filter);
-    EXPECT_TRUE(select_level({}, d, 0, 0).magnified);
-    EXPECT_FALSE(select_level({}, d, 1, 1).magnified);
-  }
-}
-
 // Paper 004, Fig. 1: s_x = 6, t_x = 3, sides 3 sqrt 5 and sqrt 5.
 TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
   const auto paper = spec::texture::preset_parameters(spec::texture::Preset::kPaper);
@@ -234,44 +197,6 @@ TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
   EXPECT_EQ(r.anisotropy, 1.625 * 4096);
   EXPECT_EQ(r.samples, 2);
   EXPECT_EQ(r.l, 1.875 * 4096);
-}
-
-// With exact rules the fixed level is the real one but for its last bits, wherever N agrees.
-TEST(Level, ExactRulesComeCloseToRealArithmetic) {
-  tb::Random random(5);
-  const auto octave = [&] { return random.uniform(-2, 9); };
-  const auto angle = [&] { return random.uniform(0, 6.28318); };
-  spec::texture::Parameters p;
-  p.footprint = spec::texture::FootprintRule::kExact;
-  p.log2 = spec::texture::Log2Rule::kExact;
-  p.axes = spec::texture::Axes::kTwo;
-  p.count = spec::texture::CountRule::kFloor;
-  auto d = descriptor(MinFilter::kLinearMipmapLinear);
-  d.max_anisotropy_log2 = 4;
-  int flips = 0;
-  double largest = 0;
-  for (int i = 0; i < 100000; ++i) {
-    golden::ideal::PixelFootprint f;
-    const double dx = std::exp2(octave()), dy = std::exp2(octave());
-    const double ax = angle(), ay = angle();
-    f.s_x = dx * std::cos(ax);
-    f.t_x = dx * std::sin(ax);
-    f.s_y = dy * std::cos(ay);
-    f.t_y = dy * std::sin(ay);
-    const auto fixed = [](double x) { return std::int64_t{std::lround(x * 65536)}; };
-    const auto footprint = golden::texture::footprint(
-        p.axes, p.footprint, {fixed(f.s_x), fixed(f.t_x)}, {fixed(f.s_y), fixed(f.t_y)});
-    const auto lb = golden::texture::axis_logarithms(p.axes, p.log2, footprint);
-    const auto r = select_level(p, d, lb.d_max, lb.d_min);
-    const auto ideal = golden::ideal::level_of_detail(p, d, f);
-    if (r.samples != ideal.samples) {
-      ++flips;
-      continue;
-    }
-    largest = std::max(largest, std::abs(r.l / 4096.0 - ideal.l));
-  }
-  EXPECT_LE(largest, 0.0007);
-  EXPECT_LE(flips, 100);  // of 100 000: only where L is within the logarithm's error of an integer
 }
 
 }  // namespace

@@ -57,35 +57,6 @@ TEST(Walker, CheckFindsAWrongReciprocal) {
             0);
 }
 
-TEST(Walker, SamplesAreSymmetricAndOneSampleIsTheCentre) {
-  EXPECT_EQ(sample_offset(0, 1, 128, 0xFFFFFFFF), 0);
-  for (const std::int64_t axis : {std::int64_t{1}, std::int64_t{-12345}, kOne * 200}) {
-    for (int n = 2; n <= 16; ++n) {
-      for (int i = 0; i < n; ++i) {
-        const std::int64_t sum =
-            sample_offset(i, n, 64, axis) + sample_offset(n - 1 - i, n, 64, axis);
-        EXPECT_GE(sum, 0);  // a tie rounds up on both sides
-        EXPECT_LE(sum, 1);
-      }
-    }
-  }
-}
-
-// The longest axis, the widest spread: the exact product stays within 60 bits.
-TEST(Walker, TheLargestProductFitsItsWidth) {
-  constexpr std::int64_t kLongest = (118 + 49) * ((std::int64_t{1} << 32) - 1) / 128;
-  for (int n = 1; n <= 16; ++n) {
-    const auto reciprocal =
-        std::int64_t{spec::texture::kReciprocal.at(static_cast<std::size_t>(n))};
-    EXPECT_LT(
-        static_cast<long double>(n - 1) * 128 * kLongest * static_cast<long double>(reciprocal),
-        std::exp2l(60));
-    EXPECT_NEAR(static_cast<double>(sample_offset(n - 1, n, 128, kLongest)),
-                (n - 1.0) / n * static_cast<double>(kLongest),
-                1e-4 * static_cast<double>(kLongest));
-  }
-}
-
 TEST(Walker, WeightsAreSymmetricAndSumToOne) {
   for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
     for (int n = 1; n <= 16; ++n) {

@@ -105,12 +105,21 @@ TEST(TextureTables, TilesAre64Bytes) {
   }
 }
 
-TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
-  for (std::size_t i = 0; i < spec::texture::kLog2Table.size(); ++i) {
-    auto table = spec::texture::kLog2Table;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, log2_entry), static_cast<int>(i));
+template <class Table, class Formula>
+void expect_each_bit_is_seen(const Table& table, Formula&& formula) {
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    auto changed = table;
+    changed[i] ^= 1;
+    EXPECT_EQ(first_wrong(changed, formula), static_cast<int>(i));
   }
+}
+
+TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
+  expect_each_bit_is_seen(spec::texture::kLog2Table, log2_entry);
+  expect_each_bit_is_seen(spec::texture::kLog2Correction, correction_entry);
+  expect_each_bit_is_seen(spec::texture::kLog2Count, count_entry);
+  expect_each_bit_is_seen(spec::texture::kReciprocal, reciprocal_entry);
+  expect_each_bit_is_seen(spec::texture::kSrgbToLinear, srgb_entry);
   for (std::size_t kernel = 0; kernel < 2; ++kernel) {
     for (std::size_t n = 1; n <= 16; ++n) {
       for (std::size_t i = 0; i < 16; ++i) {
@@ -119,31 +128,6 @@ TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
         EXPECT_FALSE(right_weights(kernel, static_cast<int>(n), weights));
       }
     }
-  }
-  for (std::size_t i = 0; i < spec::texture::kLog2Count.size(); ++i) {
-    auto table = spec::texture::kLog2Count;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, count_entry), static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < spec::texture::kReciprocal.size(); ++i) {
-    auto table = spec::texture::kReciprocal;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, reciprocal_entry), static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < spec::texture::kLinearToSrgb.size(); i += 61) {
-    auto table = spec::texture::kLinearToSrgb;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, srgb_code), static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < spec::texture::kLog2Correction.size(); ++i) {
-    auto table = spec::texture::kLog2Correction;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, correction_entry), static_cast<int>(i));
-  }
-  for (std::size_t i = 0; i < spec::texture::kSrgbToLinear.size(); ++i) {
-    auto table = spec::texture::kSrgbToLinear;
-    table[i] ^= 1;
-    EXPECT_EQ(first_wrong(table, srgb_entry), static_cast<int>(i));
   }
 }
 
