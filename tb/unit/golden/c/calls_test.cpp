@@ -258,14 +258,14 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
     const Handle handle(make());
     const std::string engine = deburr_engine(handle.get());
     std::uint64_t value = 0;
-    expect_rejected(handle, "deburr_set: unknown parameter 'presets'; there are preset, ",
+    expect_rejected(handle, "deburr_set: unknown parameter 'presets'; known: preset, ",
                     deburr_set(handle.get(), "presets", "deburr"));
     for (const char* name : {"", ".preset", "preset.", "frame.preset", "Preset"})
       EXPECT_EQ(deburr_set(handle.get(), name, "deburr"), DEBURR_ARGUMENT) << name;
     EXPECT_EQ(deburr_set(handle.get(), (engine + ".preset").c_str(), "deburr"), DEBURR_OK);
     char first[64];
     expect_taken(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
-    expect_rejected(handle, "no counter is named 'pixel'; there are " + std::string(first) + ", ",
+    expect_rejected(handle, "unknown counter 'pixel'; known: " + std::string(first) + ", ",
                     deburr_counter(handle.get(), "pixel", &value));
     std::uint32_t parameters = 0, counters = 0;
     expect_taken(handle, deburr_parameter_count(handle.get(), &parameters));
@@ -288,10 +288,10 @@ TEST(Calls, AHandleOfAnotherEngineIsAnError) {
   const Handle texture(deburr_texture_new()), frames(deburr_morphological_new());
   expect_rejected(
       texture,
-      "a handle of the engine texture was given; it takes one of an engine that smooths frames",
+      "the handle belongs to the engine texture; expected an engine that smooths frames",
       deburr_frame_begin(texture.get(), 1, 1));
-  expect_rejected(frames, "it takes one of texture", deburr_texture_memory(frames.get(), 64));
-  expect_rejected(frames, "it takes one of geometric",
+  expect_rejected(frames, "expected texture", deburr_texture_memory(frames.get(), 64));
+  expect_rejected(frames, "expected geometric",
                   deburr_geometric_edges(frames.get(), nullptr, 0));
 }
 

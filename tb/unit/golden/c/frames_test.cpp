@@ -289,7 +289,7 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
                  deburr_geometric_edges(handle.get(), words.edges.data(), words.edges.size()));
     expect_taken(handle, deburr_geometric_facing(handle.get(), faces, words.facing.data(),
                                                  words.facing.size()));
-    expect_rejected(handle, "the frame has no depth: give one by deburr_frame_depth",
+    expect_rejected(handle, "the frame has no depth: call deburr_frame_depth",
                     deburr_frame_process(handle.get()));
     expect_taken(handle,
                  deburr_frame_depth(handle.get(), frame.depths.data(), frame.depths.size(), 0));
@@ -300,7 +300,7 @@ TEST(Geometric, FramesAreThoseOfTheGoldenModelWithEveryPreset) {
     expect_taken(handle, deburr_geometric_classes(handle.get(), classes.data(), classes.size()));
     for (std::size_t e = 0; e < classes.size(); ++e)
       EXPECT_EQ(classes[e], static_cast<std::uint8_t>(golden.classes()[e]));
-    expect_rejected(handle, "classes_size is 299; 300 edges need as many",
+    expect_rejected(handle, "classes_size is 299, but there are 300 edges",
                     deburr_geometric_classes(handle.get(), classes.data(), classes.size() - 1));
     EXPECT_EQ(counter_of(handle.get(), "edges"), golden.work().edges);
     EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
@@ -352,7 +352,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
     rejected("no frame has been smoothed", deburr_plane(golden, "pixels", bytes.data(), 64, 0));
     for (const auto& [width, height] :
          {std::pair{0u, 1u}, {1u, 0u}, {8193u, 1u}, {1u, 8193u}, {~0u, ~0u}})
-      rejected("1..8192 each way are possible", deburr_frame_begin(golden, width, height));
+      rejected("width and height must be 1..8192", deburr_frame_begin(golden, width, height));
     taken(deburr_frame_begin(golden, 4, 4));
     rejected("pixels is NULL", deburr_frame_pixels(golden, nullptr, 64, 0));
     rejected("pixels_size is 63; 4 rows need 64", deburr_frame_pixels(golden, bytes.data(), 63, 0));
@@ -374,7 +374,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
                     "a depth has 24 bits",
                     deburr_frame_depth(golden, wide.data(), 16, 0));
     rejected("depth 16777216 is outside 0..16777215", deburr_frame_put(golden, 0, 0, 0, 1u << 24));
-    rejected("everything is 2; 0 or 1 are meant", deburr_frame_detail(golden, 2));
+    rejected("everything is 2; it must be 0 or 1", deburr_frame_detail(golden, 2));
     // Of all that was rejected nothing was kept: the frame is black, and opaque.
     taken(deburr_frame_put(golden, 1, 0, 0xFF332211, 5));
     taken(deburr_set(golden, "line_pixels", "64"));
@@ -386,7 +386,7 @@ TEST(BadCalls, GiveAnErrorAndChangeNothing) {
       EXPECT_EQ(number, 0xFF000000);
     };
     is_as_before();
-    rejected("unknown plane 'pixel'; there are pixels, ",
+    rejected("unknown plane 'pixel'; known: pixels, ",
              deburr_plane(golden, "pixel", bytes.data(), 64, 0));
     rejected("plane is NULL", deburr_plane(golden, nullptr, bytes.data(), 64, 0));
     rejected("values_size is 63; 4 rows need 64",
@@ -498,12 +498,12 @@ TEST(BadCalls, OfOneEngineAlone) {
   for (const auto& [i, bits] : {std::pair{0, 1}, {0, 2}, {1, 2}, {2, 1}, {3, 4}, {3, 255}}) {
     edges.assign(4, 0);
     edges[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(bits);
-    expect_rejected(smoother, "has those with a neighbour in the frame", give_edges(4));
+    expect_rejected(smoother, "have a neighbour in the frame", give_edges(4));
   }
   edges = {0, 1, 2, 3};
   expect_taken(smoother, give_edges(4));
   expect_taken(smoother, deburr_frame_process(smoother.get()));
-  expect_rejected(smoother, "the plane 'taps' was not kept: call deburr_frame_detail with 1",
+  expect_rejected(smoother, "the plane 'probes' was not kept: call deburr_frame_detail with 1",
                   deburr_plane(smoother.get(), "probes", edges.data(), 4, 0));
 
   const Handle drawn(deburr_geometric_new());
@@ -515,7 +515,7 @@ TEST(BadCalls, OfOneEngineAlone) {
   expect_rejected(drawn, "words_size is 5; edges have four words each",
                   deburr_geometric_edges(drawn.get(), words.data(), 5));
   expect_rejected(drawn, "words is NULL", deburr_geometric_edges(drawn.get(), nullptr, 4));
-  expect_rejected(drawn, "16777217 edges; at most 2^24 are possible",
+  expect_rejected(drawn, "16777217 edges; the limit is 2^24",
                   deburr_geometric_edges(drawn.get(), words.data(), (std::size_t{1} << 26) + 4));
   expect_rejected(drawn, "the bits of 17 faces need 3 bytes",
                   deburr_geometric_facing(drawn.get(), 17, bits.data(), 2));

@@ -318,7 +318,7 @@ TEST(Levels, MayEndAtTheLastAddressAndReplaceBasesThatAreWrong) {
   const Handle handle = white_texture();
   std::uint64_t behind = 0;
   expect_taken(handle, deburr_texture_field(handle.get(), 0, "base0", "4294967295"));
-  expect_rejected(handle, "the base of a level is no multiple of 64",
+  expect_rejected(handle, "the base of a level is not a multiple of 64",
                   deburr_texture_check(handle.get(), 0), DEBURR_CONFIGURATION);
   expect_taken(handle, deburr_texture_place(handle.get(), 0, (1ull << 32) - 256, &behind));
   EXPECT_EQ(behind, 1ull << 32);
@@ -365,12 +365,12 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
   rejected("is outside the memory", deburr_texture_read(golden, 257, bytes.data(), 0));
   rejected("is outside the memory", deburr_texture_read(golden, 200, bytes.data(), 64));
   rejected("texture 16 is outside 0..15", deburr_texture_register(golden, 16, 0, 0));
-  rejected("offset 2 is none of a descriptor's registers, 0, 4, .. 64",
+  rejected("offset 2 is not a register of a descriptor; expected 0, 4, .. 64",
            deburr_texture_register(golden, 0, 2, 0));
-  rejected("offset 68 is none of a descriptor's registers",
+  rejected("offset 68 is not a register of a descriptor",
            deburr_texture_register(golden, 0, 68, 0));
   rejected("texture 16 is outside 0..15", deburr_texture_field(golden, 16, "width", "4"));
-  rejected("unknown field of a texture 'depth'; there are width, height, format, ",
+  rejected("unknown field of a texture 'depth'; known: width, height, format, ",
            deburr_texture_field(golden, 0, "depth", "4"));
   rejected("max_lod, base0 to base12", deburr_texture_field(golden, 0, "depth", "4"));
   expect_taken(golden, deburr_texture_read(golden, 256, nullptr, 0));
@@ -393,7 +393,7 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
   rejected("texture 1: width or height is zero", deburr_texture_check(golden, 1),
            DEBURR_CONFIGURATION);
   rejected("texture 16 is outside", deburr_texture_check(golden, 16));
-  rejected("address 4 is no multiple of 64", deburr_texture_place(golden, 0, 4, &behind));
+  rejected("address 4 is not a multiple of 64", deburr_texture_place(golden, 0, 4, &behind));
   rejected("would end past address 2^32", deburr_texture_place(golden, 0, 1ull << 32, &behind));
   rejected("would end past address 2^32", deburr_texture_place(golden, 0, ~0ull & ~63ull, &behind));
   rejected("texture 1: width or height is zero", deburr_texture_place(golden, 1, 0, &behind),
@@ -417,7 +417,7 @@ TEST(BadTextureCalls, GiveAnErrorAndChangeNothing) {
   rejected("t is NULL", deburr_texture_quad(golden, 0, 15, 0, s, nullptr, bytes.data()));
   rejected("rgba is NULL", deburr_texture_quad(golden, 0, 15, 0, s, s, nullptr));
   rejected("lane 4 is outside 0..3", deburr_texture_analyse(golden, 0, 4, s, s, "samples", &value));
-  rejected("unknown decision 'sample'; there are valid, ",
+  rejected("unknown decision 'sample'; known: valid, ",
            deburr_texture_analyse(golden, 0, 0, s, s, "sample", &value));
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, nullptr, &value), DEBURR_ARGUMENT);
   EXPECT_EQ(deburr_texture_analyse(golden, 0, 0, s, s, "samples", nullptr), DEBURR_ARGUMENT);
