@@ -21,17 +21,17 @@ import tempfile
 
 ENGINES = pathlib.Path(__file__).resolve().parents[1] / "engines"
 FRAME = re.compile(r"@(\w+)-(\d+)-(\d+)x(\d+)")
-SHOWN = 12  # differences of a run
+SHOWN = 12  # differences shown per run
 
 
 def runs_of(folder):
-    """The runs of an engine's folder, whose name is the engine's."""
+    """The runs listed in an engine's folder, which is named after the engine."""
     lines = (folder / "baselines.txt").read_text(encoding="utf-8").splitlines()
     return [f"{folder.name} {line}" for line in lines if line and not line.startswith("#")]
 
 
 def flat(value, prefix=""):
-    """Every number and word of a tree, by its path."""
+    """Every number and word of a tree, by path."""
     if isinstance(value, dict):
         return {path: leaf for key, inner in value.items()
                 for path, leaf in flat(inner, f"{prefix}{key}.").items()}
@@ -39,7 +39,7 @@ def flat(value, prefix=""):
 
 
 def counts(result):
-    """What of a result is the same on every machine and says how a run went."""
+    """The counts of a result that are equal on every machine."""
     latency = {key: value for key, value in result.get("latency", {}).items() if key != "histogram"}
     parts = {key: result[key] for key in ("cycles", "throughput", "memory", "units", "work")
              if key in result}
@@ -51,7 +51,7 @@ def counts(result):
 
 
 def command_line(run, folder, program):
-    """The words of a run; its pictures are written to `folder`."""
+    """The arguments of a run; its pictures are written to `folder`."""
     def picture(match):
         file = pathlib.Path(folder) / (match[0][1:] + ".png")
         writer = program.parent / "tb/baselines/write_frame"
@@ -61,7 +61,7 @@ def command_line(run, folder, program):
 
 
 def measure(program, run):
-    """The counts of one run; exits with the program's words if it does not pass."""
+    """The counts of one run; exits with the program's output if the run does not pass."""
     with tempfile.TemporaryDirectory(prefix="deburr_baseline_") as folder:
         out = pathlib.Path(folder) / "out"
         command = [program, "run", *command_line(run, folder, program), "--out", out]
@@ -73,7 +73,7 @@ def measure(program, run):
 
 
 def differences(recorded, measured):
-    """Yields what differs between the counts of two runs."""
+    """Yields the differences between the counts of two runs."""
     for path in sorted(recorded.keys() | measured.keys()):
         before, now = recorded.get(path, "absent"), measured.get(path, "absent")
         if before != now:
@@ -94,7 +94,7 @@ def engine_folders():
 
 
 def check(program, folder, record):
-    """Runs a folder's baselines; how many there are, and how many differ."""
+    """Runs a folder's baselines; returns their number and how many differ."""
     file = folder / "baselines.json"
     recorded = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
     runs = runs_of(folder)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes a picture of tb/stimuli to a file, for runs of the command on frames that load every unit.
+// Writes a picture of tb/stimuli to a file, for command runs on frames that load every unit.
 //
 //   write_frame random_edges 200 256 144 FILE   two tenths of all pixels on edges
 //   write_frame diagonals 2 256 144 FILE        diagonals of two pixels

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Speed of the fabric: a pipeline of ten units that pass tokens of 64 bytes, each unit stalled at
-// random in one cycle of eight, against the same work in a plain loop without time.
+// random in one of eight cycles, against the same work in a plain loop without timing.
 //
 //   fabric_bench                               wall time, Mcycle/s
-//   fabric_bench --cycles <mode> <n>           n cycles of one mode and nothing else, for counting
-//       instructions with callgrind (docs/explanation/fabric.md); modes: plain fast slow
-//       shuffled
+//   fabric_bench --cycles <mode> <n>           only n cycles of one mode, for counting instructions
+//       with callgrind (docs/explanation/fabric.md); modes: plain fast slow shuffled
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -28,7 +27,7 @@ namespace {
 using rtl::Activity;
 using rtl::Cycle;
 
-constexpr int kStages = 8;  // and a source and a sink
+constexpr int kStages = 8;  // plus a source and a sink
 
 struct Token {
   std::array<std::uint32_t, 16> words;
@@ -38,7 +37,7 @@ struct Token {
   }
 };
 
-// One register of noise: a linear congruential generator whose top bits decide.
+// Noise from one register: a linear congruential generator; the top bits are used.
 class Noise {
  public:
   explicit Noise(std::uint32_t seed) : state_(seed * 2654435761U + 1) {}
@@ -150,14 +149,14 @@ struct Pipeline {
     }
     sink.tokens_in(*links[kStages]);
   }
-  // SystemC elaborates once in a process, so all benchmarks share the pipeline and go on with it.
+  // SystemC elaborates once per process, so all benchmarks share the pipeline and continue with it.
   static Pipeline& only() {
     static Pipeline pipeline;
     return pipeline;
   }
 };
 
-// The same tokens through the same eight functions, with the noise, but without links and time.
+// The same tokens through the same eight functions, with the noise, but without links and timing.
 std::uint64_t plain(std::uint64_t tokens) {
   std::uint64_t checksum = 0;
   Noise noise(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How fast the bit-exact reference of the geometric engine is. items_per_second counts edges of the
+// Speed of the bit-exact reference of the geometric engine. items_per_second counts edges of the
 // table; goal: a 1080p frame of 30 000 edges in 5 ms, most of which is copying the frame.
 #include <benchmark/benchmark.h>
 

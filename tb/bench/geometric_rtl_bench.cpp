@@ -3,16 +3,15 @@
 //
 //   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
 //       [parameters]]]]]]]
-//       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, some 24 000 columns, passing
-//       the same places so many times (1), with a memory of so many cycles (20), and other
-//       parameters as "fills=128 coverage=area"; cycles, then cycles of both phases and what the
-//       port alone would take, work, stalls, memories
+//       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, about 24 000 columns, <passes>
+//       lines over each place (default 1), a memory latency of <latency> cycles (default 20), and
+//       other parameters such as "fills=128 coverage=area". Prints cycles, cycles of both phases
+//       and the minimum for the port, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n cycles of an engine that waits for a frame
-//   geometric_rtl_bench --dividers      JSON, a row a build and latency: dividers, cycles of the
-//       memory, blended pixels, cycles of the edges, of the resolve, in all
-//   geometric_rtl_bench --ratio <n>     how many times as fast the golden model draws the same
-//   frame,
-//       turn and turn about with the hardware model, so that it means something on a busy machine
+//   geometric_rtl_bench --dividers      JSON, one row per build and latency: dividers, memory
+//       latency in cycles, blended pixels, cycles of the edges, of the resolve, in total
+//   geometric_rtl_bench --ratio <n>     speed of the golden model relative to the hardware model
+//       on the same frame; the two alternate, so the ratio is valid on a busy machine
 #include <fmt/format.h>
 
 #include <array>
@@ -60,15 +59,15 @@ struct Scene {
   std::vector<std::uint32_t> depth = std::vector<std::uint32_t>(std::size_t{kWidth} * kHeight);
 };
 
-// Every fifth edge is a step on a curve that winds over the frame; the others are flat.
-// `passes`: so many rings lie on each other.
+// Every fifth edge is a step on a curve that winds over the frame; the others are flat. `passes`:
+// number of rings on top of each other.
 Scene rings(std::uint32_t passes) {
   Scene scene;
   for (std::uint32_t i = 0; i < kEdges; ++i)
     scene.edges.push_back({i / 5, i / 5 + 1, i % kFaces, (i + 1) % kFaces,
                            static_cast<std::uint8_t>(i % 5 == 0 ? flag::kBoundary : 0)});
   for (std::uint32_t i = 0; i <= kKept; ++i) {
-    // Rings of 60 to 220 steps of some 4 pixels, side by side.
+    // Rings of 60 to 220 steps of about 4 pixels, next to each other.
     const std::uint32_t ring = i / 220 / passes, row = ring / 6;
     const double angle = (i % 220) * 2 * 3.14159265358979 / 220, radius = 60 + ring % 5 * 20;
     const double x = 200 + ring % 6 * 170 + radius * std::cos(angle + ring),
@@ -236,7 +235,7 @@ void ratio(int count) {
 }  // namespace
 }  // namespace deburr::tb
 
-// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends it, and is said.
+// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends the program with its message.
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() >= 2 && arguments[0] == "--frames")

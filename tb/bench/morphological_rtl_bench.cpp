@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Speed of the morphological engine's hardware model on frames of 1920 x 1080.
 //
-//   morphological_rtl_bench                                    wall time, cycles a second, one
-//   lane;
-//       and how many times as fast the golden model smooths the same frame
-//   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   n frames and nothing
-//       else: cycles, stalls, edges, memory bits; for counting instructions with callgrind
+//   morphological_rtl_bench     wall time and cycles per second with one lane, and speed of the
+//       golden model relative to the hardware model on the same frame
+//   morphological_rtl_bench --frames <image> <preset> <lanes> <n> [memory]   only n frames:
+//       cycles, stalls, edges, memory bits; for counting instructions with callgrind
 //   morphological_rtl_bench --trade                            bits of the edge memories and cycles
 //       of a frame by predictors and trial_cycles: the table of
-//       docs/reference/morphological/index.md
-// Images: facets (slanted halves in cells of 32 pixels, some 10 % edge pixels), noise, flat,
+//       docs/reference/morphological/hardware.md
+// Images: facets (slanted halves in cells of 32 pixels, about 10 % edge pixels), noise, flat,
 // stripes.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -93,7 +92,7 @@ Parameters parameters(const std::string& preset, int lanes) {
   return p;
 }
 
-// The engine with as little as possible around it.
+// The engine in a minimal environment.
 struct Setup {
   rtl::ClockDomain clock{"clock", sc_core::sc_time(1, sc_core::SC_NS)};
   rtl::Link<spec::morphological::PixelBeat> in{"in"};
@@ -136,7 +135,7 @@ struct Setup {
   }
 };
 
-// SystemC elaborates once in a process, so all benchmarks weight the engine.
+// SystemC elaborates once per process, so all benchmarks share the engine.
 Setup& setup_of(const std::string& image) {
   static Setup setup(parameters("deburr-line", 1));
   setup.frame = beats(image, 1);
@@ -144,7 +143,7 @@ Setup& setup_of(const std::string& image) {
 }
 
 Cycle run_frame(Setup& setup) {
-  // The driver stops at the end of a frame; a reset lets it start again.
+  // The driver stops at the end of a frame; a reset restarts it.
   setup.clock.set_reset_n(false);
   setup.clock.run(1);
   setup.clock.set_reset_n(true);
@@ -163,8 +162,7 @@ BENCHMARK_CAPTURE(bm_engine, facets, std::string("facets"))->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(bm_engine, flat, std::string("flat"))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(bm_engine, noise, std::string("noise"))->Unit(benchmark::kMillisecond);
 
-// The golden model on the same frame, turn and turn about with the hardware model, so that the
-// ratio means something on a machine with other work to do.
+// The golden model on the same frame, in turns, so that the ratio is valid on a busy machine.
 using golden::morphological::MorphologicalGolden;
 void bm_golden_over_rtl(benchmark::State& state, MorphologicalGolden::Detail detail) {
   Setup& setup = setup_of("facets");
@@ -219,8 +217,8 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   return 0;
 }
 
-// A row of the trade: what the edge memories are built of, and the cycles of frames over those of
-// the formula. In a process of its own.
+// One row of the trade table: bits of the edge memories, and cycles of frames in excess of the
+// formula. Runs in its own process.
 std::string trade(int predictors, int trial_cycles) {
   Parameters p = parameters("deburr-line", 1);
   p.predictor_units = predictors;
@@ -265,7 +263,7 @@ int print_trade() {
 }  // namespace
 }  // namespace deburr::tb
 
-// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends it, and is said.
+// NOLINTNEXTLINE(bugprone-exception-escape): an exception ends the program with its message.
 int main(int argc, char** argv) {
   if (argc >= 6 && std::strcmp(argv[1], "--frames") == 0)
     return deburr::tb::count_instructions(argv[2], argv[3], std::atoi(argv[4]),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C++ side of tb/bench/python_golden.py: smooths a frame so many times with one golden model.
+// The C++ side of tb/bench/python_golden.py: smooths a frame TIMES times with one golden model.
 //
 // usage: python_frames FILE WIDTH HEIGHT PRESET TIMES; FILE holds R, G, B, A of each pixel
 #include <cstdio>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Golden models through Python beside C++, in instructions, which no other program's work moves.
+# Compares golden models called from Python and from C++ in instructions, which do not depend on other load.
 add_executable(python_frames "${CMAKE_CURRENT_LIST_DIR}/python_frames.cpp")
 target_link_libraries(python_frames PRIVATE deburr::golden_morphological deburr_options)
 if(TARGET deburr_python AND CMAKE_BUILD_TYPE STREQUAL "Release")

@@ -13,7 +13,7 @@ import tempfile
 
 LIMIT = 1.05
 WIDTH, HEIGHT = 1920, 1080
-FRAMES = (1, 3)  # what is there in both is no frame's
+FRAMES = (1, 3)  # their difference cancels start-up
 PROGRAM = """
 import sys
 sys.path.insert(0, sys.argv[1])
@@ -28,7 +28,7 @@ print(frame.work.blended_pixels)
 
 
 def drawn():
-    """Discs and slanted bars of many colours: about a tenth of the pixels stands on edges."""
+    """Discs and slanted bars of many colours: about a tenth of the pixels are edges."""
     import numpy
     random = numpy.random.default_rng(5)
     y, x = numpy.mgrid[0:HEIGHT, 0:WIDTH]
@@ -44,7 +44,7 @@ def drawn():
 
 
 def instructions(folder, *command):
-    """All that a command takes, and what it says."""
+    """Instructions and output of a command."""
     out = folder / "callgrind.out"
     done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *command], text=True,
                           capture_output=True, check=False, env={"PATH": "/usr/bin:/bin", "PYTHONHASHSEED": "0",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How fast the bit-exact reference of the texture unit is. items_per_second counts samples (a
+// Speed of the bit-exact reference of the texture unit. items_per_second counts samples (a
 // trilinear sample is two bilinear requests); goal: 10 M/s trilinear without traffic prediction.
-// --samples NAME N filters about N samples and prints how many, for tb/speed.
+// --samples NAME N filters about N samples and prints the exact number, for tb/speed.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -63,7 +63,7 @@ BENCHMARK(trilinear_colours_and_traffic);
 BENCHMARK(anisotropic_colours);
 BENCHMARK(anisotropic_colours_and_traffic);
 
-// Whole planes until `wanted` samples are filtered; how many they were.
+// Filters whole planes until at least `wanted` samples are done; returns their number.
 std::uint64_t filter(bool anisotropic, TextureGolden::Traffic traffic, std::uint64_t wanted) {
   const tb::texture::EncodedTexture texture(picture(), trilinear(anisotropic ? 4 : 0));
   const std::vector<spec::texture::Quad> quads = GroundPlane{.size = 128, .height = 0.3}.quads();

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Speed of the texture unit's hardware model: the whole unit with cache, memory port and a TLM
-// memory of 100 cycles latency, tracing off.
+// memory of 100 cycles latency, without tracing.
 //
-//   texture_rtl_bench    Mcycle/s, bilinears/s, instructions per cycle where the processor's
-//   counters
-//       may be read, and how many times as fast the golden model filters the same fragments
-//   texture_rtl_bench --cycles <workload> <n>    n cycles of one workload and nothing else, for
-//       counting instructions with callgrind; workloads: nearest trilinear anisotropic warm, by the
-//       paper's rules; with deburr_ before the name by the preset deburr
+//   texture_rtl_bench    Mcycle/s, bilinears/s, instructions per cycle if the processor's counters
+//       are readable, and speed of the golden model relative to it on the same fragments
+//   texture_rtl_bench --cycles <workload> <n>    only n cycles of one workload, for counting
+//       instructions with callgrind; workloads: nearest trilinear anisotropic warm, with the
+//       paper's configuration; with the prefix deburr_ the preset deburr
 #include <benchmark/benchmark.h>
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
@@ -42,18 +41,18 @@ namespace {
 using rtl::Activity;
 using rtl::Cycle;
 
-constexpr int kSize = 1024;  // of the texture, texels
+constexpr int kSize = 1024;  // texture side in texels
 constexpr std::int32_t kTexel = spec::texture::kCoordinateOne / kSize;
 
 enum class Workload : std::uint8_t { kNearest, kTrilinear, kAnisotropic, kWarm };
 constexpr std::array<const char*, 4> kWorkloads = {"nearest", "trilinear", "anisotropic", "warm"};
 
-// Quad number `count` of a picture that is gone over in blocks of 8 x 8 pixels, for ever.
+// Quad number `count` of an endless scan in blocks of 8 x 8 pixels.
 spec::texture::Quad quad_of(Workload workload, std::uint32_t count) {
   spec::texture::Quad q;
   q.tag = count;
   q.texture = static_cast<std::uint8_t>(workload);
-  // Texels a pixel in x and y. Anisotropic: 12 to 1.5.
+  // Texels per pixel in x and y. Anisotropic: 12 to 1.5.
   const std::int32_t dx = workload == Workload::kAnisotropic ? 12 * kTexel : 3 * kTexel / 2;
   const std::int32_t dy = 3 * kTexel / 2;
   const std::uint32_t block = workload == Workload::kWarm ? 0 : count / 16;
@@ -135,7 +134,7 @@ platform::MemoryModelParameters memory_parameters() {
   return p;
 }
 
-// SystemC elaborates once in a process, so all benchmarks share the unit.
+// SystemC elaborates once per process, so all benchmarks share the unit.
 struct System {
   explicit System(const spec::texture::Parameters& parameters)
       : unit("texture", clock, with_fifo(parameters)) {
@@ -161,7 +160,7 @@ struct System {
   platform::RegisterHost host{"host"};
   platform::TextureDriver driver{host, memory};
 
-  // The first call says by which rules.
+  // The first call selects the configuration.
   static System& only(
       const spec::texture::Parameters& parameters = stimuli::paper_configuration()) {
     static System system(parameters);
@@ -179,7 +178,7 @@ struct System {
   std::uint64_t bilinears() const { return unit.address.addresser.bilinears.value(); }
 };
 
-// Instructions of this process in user mode; 0 where the kernel does not give them.
+// Counts instructions of this process in user mode; 0 if the kernel does not allow it.
 class InstructionCounter {
  public:
   InstructionCounter() {
@@ -221,8 +220,7 @@ void bm_texture_rtl(benchmark::State& state, Workload workload) {
         static_cast<double>(instructions.value() - counted) / cycles;
 }
 
-// The golden model on the same fragments, turn and turn about with the hardware model, so that the
-// ratio means something on a machine with other work to do.
+// The golden model on the same fragments, in turns, so that the ratio is valid on a busy machine.
 void bm_golden_over_rtl(benchmark::State& state, Workload workload,
                         golden::texture::TextureGolden::Traffic traffic) {
   constexpr Cycle kCycles = 50'000;

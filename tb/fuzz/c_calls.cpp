@@ -16,12 +16,12 @@
 namespace deburr::tb {
 namespace {
 
-// A frame and a memory of more would be slow, and find nothing else.
+// Larger frames or memories would be slow and find nothing else.
 constexpr std::uint32_t kMostPixels = 1 << 14;
 constexpr std::uint32_t kMostMemory = 1 << 18;
 constexpr std::size_t kMostElements = 1 << 12;
 
-// Words that a mutation of letters would rarely meet; other texts are taken from the input.
+// Words that random mutation would rarely produce; other texts are taken from the input.
 constexpr std::array<const char*, 46> kWords = {"preset",
                                                 "quality",
                                                 "deburr",
@@ -99,7 +99,7 @@ class Input {
     rest_.remove_prefix(1);
     return value;
   }
-  // Small numbers in one byte; what is larger in four behind 255.
+  // Small numbers take one byte; larger ones take four after 255.
   std::uint32_t number() {
     const std::uint32_t first = byte();
     if (first != 255) return first;
@@ -122,7 +122,7 @@ class Input {
   std::string_view rest_;
 };
 
-// An array of its own for each call, so that a sanitizer sees what is read or written beyond it.
+// A separate array for each call, so that a sanitizer detects accesses beyond its end.
 template <class Element>
 class Array {
  public:
@@ -168,7 +168,7 @@ class Calls {
   using Call = std::function<void(Calls&)>;
   static const std::vector<Call>& all();
 
-  // One of all, or none; the numbers behind it are any.
+  // One of all handles, or null.
   deburr_golden* handle() {
     const std::uint32_t which = input_.byte() % 16;
     return which == 15 ? nullptr : handles_[which % handles_.size()].get();
@@ -359,7 +359,7 @@ const std::vector<Calls::Call>& Calls::all() {
   return calls;
 }
 
-// Writes what Input reads.
+// Writes the format that Input reads.
 class Seed {
  public:
   Seed& bytes(std::initializer_list<int> values) {
@@ -391,7 +391,7 @@ class Seed {
   std::string text_;
 };
 
-// The place of a handle.
+// Index of the handle made by a function.
 constexpr int place(golden::c::MakeHandle make) {
   const auto& all = golden::c::kMakeHandle;
   return static_cast<int>(std::find(all.begin(), all.end(), make) - all.begin());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C interface as a fuzz target: an input is a sequence of calls, with handles, names and arrays
-// of any kind.
+// The C interface as a fuzz target: an input is a sequence of calls with arbitrary handles, names
+// and arrays.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace deburr::tb {
 
-// Throws for a call that fails by anything but a wrong argument or configuration, says nothing of
-// why, or has written into an array although it failed.
+// Throws if a call fails for another reason than a wrong argument or configuration, fails without a
+// message, or has written to an array although it failed.
 void c_calls(std::string_view bytes);
 std::vector<std::string> c_calls_seeds();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program of libFuzzer for the target that it is compiled for; its main() is libFuzzer's.
+// A libFuzzer program for the target that it is compiled for; libFuzzer provides main().
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every fuzz target on its seeds, on seeds that are spoilt in a few thousand ways, and on every
-// input that a fuzzer ever found, tb/fuzz/found/TARGET-NAME: taken or rejected by name. It needs no
-// clang.
+// Runs every fuzz target on its seeds, on a few thousand mutations of them, and on every input that
+// a fuzzer found (tb/fuzz/found/TARGET-NAME): each must be accepted, or rejected by a named error.
+// Does not need clang.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ class Replay : public testing::TestWithParam<std::string> {
   const FuzzTarget& target = fuzz_target(GetParam());
 };
 
-TEST_P(Replay, WhatWasFound) {
+TEST_P(Replay, FoundInputsAreHandled) {
   std::size_t found = 0;
   for (const fs::directory_entry& entry :
        fs::directory_iterator(source_folder() / "tb/fuzz/found")) {
@@ -42,15 +42,15 @@ TEST_P(Replay, WhatWasFound) {
   RecordProperty("inputs", static_cast<int>(found));
 }
 
-TEST_P(Replay, CutAnywhere) {
+TEST_P(Replay, TruncatedSeedsAreHandled) {
   for (const std::string& seed : target.seeds())
     for (std::size_t length = 0; length <= seed.size();
          length += std::max<std::size_t>(1, seed.size() / 200))
       EXPECT_NO_THROW(target.run(std::string_view(seed).substr(0, length))) << length;
 }
 
-// Bytes flipped, blocks moved, numbers made large: the same spoilt seeds on every machine.
-TEST_P(Replay, SpoiltSeeds) {
+// Flipped bytes, moved blocks, large numbers: the same mutations on every machine.
+TEST_P(Replay, MutatedSeedsAreHandled) {
   Random random(1, target.name);
   for (const std::string& seed : target.seeds()) {
     for (int i = 0; i < 400; ++i) {
@@ -88,8 +88,7 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(names()),
                          [](const auto& p) { return p.param; });
 
-// Seeds that are rejected at once would lead nowhere.
-TEST(FuzzTargets, HaveSeeds) {
+TEST(FuzzTargets, EveryTargetHasSeeds) {
   for (const FuzzTarget& target : fuzz_targets()) EXPECT_FALSE(target.seeds().empty());
   EXPECT_THROW(fuzz_target("nothing"), std::invalid_argument);
 }

@@ -49,7 +49,7 @@ class RunFolder {
   fs::path path_;
 };
 
-// A value of another kind is an error of the JSON library, which the command names (exit code 5).
+// A wrong type is an error of the JSON library, which the command reports (exit code 5).
 template <class Read>
 void taken_or_damaged(Read&& read) {
   try {
@@ -101,7 +101,7 @@ void run_files(std::string_view bytes) {
 
 std::vector<std::string> run_files_seeds() {
   Json result = to_json(small_result());
-  // libFuzzer makes inputs of at most 4096 bytes.
+  // libFuzzer's inputs have at most 4096 bytes.
   for (Json all = std::move(result["meaning"]); const char* key : {"cycles", "work.samples"})
     result["meaning"][key] = all[key];
   result["maps"]["a"]["picture"] = "map_a.png";

@@ -8,8 +8,7 @@
 
 namespace deburr::tb {
 
-// `bytes` are result.json, manifest.json, intervals.json and map_a.pfm, with a line of --- between
-// two of them.
+// `bytes`: result.json, manifest.json, intervals.json and map_a.pfm, separated by --- lines.
 void run_files(std::string_view bytes);
 std::vector<std::string> run_files_seeds();
 

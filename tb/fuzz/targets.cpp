@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The input as a file, since that is what the readers are given; gone with this object.
+// The input as a temporary file, because the readers take files.
 class InputFile {
  public:
   InputFile(std::string_view bytes, std::string_view extension)
@@ -51,7 +51,7 @@ class InputFile {
   fs::path file_;
 };
 
-// Rejected by a named error is as good as taken.
+// Accepts success and named errors alike.
 template <class Read>
 void taken_or_rejected(Read&& read) {
   try {
@@ -93,7 +93,7 @@ void mesh(std::string_view bytes, std::string_view extension, const ImportOption
         require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
   });
 }
-// As a mesh, and as the materials of one; images that they name are not read.
+// Read as a mesh, and as the materials of one; images that they name are not read.
 void obj(std::string_view bytes) {
   mesh(bytes, ".obj");
   const InputFile materials(bytes, ".mtl");
@@ -120,7 +120,7 @@ void configurations(std::string_view bytes) {
   engines.add_to(set);
   taken_or_rejected([&] {
     set.load(file.path());
-    // What was taken is written as what is taken again.
+    // Accepted input must survive a write and a second read.
     const std::string resolved = set.resolved().dump(), yaml = set.yaml();
     const InputFile again(yaml, ".again.yaml");
     set.load(again.path());
@@ -130,7 +130,7 @@ void configurations(std::string_view bytes) {
 
 void weights(std::string_view bytes) {
   taken_or_rejected([&] {
-    // What was taken is written as what is taken again.
+    // Accepted input must survive a write and a second read.
     const auto read = stimuli::parse_weight_file("input", bytes);
     const std::string text = stimuli::weight_file_text(read, {});
     const auto again = stimuli::parse_weight_file("again", text);
@@ -158,7 +158,7 @@ constexpr std::string_view kGltf =
     R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],"accessors":[)"
     R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
     R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
-// A morph target whose values are sparse, instances, zeros, a hidden node, images of every kind.
+// A morph target with sparse values, instances, zeros, a hidden node, images of every kind.
 constexpr std::string_view kGltfExtensions =
     R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing","ACME"],)"
     R"("nodes":[{"mesh":0,"weights":[0.5],"extensions":{"EXT_mesh_gpu_instancing":{)"
@@ -181,7 +181,7 @@ constexpr std::string_view kGltfExtensions =
     R"("count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"byteOffset":12,)"
     R"("componentType":5121},"values":{"bufferView":2}}},{"componentType":5126,"count":3,)"
     R"("type":"VEC2"},{"componentType":5126,"count":3,"type":"VEC4"}]})";
-// Lists in lists, a node that is drawn twice.
+// Nested lists, and a node that is drawn twice.
 constexpr std::string_view kGltfNested =
     R"({"asset":{"version":"2.0"},"extensionsUsed":["A\u001b"],"extras":[[[[[[[[{"a":[["\\"]]}]]]]]]]],"nodes":[{)"
     R"("children":[1,1]},{"children":[2,2]},{"mesh":0}],"meshes":[{"primitives":[{)"
@@ -192,8 +192,8 @@ constexpr std::string_view kTrace =
     "quad 0 f f 0 10 20 0.5 0.25 0.51 0.25 0.5 0.26 0.51 0.26\n"
     "fragment 0 13 21 0.53 0.26 0.01 0 0 0.01\nfragment 1 - - 0.25 0.75 0.001 0 0 0.004\nend 3\n";
 
-// In hexadecimal digits: colours with alpha, straight or multiplied by it; of the EXR a part lies
-// outside its display window. And a depth of 16 bits.
+// In hexadecimal: colours with alpha, straight or premultiplied; a part of the EXR lies outside its
+// display window. And a depth of 16 bits.
 constexpr std::string_view kWebp =
     "524946463a000000574542505650384c2d0000002f030000101f20242053a2672e111210aaffbbdc91850484e6ff"
     "482724210161baecaf1e2abf55c0a85344ff0300";
@@ -255,7 +255,7 @@ std::vector<std::string> obj_seeds() {
   return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};
 }
 
-// The same as .gltf and as .glb.
+// The same mesh as .gltf and as .glb.
 std::vector<std::string> gltf_seeds() {
   std::vector<std::string> seeds;
   for (const std::string_view text : {kGltf, kGltfExtensions, kGltfNested}) {
@@ -298,7 +298,7 @@ std::vector<std::string> traces_seeds() {
   return seeds;
 }
 
-// The first parameters of each engine, as a map and by dotted names; and all of them.
+// The first parameters of each engine, as a map and by dotted names; and all parameters.
 std::vector<std::string> configurations_seeds() {
   EngineParameters engines;
   ParameterSet set;

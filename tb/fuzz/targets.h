@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is fuzzed: everything that reads bytes which somebody else wrote, and the C interface, whose
-// calls somebody else makes. An input is taken, or rejected by a named error (spec/error.h); any
-// other exception, a crash, a leak or a hang is a bug. The same functions run under libFuzzer
-// (fuzzer.cpp) and on what it once found (replay_test.cpp).
+// The fuzz targets: all readers of external data, and the C interface, which external code calls.
+// An input is accepted, or rejected by a named error (spec/error.h); any other exception, a crash,
+// a leak or a hang is a bug. The same functions run under libFuzzer (fuzzer.cpp) and on inputs that
+// it found before (replay_test.cpp).
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace deburr::tb {
 struct FuzzTarget {
   std::string_view name;
   void (*run)(std::string_view bytes);
-  std::vector<std::string> (*seeds)();  // small inputs that are taken; others are made of them
+  std::vector<std::string> (*seeds)();  // small accepted inputs, the starting point of mutations
 };
 
 // pictures, depths, obj, gltf, traces, configurations, run_files, weights, c_calls

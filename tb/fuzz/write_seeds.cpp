@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// write_seeds TARGET DIRECTORY: the inputs that a fuzzer begins with, one a file.
+// write_seeds TARGET DIRECTORY: writes a fuzzer's initial inputs, one per file.
 #include <cstdio>
 #include <exception>
 #include <filesystem>

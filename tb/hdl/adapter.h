@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A unit of hdl/, verilated, in the place of a SystemC unit: the same links at both ends, the same
+// Replaces a SystemC unit by a verilated unit of hdl/ with the same links at both ends and the same
 // clock.
 //
-// A clock is two evaluations. Before the edge the unit sees what its links offer: in_valid and
-// in_data of can_pop() and front(), out_ready of can_push(). Its answers in_pop and out_push with
-// out_data become the pop and the push of this clock. Then comes the edge. So links and everything
-// around them stay what they are, and it does not matter which side of a link is ticked first.
+// A cycle takes two evaluations. Before the clock edge the unit sees its links' state: in_valid and
+// in_data from can_pop() and front(), out_ready from can_push(). Its outputs in_pop, out_push and
+// out_data become the pop and the push of this cycle. Then comes the edge. So links and surrounding
+// units are unchanged, and the order in which the two sides of a link are ticked does not matter.
 //
-// Include this header before any of SystemC: Verilator's headers come first.
+// Include this header before any SystemC header: Verilator's headers must come first.
 #pragma once
 
 #include <verilated.h>
@@ -29,7 +29,7 @@
 
 namespace deburr::tb::hdl {
 
-// The bits of a beat in words of 32, as a port of a verilated model has them.
+// The bits of a beat as 32-bit words, like the port of a verilated model.
 inline constexpr std::size_t kMostWords = 20;
 using Words = std::array<std::uint32_t, kMostWords>;
 
@@ -49,7 +49,7 @@ inline std::uint64_t extract(const Words& words, std::uint32_t first, std::uint3
   }
   return bits == 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
-// Word by word: bit by bit packing would cost more than the model's own evaluation.
+// Packs word by word: packing bit by bit would cost more than the model's own evaluation.
 inline Words packed(const rtl::Payload& payload, const void* beat) {
   Words words{};
   for (const rtl::Field& field : payload.fields())
@@ -61,7 +61,7 @@ inline void unpack(const rtl::Payload& payload, const Words& words, void* beat) 
     field.set(static_cast<std::byte*>(beat), extract(words, field.first_bit, field.bits));
 }
 
-// A port of any width; bits beyond it are dropped.
+// Drives a port of any width; excess bits are dropped.
 template <class Port>
 void to_port(Port& port, const Words& words, std::uint32_t bits) {
   if constexpr (std::is_integral_v<Port>) {
@@ -84,16 +84,16 @@ Words from_port(const Port& port, std::uint32_t bits) {
   return words;
 }
 
-// A model whose registers without a reset hold noise at first (--x-initial unique).
+// A model whose registers without reset start with noise (--x-initial unique).
 template <class Model>
 std::unique_ptr<Model> made_with_noise(VerilatedContext& context, Random& noise) {
   context.randReset(2);
-  context.randSeed(static_cast<int>(noise.word() >> 1 | 1));  // 0 would be another one in each run
+  context.randSeed(
+      static_cast<int>(noise.word() >> 1 | 1));  // with 0 each run would use another seed
   return std::make_unique<Model>(&context, "model");
 }
 
-// What a link before the unit shows it before the edge. What an empty one shows means nothing:
-// noise.
+// Drives the input port before the edge. An empty link drives noise as data.
 template <class T, class Valid, class Port>
 void show(rtl::In<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, Random& noise,
           Valid& valid, Port& port, bool admits = true) {
@@ -106,7 +106,7 @@ void show(rtl::In<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, Rand
     to_port(port, words, payload.bits());
   }
 }
-// What the unit pushes into a link after it.
+// Applies the unit's push to its output link.
 template <class T, class Port>
 T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const Port& port) {
   T beat{};
@@ -115,11 +115,11 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
   return beat;
 }
 
-// A unit at two ports that stand anywhere: its own, or those of a SystemC unit whose work it does.
+// A unit at given ports: its own, or those of the SystemC unit that it replaces.
 template <class Model, class From, class To>
 class VerilatedAt : public rtl::Unit {
  public:
-  // `seed`: of all noise.
+  // `seed`: for all noise.
   VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
               rtl::In<From>& in, rtl::Out<To>& out)
       : Unit(name, clock),
@@ -134,7 +134,7 @@ class VerilatedAt : public rtl::Unit {
   ~VerilatedAt() override { model_->final(); }
 
   Model& model() { return *model_; }
-  // What the unit says before each edge.
+  // Called before each edge.
   std::function<void(Model&)> on_clock;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
@@ -151,14 +151,14 @@ class VerilatedAt : public rtl::Unit {
     model_->eval();
     return pushes || pops ? rtl::kBusy : ready ? rtl::kIdle : rtl::kStalledDownstream;
   }
-  // A reset takes a clock of its own.
+  // A reset takes an additional cycle.
   void reset() override {
     model_->rst_n = 0;
     edge();
     model_->rst_n = 1;
   }
-  // A clock between those of the domain, in which the unit is empty and its links do nothing: for a
-  // write of a register.
+  // An additional cycle between the domain's, in which the unit is empty and its links are idle:
+  // used for a register write.
   void edge() {
     model_->in_valid = 0;
     model_->out_ready = 0;
@@ -169,7 +169,7 @@ class VerilatedAt : public rtl::Unit {
   }
 
  private:
-  // Whether it may see what waits for it, and what it did.
+  // Hooks: admit the waiting beat; after a pop; after a push.
   virtual bool admits() const { return true; }
   virtual void popped(rtl::Cycle, const From&) {}
   virtual void pushed(rtl::Cycle, const To&) {}
@@ -182,7 +182,7 @@ class VerilatedAt : public rtl::Unit {
   std::unique_ptr<Model> model_;
 };
 
-// With ports of its own.
+// A unit with its own ports.
 template <class Model, class From, class To>
 class VerilatedUnit final : public VerilatedAt<Model, From, To> {
  public:
@@ -193,7 +193,7 @@ class VerilatedUnit final : public VerilatedAt<Model, From, To> {
   rtl::Out<To> beats_out{"beats_out"};
 };
 
-// Writes the words of a descriptor into the descriptors of a verilated unit.
+// Writes the words of a descriptor into a verilated unit.
 template <class Unit>
 void write_word(Unit& unit, std::uint32_t handle, std::uint32_t word, std::uint32_t value) {
   auto& model = unit.model();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The address unit of hdl/texture: what comes out is what the golden model's functions say, and
-// every clock of it is the SystemC unit's, under random stalls at both ends and after resets in the
-// middle of its work, by every rule.
+// Compares the address unit of hdl/texture: results with the golden model's functions, and every
+// cycle with the SystemC unit, under random stalls at both ends and after resets in mid-work, for
+// every option.
 #include <VAddressCapped.h>
 #include <VAddressCeil.h>
 #include <VAddressDeburr.h>
@@ -45,8 +45,7 @@ using hdl::stalled;
 using hdl::VerilatedUnit;
 using spec::texture::Quad;
 
-// A request of the fragment of an invalid descriptor carries its ticket and nothing else that
-// counts.
+// Masks don't-care fields: with an invalid descriptor only the ticket is valid.
 hw::TexelToken what_counts(const hw::TexelToken& token) {
   if (token.ticket.valid) return token;
   hw::TexelToken normal{};
@@ -56,7 +55,7 @@ hw::TexelToken what_counts(const hw::TexelToken& token) {
   return normal;
 }
 
-// The requests of a quad, by the golden model.
+// The requests of a quad by the golden model.
 void append_requests(const spec::texture::Parameters& configuration, const Descriptors& descriptors,
                      const std::array<bool, 16>& valid, const Quad& q,
                      std::vector<hw::TexelToken>& all) {
@@ -121,14 +120,14 @@ void append_requests(const spec::texture::Parameters& configuration, const Descr
 
 struct Result {
   std::uint64_t quads = 0, requests = 0, broken_off = 0;
-  std::uint64_t golden_differ = 0;                       // requests that are not the golden model's
-  std::uint64_t payloads_differ = 0, cycles_differ = 0;  // from the SystemC unit
+  std::uint64_t golden_differ = 0;  // requests that differ from the golden model's
+  std::uint64_t payloads_differ = 0, cycles_differ = 0;  // differences from the SystemC unit
   bool finished = true;
   std::string first;
 };
 
-// Batches of quads with new descriptors each, of which some are invalid. `permille` of the cycles
-// are stalls, at both ends. Each batch is broken off by a reset once, and begins again.
+// Batches of quads with new descriptors each, some of them invalid. `permille` of the cycles are
+// stalls, at both ends. Each batch is aborted by a reset once, then repeated.
 template <class Model>
 Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t permille,
                std::uint64_t seed = 1) {
@@ -233,7 +232,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
                  sink_of_counterpart.received() >= wanted.size();
         },
         20 * wanted.size() + 10'000);
-    clock.run(100);  // none too many
+    clock.run(100);  // no excess requests
     result.quads += quads.size();
     result.requests += wanted.size();
     result.finished &= finished && sink_of_counterpart.received() == wanted.size();
@@ -260,56 +259,72 @@ void expect_equal_unit(const char* settings) {
   EXPECT_GE(r.broken_off, 10u);
 }
 
-TEST(CounterpartAddressUnit, Paper) { expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper); }
-TEST(CounterpartAddressUnit, Deburr) { expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr); }
-TEST(CounterpartAddressUnit, Ceil) { expect_equal_unit<VAddressCeil>(hdl::kVAddressCeil); }
-TEST(CounterpartAddressUnit, Quarter) { expect_equal_unit<VAddressQuarter>(hdl::kVAddressQuarter); }
-TEST(CounterpartAddressUnit, Capped) { expect_equal_unit<VAddressCapped>(hdl::kVAddressCapped); }
-TEST(CounterpartAddressUnit, Max) { expect_equal_unit<VAddressMax>(hdl::kVAddressMax); }
-TEST(CounterpartAddressUnit, Tent) { expect_equal_unit<VAddressTent>(hdl::kVAddressTent); }
-TEST(CounterpartAddressUnit, FourInTwo) {
+TEST(CounterpartAddressUnit, MatchesPaperPreset) {
+  expect_equal_unit<VAddressPaper>(hdl::kVAddressPaper);
+}
+TEST(CounterpartAddressUnit, MatchesDeburrPreset) {
+  expect_equal_unit<VAddressDeburr>(hdl::kVAddressDeburr);
+}
+TEST(CounterpartAddressUnit, MatchesCeilCount) {
+  expect_equal_unit<VAddressCeil>(hdl::kVAddressCeil);
+}
+TEST(CounterpartAddressUnit, MatchesQuarterFootprint) {
+  expect_equal_unit<VAddressQuarter>(hdl::kVAddressQuarter);
+}
+TEST(CounterpartAddressUnit, MatchesCappedCount) {
+  expect_equal_unit<VAddressCapped>(hdl::kVAddressCapped);
+}
+TEST(CounterpartAddressUnit, MatchesMaxFootprint) {
+  expect_equal_unit<VAddressMax>(hdl::kVAddressMax);
+}
+TEST(CounterpartAddressUnit, MatchesTentKernel) {
+  expect_equal_unit<VAddressTent>(hdl::kVAddressTent);
+}
+TEST(CounterpartAddressUnit, MatchesFourAxesInTwoCycles) {
   expect_equal_unit<VAddressFourInTwo>(hdl::kVAddressFourInTwo);
 }
-TEST(CounterpartAddressUnit, Eight) { expect_equal_unit<VAddressEight>(hdl::kVAddressEight); }
-TEST(CounterpartAddressUnit, EightInTwo) {
+TEST(CounterpartAddressUnit, MatchesEightAxes) {
+  expect_equal_unit<VAddressEight>(hdl::kVAddressEight);
+}
+TEST(CounterpartAddressUnit, MatchesEightAxesInTwoCycles) {
   expect_equal_unit<VAddressEightInTwo>(hdl::kVAddressEightInTwo);
 }
-TEST(CounterpartAddressUnit, EightInFour) {
+TEST(CounterpartAddressUnit, MatchesEightAxesInFourCycles) {
   expect_equal_unit<VAddressEightInFour>(hdl::kVAddressEightInFour);
 }
 
-// Without stalls, and with a sink that hardly takes anything.
-TEST(CounterpartAddressUnit, FreeAndBlocked) {
+// Without stalls, and with a sink that is stalled most of the time.
+TEST(CounterpartAddressUnit, MatchesWithoutStalls) {
   const Result r = compare<VAddressDeburr>(hdl::kVAddressDeburr, 100'000, 0, 5);
   EXPECT_TRUE(r.finished && r.golden_differ + r.payloads_differ + r.cycles_differ == 0) << r.first;
 }
-TEST(CounterpartAddressUnit, HardlyMoves) {
+TEST(CounterpartAddressUnit, MatchesUnderHeavyStalls) {
   const Result r = compare<VAddressDeburr>(hdl::kVAddressDeburr, 50'000, 800, 6);
   EXPECT_TRUE(r.finished && r.golden_differ + r.payloads_differ + r.cycles_differ == 0) << r.first;
 }
 
-// ---- injected faults in the SystemVerilog, each seen
+// ---- injected faults in the SystemVerilog
 
-TEST(TwinAddressUnitFaults, AWrongNeighbourOfALane) {
+TEST(TwinAddressUnitFaults, WrongNeighbourLaneIsDetected) {
   EXPECT_GE(compare<VAddressWrongLane>(hdl::kVAddressWrongLane, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, TheLaterOneOfEqualCandidates) {
+TEST(TwinAddressUnitFaults, LaterOfEqualCandidatesIsDetected) {
   EXPECT_GE(compare<VAddressWrongEqual>(hdl::kVAddressWrongEqual, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, AMortonIndexWithXAndYChanged) {
+TEST(TwinAddressUnitFaults, SwappedMortonIndexIsDetected) {
   EXPECT_GE(compare<VAddressWrongMorton>(hdl::kVAddressWrongMorton, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, APitchThatIsNotRoundedUp) {
+TEST(TwinAddressUnitFaults, UnroundedPitchIsDetected) {
   EXPECT_GE(compare<VAddressUnevenPitch>(hdl::kVAddressUnevenPitch, 20'000, 300).golden_differ, 1u);
 }
-// A request of the work that was broken off comes after the reset.
-TEST(TwinAddressUnitFaults, AResetThatLeavesAFragment) {
+// A request of the aborted work is issued after the reset.
+TEST(TwinAddressUnitFaults, FragmentKeptOverResetIsDetected) {
   const Result r = compare<VAddressNotEmptied>(hdl::kVAddressNotEmptied, 20'000, 300);
   EXPECT_GE(r.golden_differ, 1u);
   EXPECT_GE(r.cycles_differ, 1u);
 }
-// Right requests, and a clock that differs only when the units behind stand still.
-TEST(TwinAddressUnitFaults, AThirdPlaceInALink) {
+// Correct requests; timing differs only if the downstream units stall.
+TEST(TwinAddressUnitFaults, ThirdLinkEntryIsDetected) {
   const Result stalled = compare<VAddressThirdPlace>(hdl::kVAddressThirdPlace, 20'000, 300);
   EXPECT_EQ(stalled.golden_differ, 0u) << stalled.first;
   EXPECT_GE(stalled.cycles_differ, 1u);

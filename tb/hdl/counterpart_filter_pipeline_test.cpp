@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The filter pipeline of hdl/texture: colours are the golden model's, cycles the SystemC unit's,
-// under random stalls at both ends and after resets in the middle of its work, for all kinds of
+// Compares the filter pipeline of hdl/texture: colours with the golden model, cycles with the
+// SystemC unit, under random stalls at both ends and after resets in mid-work, for all kinds of
 // weights and both outputs.
 #include <VFilterDeburr.h>
 #include <VFilterEncoded.h>
@@ -42,7 +42,7 @@ template <class Model>
 Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed = 1) {
   const spec::texture::Parameters parameters = hdl::parameters_of(settings);
   FilterWork work = filter_work(parameters);
-  // Fragments of invalid descriptors among them: their colour is zero.
+  // Includes fragments of invalid descriptors, whose colour is zero.
   for (hw::TexelQuadToken& token : work.tokens)
     if (token.ticket.tag % 16 == 9) {
       token.ticket.valid = false;
@@ -90,7 +90,7 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
       if (result.golden_differ++ == 0)
         result.first = "golden/counterpart colour " + std::to_string(number) + "; ";
   };
-  // Broken off by resets, among the fragments of several samples, which come last.
+  // Aborts by reset among the multi-sample fragments, which come last.
   Random random(seed);
   for (int i = 0; i < 40; ++i) {
     auto begin = work.tokens.end() - 4000 - random.below(60'000);
@@ -110,7 +110,7 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
         return sink_of_model.received() >= wanted && sink_of_counterpart.received() >= wanted;
       },
       20 * work.tokens.size() + 10'000);
-  clock.run(100);  // none too many
+  clock.run(100);  // no excess colours
   result.finished &= sink_of_counterpart.received() == wanted;
   result.requests = work.tokens.size();
   result.colours = wanted;
@@ -131,34 +131,42 @@ void expect_equal_unit(const char* settings, std::uint32_t permille = 300) {
   EXPECT_GE(r.broken_off, 20u);
 }
 
-TEST(CounterpartFilterPipeline, Paper) { expect_equal_unit<VFilterPaper>(hdl::kVFilterPaper); }
-TEST(CounterpartFilterPipeline, Deburr) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr); }
-TEST(CounterpartFilterPipeline, Tent) { expect_equal_unit<VFilterTent>(hdl::kVFilterTent); }
-TEST(CounterpartFilterPipeline, Encoded) {
+TEST(CounterpartFilterPipeline, MatchesPaperPreset) {
+  expect_equal_unit<VFilterPaper>(hdl::kVFilterPaper);
+}
+TEST(CounterpartFilterPipeline, MatchesDeburrPreset) {
+  expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr);
+}
+TEST(CounterpartFilterPipeline, MatchesTentKernel) {
+  expect_equal_unit<VFilterTent>(hdl::kVFilterTent);
+}
+TEST(CounterpartFilterPipeline, MatchesEncodedOutput) {
   expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded);
 }
-TEST(CounterpartFilterPipeline, EncodedPaper) {
+TEST(CounterpartFilterPipeline, MatchesEncodedOutputOfPaperPreset) {
   expect_equal_unit<VFilterEncodedPaper>(hdl::kVFilterEncodedPaper);
 }
-TEST(CounterpartFilterPipeline, Free) { expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr, 0); }
-TEST(CounterpartFilterPipeline, HardlyMoves) {
+TEST(CounterpartFilterPipeline, MatchesWithoutStalls) {
+  expect_equal_unit<VFilterDeburr>(hdl::kVFilterDeburr, 0);
+}
+TEST(CounterpartFilterPipeline, MatchesUnderHeavyStalls) {
   expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded, 800);
 }
 
-// ---- injected faults in the SystemVerilog, each seen
+// ---- injected faults in the SystemVerilog
 
-TEST(TwinFilterPipelineFaults, ASecondLevelThatIsNotAdded) {
+TEST(TwinFilterPipelineFaults, MissingSecondLevelIsDetected) {
   EXPECT_GE(compare<VFilterWrongOpen>(hdl::kVFilterWrongOpen, 300).golden_differ, 1u);
 }
-TEST(TwinFilterPipelineFaults, ARoundingThatTruncates) {
+TEST(TwinFilterPipelineFaults, TruncationIsDetected) {
   EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
 }
-// A sample of the work that was broken off goes on after the reset.
-TEST(TwinFilterPipelineFaults, AResetThatLeavesASampleOpen) {
+// A sample of the aborted work continues after the reset.
+TEST(TwinFilterPipelineFaults, SampleKeptOverResetIsDetected) {
   EXPECT_GE(compare<VFilterNotEmptied>(hdl::kVFilterNotEmptied, 300).golden_differ, 1u);
 }
-// Right colours, in cycles of its own: a pipeline that closes no gap at its end.
-TEST(TwinFilterPipelineFaults, AnEndThatWaitsWithoutNeed) {
+// Correct colours with different timing: the pipeline does not close gaps at its end.
+TEST(TwinFilterPipelineFaults, UnneededWaitIsDetected) {
   const Result r = compare<VFilterWrongHold>(hdl::kVFilterWrongHold, 300);
   EXPECT_EQ(r.golden_differ, 0u) << r.first;
   EXPECT_GE(r.cycles_differ, 1u);

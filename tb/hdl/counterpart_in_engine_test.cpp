@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A whole texture unit with units of hdl/ in their places: colours, line fills and registers are
-// the golden model's, and every link between the units moves in the same cycles as with SystemC
-// units.
+// Compares a texture unit with some units replaced by those of hdl/: colours, line fills and
+// registers with the golden model, and the cycles of every link with the SystemC version.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,8 +22,8 @@ namespace {
 const std::vector<std::string> kAll = {"address", "cache", "filter"};
 
 constexpr std::size_t kLinks = 6;
-// What stands outside of every unit that is replaced: only these are held, since those inside are
-// not there in both.
+// Links outside of all replaced units: only these are compared, since inner links exist in one
+// version only.
 constexpr std::array<const char*, kLinks> kOutside = {"quads",
                                                       "texture.texels",
                                                       "texture.texture_cache.memory_requests",
@@ -32,7 +31,7 @@ constexpr std::array<const char*, kLinks> kOutside = {"quads",
                                                       "texture.texel_quads",
                                                       "colours"};
 
-// Hashes of the cycles in which links were pushed and popped.
+// Hashes the cycles in which links were pushed and popped.
 class Cycles final : public rtl::Clocked {
  public:
   explicit Cycles(rtl::ClockDomain& clock) {
@@ -68,12 +67,12 @@ class Cycles final : public rtl::Clocked {
 struct Outcome {
   std::uint64_t seed = 0;
   std::uint64_t cycles = 0, colour_hash = 0, colours = 0, fills = 0, comparisons = 0,
-                mismatches = 0, stand_ins = 0;  // that have moved a beat
+                mismatches = 0, stand_ins = 0;  // RTL counterparts that have moved a beat
   std::array<std::uint64_t, kLinks> cycles{}, beats{};
   std::uint64_t latencies = 0;
 };
 
-// Checked by the golden model, which throws what differs.
+// Checked by the golden model, which throws on a difference.
 Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, int side,
             const std::vector<std::string>& units, std::uint32_t stall_permille) {
   return forked<Outcome>([&] {
@@ -143,11 +142,11 @@ void expect_equal(const Outcome& model, const Outcome& counterpart, std::size_t 
   }
 }
 
-// Each mode by both presets, one of them calm, the other one in a storm: stalls of all links
-// outside of the units, and memory that answers at random.
+// Each mode with both presets, one of them without stalls, the other with stalls on all links
+// outside of the units and random memory latency.
 class CounterpartsInEngine : public testing::TestWithParam<std::tuple<int, bool>> {};
 
-TEST_P(CounterpartsInEngine, GiveTheSameInTheSameClocks) {
+TEST_P(CounterpartsInEngine, SameResultsInTheSameCycles) {
   const auto [mode, paper] = GetParam();
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
@@ -167,10 +166,10 @@ INSTANTIATE_TEST_SUITE_P(Texture, CounterpartsInEngine,
                                               std::get<1>(p.param) ? "paper" : "deburr");
                          });
 
-// One unit among SystemC ones, and two.
+// One RTL unit among SystemC units, and two.
 class SomeTwinsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(SomeTwinsInEngine, GiveTheSameInTheSameClocks) {
+TEST_P(SomeTwinsInEngine, SameResultsInTheSameCycles) {
   const TextureRunOptions options = storm(false);
   expect_equal(run(options, {}, 96, {}, 200), run(options, {}, 96, GetParam(), 200),
                GetParam().size());
@@ -183,8 +182,8 @@ INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
                                          std::vector<std::string>{"address", "filter"}),
                          [](const auto& p) { return fmt::format("{}", fmt::join(p.param, "_")); });
 
-// The comparison of cycles sees a memory that takes one clock more.
-TEST(TwinsInEngineFaults, AnotherClockIsSeen) {
+// The comparison of cycles detects a memory that takes one cycle more.
+TEST(TwinsInEngineFaults, OneMoreCycleIsDetected) {
   TextureRunOptions later = calm(false);
   later.memory.latency += 1;
   later.texture.cache_fifo_depth = 107;
@@ -193,7 +192,7 @@ TEST(TwinsInEngineFaults, AnotherClockIsSeen) {
   for (const std::size_t link : {3, 4, 5}) EXPECT_NE(a.cycles[link], b.cycles[link]);
 }
 
-// ---- choosing
+// ---- selection
 
 TEST(ChooseCounterparts, AllOrSomeInTheirOrder) {
   EXPECT_EQ(counterpart_units(""), std::vector<std::string>{});
@@ -204,7 +203,7 @@ TEST(ChooseCounterparts, AllOrSomeInTheirOrder) {
   EXPECT_THROW(counterpart_units("adress"), spec::ConfigError);
 }
 
-TEST(ChooseCounterparts, RejectsWhatTheBuildDoesNotHaveAndSaysWhatItHas) {
+TEST(ChooseCounterparts, RejectsUnitsThatAreNotBuilt) {
   spec::texture::Parameters p;
   p.cache_ways = 4;
   p.cache_fifo_depth = 107;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The texture cache of hdl/texture: texels are what stands in memory, and every clock of it is the
-// SystemC cache's, at its ends, at memory and inside, under random stalls, latencies and limits of
-// memory, in several geometries and with each replacement.
+// Compares the texture cache of hdl/texture: texels with the memory's contents, and every cycle
+// with the SystemC cache, at its ports, at memory and inside, under random stalls, latencies and
+// memory limits, in several geometries and with each replacement policy.
 #include <VCacheDefault.h>
 #include <VCacheDirect.h>
 #include <VCacheEveryUse.h>
@@ -40,11 +40,11 @@ using hw::TexelQuadToken;
 using hw::TexelToken;
 using spec::texture::Format;
 
-constexpr std::uint32_t kBytes = 1 << 18;    // of memory; a line behind them is an error
-constexpr std::uint32_t kBroken = 0x2'0000;  // lines from here on to kBrokenEnd are, too
+constexpr std::uint32_t kBytes = 1 << 18;    // of memory; a line beyond the end is an error
+constexpr std::uint32_t kBroken = 0x2'0000;  // lines from here to kBrokenEnd are errors as well
 constexpr std::uint32_t kBrokenEnd = 0x2'1000;
 
-// Of a texel.
+// Bytes of a texel.
 std::uint32_t bytes_of(const hw::FilterControl& control) {
   const auto format = static_cast<Format>(control.format);
   if (format == Format::kL8) return 1;
@@ -53,8 +53,7 @@ std::uint32_t bytes_of(const hw::FilterControl& control) {
 std::uint8_t byte_at(std::uint32_t address) {
   return static_cast<std::uint8_t>(((address & ~3U) * 2654435761U + 12345) >> (8 * (address & 3)));
 }
-// What stands above a texel's own bytes, and all of the texels of an invalid fragment, mean
-// nothing.
+// Masks don't-care bits: those above a texel's own bytes, and all texels of an invalid fragment.
 TexelQuadToken what_counts(const TexelQuadToken& token) {
   TexelQuadToken normal = token;
   if (!token.ticket.valid) {
@@ -80,8 +79,8 @@ TexelQuadToken wanted_of(const TexelToken& request) {
   return what_counts(token);
 }
 
-// Requests of which many hit, many miss, many ask a bank for several words: a window of memory that
-// moves, in which footprints of every kind lie.
+// Requests with many hits, many misses and many bank conflicts: footprints of every kind within a
+// moving range of memory.
 class Requests {
  public:
   Requests(Random& random, std::uint32_t line_bytes, std::uint32_t cache_bytes)
@@ -113,18 +112,18 @@ class Requests {
         request.address = {at, at + bytes, at + pitch, at + pitch + bytes};
         request.turned = {(at / pitch) % 2 != 0, (at / pitch) % 2 == 0};
         break;
-      case 1:  // of a tiled one
+      case 1:  // neighbours of a tiled texture
         request.address = {at, at + bytes, at + 16, at + 16 + bytes};
         break;
-      case 2:  // one set, several lines: one word of each bank
+      case 2:  // one set, several lines: one word per bank
         for (std::uint32_t k = 0; k < 4; ++k) request.address[k] = at + random_.below(6) * cache_;
         request.turned = {random_.chance(300), random_.chance(300)};
         break;
-      case 3:  // four texels anywhere in the window
+      case 3:  // four texels anywhere in the range
         for (std::uint32_t& address : request.address) address = anywhere();
         request.turned = {random_.chance(100), random_.chance(100)};
         break;
-      default:  // a texel alone
+      default:  // a single texel
         request.address = {at, at, at, at};
         request.turned = {random_.chance(100), false};
         request.turned[1] = request.turned[0];
@@ -139,14 +138,14 @@ class Requests {
   std::uint32_t base_ = 0, window_ = 1024, kind_ = 0;
 };
 
-// How memory answers.
+// Timing of the memory's responses.
 struct Answers {
   std::uint32_t latency = 20, scatter = 0, outstanding = 1024, bytes_per_cycle = 0;
 };
 struct Result {
   std::uint64_t requests = 0, lines = 0, cycles = 0;
-  std::uint64_t memory_differs = 0;                      // texels that are not what memory holds
-  std::uint64_t payloads_differ = 0, cycles_differ = 0;  // from the SystemC cache
+  std::uint64_t memory_differs = 0;  // texels that differ from the memory's contents
+  std::uint64_t payloads_differ = 0, cycles_differ = 0;  // differences from the SystemC cache
   bool finished = true;
   std::string first;
 };
@@ -269,8 +268,8 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
     const std::uint64_t of_batch = 5000;
     requests.clear();
     for (std::uint64_t i = 0; i < of_batch; ++i) requests.push_back(stream.next(tag++));
-    // Each second batch begins in a cache that was reset in the middle of its work, with lines on
-    // their way, the others in one that was invalidated.
+    // Every second batch starts after a reset in mid-work with lines in flight, the others after an
+    // invalidation.
     if (batch % 2 == 0) {
       for (const rtl::Cycle work : {0, 300}) {
         clock.run(work);
@@ -293,7 +292,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
                  differing_cycles() != 0;
         },
         400 * of_batch);
-    clock.run(100);  // none too many
+    clock.run(100);  // no excess texels
     result.finished &= finished && sink_of_counterpart.received() == of_batch;
     result.requests += of_batch;
     lines += requests_of_counterpart.pushes();
@@ -324,83 +323,87 @@ void expect_equal_unit(const char* settings, std::uint64_t requests, std::uint32
 }
 
 // The cache of both presets.
-TEST(CounterpartTextureCache, Default) {
+TEST(CounterpartTextureCache, MatchesDefault) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 1'000'000);
 }
-TEST(CounterpartTextureCache, Free) {
+TEST(CounterpartTextureCache, MatchesWithoutStalls) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 100'000, 0, {.latency = 20});
 }
-TEST(CounterpartTextureCache, HardlyMoves) {
+TEST(CounterpartTextureCache, MatchesUnderHeavyStalls) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 800);
 }
-// Memory that takes three requests at a time, and one that gives a line in four cycles.
-TEST(CounterpartTextureCache, FewRequestsAtATime) {
+// Memory that accepts three requests at a time, and one that delivers a line in four cycles.
+TEST(CounterpartTextureCache, MatchesWithThreeOutstandingRequests) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 300,
                                    {.latency = 20, .scatter = 60, .outstanding = 3});
 }
-TEST(CounterpartTextureCache, ALineInFourCycles) {
+TEST(CounterpartTextureCache, MatchesWithFourCyclesPerLine) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 300,
                                    {.latency = 20, .bytes_per_cycle = 16});
 }
-// Far memory: the LatencyFifo and the places for lines fill up.
-TEST(CounterpartTextureCache, FarMemory) {
+// Distant memory: the LatencyFifo and the line entries become full.
+TEST(CounterpartTextureCache, MatchesWithDistantMemory) {
   expect_equal_unit<VCacheDefault>(hdl::kVCacheDefault, 50'000, 100,
                                    {.latency = 300, .scatter = 100});
 }
-TEST(CounterpartTextureCache, Small) { expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000); }
-TEST(CounterpartTextureCache, SmallFree) {
+TEST(CounterpartTextureCache, MatchesSmallCache) {
+  expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000);
+}
+TEST(CounterpartTextureCache, MatchesSmallCacheWithoutStalls) {
   expect_equal_unit<VCacheSmall>(hdl::kVCacheSmall, 100'000, 0, {.latency = 1});
 }
-TEST(CounterpartTextureCache, Direct) {
+TEST(CounterpartTextureCache, MatchesDirectMapped) {
   expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000);
 }
-TEST(CounterpartTextureCache, DirectFree) {
+TEST(CounterpartTextureCache, MatchesDirectMappedWithoutStalls) {
   expect_equal_unit<VCacheDirect>(hdl::kVCacheDirect, 100'000, 0, {.latency = 1});
 }
-TEST(CounterpartTextureCache, Random) {
+TEST(CounterpartTextureCache, MatchesRandomReplacement) {
   expect_equal_unit<VCacheRandom>(hdl::kVCacheRandom, 200'000);
 }
-TEST(CounterpartTextureCache, Large) { expect_equal_unit<VCacheLarge>(hdl::kVCacheLarge, 200'000); }
+TEST(CounterpartTextureCache, MatchesLargeCache) {
+  expect_equal_unit<VCacheLarge>(hdl::kVCacheLarge, 200'000);
+}
 
-// ---- injected faults in the SystemVerilog, each seen
+// ---- injected faults in the SystemVerilog
 
-// Two stages that do not stand still together: the place of a line is free too early.
-TEST(TwinTextureCacheFaults, FillsThatAreTakenWhileTheOutputWaits) {
+// Two stages that do not stall together: a line's entry is freed too early.
+TEST(TwinTextureCacheFaults, FillDuringStallIsDetected) {
   EXPECT_GE(compare<VCacheWhileHeld>(hdl::kVCacheWhileHeld, 20'000, 300).cycles_differ, 1u);
 }
-// Of cycles alone: every texel is right.
+// Only the timing differs: every texel is right.
 template <class Model>
 void expect_other_cycles(const char* settings, std::uint32_t permille = 300) {
   const Result r = compare<Model>(settings, 20'000, permille, {.latency = 20, .scatter = 30});
   EXPECT_EQ(r.memory_differs, 0u) << r.first;
   EXPECT_GE(r.cycles_differ, 1u);
 }
-TEST(TwinTextureCacheFaults, AFillThatBeginsAfterTheLastPass) {
+TEST(TwinTextureCacheFaults, LateFillIsDetected) {
   expect_other_cycles<VCacheLateFill>(hdl::kVCacheLateFill);
 }
-TEST(TwinTextureCacheFaults, APlaceOfTheMissQueueThatIsFreedAClockLater) {
+TEST(TwinTextureCacheFaults, LateMissQueueReleaseIsDetected) {
   expect_other_cycles<VCacheFreedLater>(hdl::kVCacheFreedLater);
 }
-TEST(TwinTextureCacheFaults, ALineThatIsNotReadAhead) {
+TEST(TwinTextureCacheFaults, MissingReadAheadIsDetected) {
   expect_other_cycles<VCacheNotAhead>(hdl::kVCacheNotAhead);
 }
-// Of lines: others are replaced.
+// Other lines are replaced.
 template <class Model>
 void expect_other_lines(const char* settings) {
   const Result r = compare<Model>(settings, 20'000, 300, {.latency = 20, .scatter = 30});
   EXPECT_GE(r.cycles_differ + r.payloads_differ, 1u);
 }
-TEST(TwinTextureCacheFaults, AHitThatCountsAsUseInFifo) {
+TEST(TwinTextureCacheFaults, HitCountedAsUseInFifoIsDetected) {
   expect_other_lines<VCacheEveryUse>(hdl::kVCacheEveryUse);
 }
-TEST(TwinTextureCacheFaults, AWrongTapOfTheShiftRegister) {
+TEST(TwinTextureCacheFaults, WrongShiftRegisterTapIsDetected) {
   expect_other_lines<VCacheWrongTap>(hdl::kVCacheWrongTap);
 }
-TEST(TwinTextureCacheFaults, ASetThatIsReadAsItWasBefore) {
+TEST(TwinTextureCacheFaults, StaleSetReadIsDetected) {
   expect_other_lines<VCacheOldSet>(hdl::kVCacheOldSet);
 }
-// Of texels.
-TEST(TwinTextureCacheFaults, ALineThatIsNotStoredTurned) {
+// Wrong texels.
+TEST(TwinTextureCacheFaults, UnturnedLineIsDetected) {
   EXPECT_GE(compare<VCacheNotTurned>(hdl::kVCacheNotTurned, 20'000, 300).memory_differs, 1u);
 }
 }  // namespace

@@ -18,7 +18,7 @@ import tempfile
 import time
 
 TOOLS = ("yosys", "yosys-smtbmc", "z3")
-SECONDS = 120  # a proof
+SECONDS = 120  # per proof
 
 
 @dataclasses.dataclass
@@ -28,17 +28,17 @@ class Proof:
     fault: tuple     # (file, from, to)
     steps: int = 3
     parameters: dict = dataclasses.field(default_factory=dict)
-    base: int = 0    # cycles of the base case of an induction; as many as the steps where it says none
-    free: str = ""   # modules whose outputs the solver picks, in each clock anew
+    base: int = 0    # cycles of the base case of an induction; the default is the number of steps
+    free: str = ""   # modules whose outputs the solver chooses freely in every cycle
     registers: bool = False  # memories as registers, so that invariants can name a word
 
 
 LINK = ("fabric/link.sv", "behind == HERE) place[i] <= push_data;\n          else if (pop)",
         "count == HERE) place[i] <= push_data;\n          else if (pop)")
-# Cells whose own properties assume a protocol, which must not be assumed where they are parts of another top.
+# Modules whose own properties assume a protocol; as parts of another top these must not be assumed.
 FABRIC = ("link", "fifo", "pipe")
 PROOFS = {
-    # Count, order and data of a beat that is followed; the faults: a push beside a pop goes one place too far.
+    # Count, order and data of a followed beat; the faults: a push together with a pop is stored one entry too far.
     "link_1": Proof("link", "induction", ("fabric/link.sv", "can_push <= next_count != FULL", "can_push <= !push"),
                     parameters={"PLACES": 1, "BITS": 32}),
     "link_2": Proof("link", "induction", LINK, parameters={"PLACES": 2, "BITS": 336}),
@@ -59,7 +59,7 @@ PROOFS = {
                             ("texture/log2_correction.sv", "TABLE[y[11:9]*", "TABLE[y[10:9]*")),
     "log2_exact": Proof("log2_exact_proof", "bmc", ("texture/log2_exact.sv", "+ 13'd32", "+ 13'd31"), steps=4,
                         registers=True),
-    # The least fall that holds: a fault that makes it larger is refuted.
+    # The smallest decrease that holds: a fault that increases it is refuted.
     "log2_falls_segments": Proof("log2_monotone_proof", "sat", ("texture/log2_correction.sv", "10'd356", "10'd355")),
     "log2_falls_corrected": Proof("log2_monotone_proof", "sat",
                                   ("texture/log2_correction.sv", "TABLE[y[11:9]*", "TABLE[y[11:10]*"),
@@ -75,14 +75,14 @@ PROOFS = {
     "root_pipe": Proof("root_pipe", "induction",
                        ("texture/root_stage.sv", "{digits[59:0], 4'd0}", "{digits[60:0], 3'd0}"),
                        steps=1, base=3, registers=True),
-    # Four lines, the fewest places; five of lines in two beats.
+    # Four lines, the fewest entries; five lines of two beats.
     "miss_path_4": Proof("miss_path_proof", "induction",
                          ("texture/fill_buffer.sv", "(!line_valid || use_line)", "(!line_valid || held != FULL)"),
                          steps=1, base=3, registers=True, parameters={"PLACES": 4}),
     "miss_path_5": Proof("miss_path_proof", "induction",
                          ("texture/miss_queue.sv", "if (count > 3'd2)", "if (count > 3'd3)"),
                          steps=1, base=3, registers=True, parameters={"PLACES": 5, "LINE_BYTES": 128}),
-    # The fault: a request with as many lines as there are places is never taken.
+    # The fault: a request with as many lines as entries is never accepted.
     "cache_moves": Proof("cache_moves_proof", "induction",
                          ("texture/miss_queue.sv", "FULL = PLACES[COUNT_BITS:0]", "FULL = PLACES[COUNT_BITS:0] - 1'b1"),
                          steps=1, base=3, registers=True, free="tag_look_up"),
@@ -91,7 +91,7 @@ PROOFS = {
 
 
 def level_fault(axes, count, cap):
-    """One of what this level alone has."""
+    """A fault (from, to) in code that only this configuration uses."""
     if count == "any":
         return "if (e_1 > {1'b0,", "if (e_1 >= {1'b0,"
     if cap == "texel":
@@ -106,7 +106,7 @@ PROOFS |= {f"level_{axes}_{count}_{cap}": Proof("level_bounds_proof", "bmc",
                                                 registers=True, parameters={"AXES": a, "COUNT": n, "CAP": c})
            for a, axes in enumerate(("two", "four")) for n, count in enumerate(("floor", "ceil", "any"))
            for c, cap in enumerate(("none", "texel"))}
-# The length of a side by each rule without a root.
+# The length of a side by each rule without a square root.
 SIDE = "texture/side_length.sv"
 PROOFS |= {f"footprint_{name}": Proof("side_length_proof", "sat", (SIDE, *fault), parameters={"RULE": rule})
            for name, rule, fault in (("half", 0, ("low = {1'b0, a} + {2'b0, b[30:1]}", "low = {1'b0, a} + {1'b0, b}")),
@@ -116,7 +116,7 @@ PROOFS |= {f"footprint_{name}": Proof("side_length_proof", "sat", (SIDE, *fault)
 
 
 def script(proof, sources, headers, out):
-    """What yosys does."""
+    """Commands for yosys."""
     files = " ".join(str(path) for path in sources)
     lines = [f"read_verilog -sv -formal -DFORMAL{' -mem2reg' * proof.registers} -I{headers} {files}"]
     lines += [f"chparam -set {name} {value} {proof.top}" for name, value in proof.parameters.items()]
@@ -126,15 +126,15 @@ def script(proof, sources, headers, out):
     else:
         lines += [f"cutpoint t:*{proof.free}*"] if proof.free else []
         lines += ["proc", "chformal -remove a:src=*/hdl/fabric/*"] if proof.top not in FABRIC else []
-        # A name that no register has would be a wire that is free.
+        # A name that is not a register would be an undriven wire.
         lines += [f"prep -flatten -nordff -top {proof.top}", "select -assert-none a:hierconn w:*g_beat[1]* %d",
                   f"write_smt2 -wires {out}"]
     return "; ".join(lines)
 
 
 def run(command, log):
-    """Exit code and what was said; None when it takes too long."""
-    # A group of its own: what yosys-smtbmc has started ends with it.
+    """Exit code and output; None on timeout."""
+    # In its own process group, so that processes started by yosys-smtbmc end with it.
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           start_new_session=True) as process:
         try:
@@ -147,7 +147,7 @@ def run(command, log):
 
 
 def proved(proof, source, headers, fault):
-    """(True, False or None: undecided; what was said)."""
+    """(True, False or None if undecided; output)."""
     with tempfile.TemporaryDirectory(prefix="deburr_formal_") as folder:
         root = pathlib.Path(folder)
         shutil.copytree(source / "hdl", root / "hdl")
@@ -169,8 +169,8 @@ def proved(proof, source, headers, fault):
             return (False if "Called with -verify and proof did fail!" in said else None), said
         if code != 0:
             return None, said
-        # A base case beside the step: from a reset on nothing goes wrong in the first cycles.
-        # Without arrays each step is one question to z3's solver of bits, which is much faster.
+        # The base case of the induction: nothing fails in the first cycles after a reset. Without arrays each step is a
+        # separate query to z3's bit-vector solver, which is much faster.
         solver = ["yosys-smtbmc", "-s", "z3", "--unroll"] + ["--noincr", "--logic", "QF_BV"] * proof.registers
         commands = [[*solver, "-t", str(proof.base or proof.steps), smt]]
         if proof.method == "induction":
@@ -187,7 +187,7 @@ def proved(proof, source, headers, fault):
 
 
 def needed(root, top):
-    """The files of the modules below a top, by what they name: a module is in the file of its name."""
+    """The files of the modules below a top: a module is in the file of its name."""
     by_name = {path.stem: path for folder in ("hdl/fabric", "hdl/texture", "formal")
                for path in (root / folder).glob("*.sv")}
     names, found = [top], []

@@ -14,8 +14,8 @@ import sys
 import tempfile
 
 FAULTS = {
-    "verilator": ("wire [5:0] n = position - 6'd16;", "wire [5:0] n = position - 7'd16;"),  # a width
-    "icarus": ("assign mitchell = $signed({n, y});", "assign michell = $signed({n, y}};"),  # syntax
+    "verilator": ("wire [5:0] n = position - 6'd16;", "wire [5:0] n = position - 7'd16;"),  # a width mismatch
+    "icarus": ("assign mitchell = $signed({n, y});", "assign michell = $signed({n, y}};"),  # a syntax error
     "yosys": ("position = 6'd0;\n", "\n"),  # a latch
 }
 
@@ -35,7 +35,7 @@ def commands(tool, root, headers, module):
 
 
 def seen(tool, root, headers, module, folder):
-    """The modules below one that the tool builds, or reads the files of; None of yosys, which is given every file."""
+    """The modules that the tool builds or reads below a top; None for yosys, which is given every file."""
     if tool == "yosys":
         return None
     command = list(map(str, commands(tool, root, headers, module)))
@@ -50,7 +50,7 @@ def seen(tool, root, headers, module, folder):
 
 
 def left_over(tool, root, printed):
-    """What is said of files below hdl/ that nothing sees."""
+    """Findings for files below hdl/ that no configuration covers."""
     texts = texts_of(root)
     with tempfile.TemporaryDirectory(prefix="deburr_lint_") as folder:
         found = [seen(tool, root, headers, top, folder) for headers in printed for top in tops_of(texts)]
@@ -65,13 +65,13 @@ def texts_of(root):
 
 
 def tops_of(texts):
-    """The modules that no other one builds."""
+    """The modules that no other module instantiates."""
     built = {name for text in texts.values() for name in re.findall(r"^ *(\w+) (?:#\(.*\) )?\w+ \((?:$|\.)", text, re.M)}
     return sorted(texts.keys() - built)
 
 
 def rejected(tool, root, headers, module):
-    """What the tool says against a module, or None."""
+    """The tool's message against a module, or None."""
     done = subprocess.run(list(map(str, commands(tool, root, headers, module))), capture_output=True, text=True,
                           check=False)
     said = re.sub(r".*sorry: constant selects in always_.*\n", "", done.stdout + done.stderr)
@@ -101,7 +101,7 @@ def main():
         file.write_text(text.replace(good, bad), encoding="utf-8")
         if rejected(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
             problems.append(f"{tool} reads {bad!r} and finds nothing wrong")
-        # A module that a unit names where no configuration builds it.
+        # A module that a unit instantiates but that no configuration builds.
         file.write_text(text, encoding="utf-8")
         (copy / "texture/nowhere.sv").write_text("module nowhere (input logic clk);\nendmodule\n", encoding="utf-8")
         with (copy / "texture/address_unit.sv").open("a", encoding="utf-8") as stream:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The port between the texture cache and memory, and what of its beats is built
+// The port between the texture cache and memory, and which parts of its beats are built
 // (docs/reference/texture/hardware.md, "Links"): for the program that prints a configuration and
 // for the tests.
 #pragma once
@@ -21,7 +21,7 @@ inline rtl::MemoryPortParameters memory_port_of(const spec::texture::Build& buil
   port.read_only = true;
   return port;
 }
-// An address is 32 bits, a tag the number of a place for a line on its way.
+// An address has 32 bits; a tag is the entry number of a line in flight.
 inline std::uint32_t memory_tag_bits(const spec::texture::Build& build) {
   return static_cast<std::uint32_t>(
       std::bit_width(static_cast<std::uint32_t>(build.cache_outstanding) - 1));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Prints the headers that the units of hdl/ include: where the fields of a token stand, where those
-// of a descriptor do, codes of the rules, and tables. All of it is declared in
-// rtl_model/texture/tokens.h (field lists) and spec/texture; nothing is said here a second time.
+// Prints the headers included by the units of hdl/: bit positions of the fields of tokens and
+// descriptors, codes of the options, and tables. All are derived from rtl_model/texture/tokens.h
+// (field lists) and spec/texture.
 //
 //   deburr_hdl_headers FOLDER [NAME=VALUE...]
 //
-// Settings are parameters of the texture unit: they decide how wide some fields are, and are the
-// defaults of the units' parameters (CHOSEN_*). Macros, and no packages and structures, since
-// Verilator, yosys and Icarus Verilog agree on these alone.
+// Settings are parameters of the texture unit: they decide some field widths, and are the defaults
+// of the units' parameters (CHOSEN_*). Uses macros instead of packages and structures, because only
+// these work alike in Verilator, yosys and Icarus Verilog.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ class Header {
     text_ += fmt::format("`define {} {}\n", name, value);
   }
   void define(const std::string& name, std::uint64_t value) { define(name, std::to_string(value)); }
-  // A range, its highest bit, how many bits it has, and the range without that highest bit.
+  // Macros for a field: range, highest bit, width, and the range without the highest bit.
   void range(const std::string& name, std::uint32_t low, std::uint32_t bits) {
     const std::uint32_t top = low + bits - 1;
     define(name, fmt::format("{}:{}", top, low));
@@ -77,8 +77,8 @@ class Header {
   std::string guard_, text_;
 };
 
-// The fields below a node and the nodes themselves, which have their bits together. Returns the
-// bits.
+// Macros for the fields below a node and for the node itself, which spans their bits. Returns the
+// number of bits.
 std::uint32_t ranges(Header& header, const std::string& name, const PayloadNode& node) {
   if (node.kind == PayloadNode::Kind::kField) {
     header.range(name, node.field.first_bit, node.field.bits);
@@ -128,7 +128,7 @@ void print_descriptor(const std::filesystem::path& folder) {
     for (const deburr::spec::Field& field : info.fields)
       header.range(fmt::format("DESCRIPTOR_{}_{}", info.name, macro(field.name)),
                    info.offset * 8 + field.low, field.high - field.low + 1u);
-  // Of a valid descriptor so many bits of a size are in use.
+  // Number of bits used of a size in a valid descriptor.
   const auto used =
       static_cast<std::uint32_t>(std::bit_width(std::uint32_t{texture::kMaxTextureSize}));
   header.range("DESCRIPTOR_WIDTH_USED", reg::kSize * 8 + reg::size::kWidth.low, used);
@@ -145,8 +145,8 @@ void codes(Header& header, const std::string& name, std::span<const std::string_
   for (std::size_t i = 0; i < names.size(); ++i) header.define(name + "_" + macro(names[i]), i);
   header.define(name + "_LAST", names.size() - 1);
 }
-// One number, entry 0 in its lowest bits. A concatenation of 4096 entries would be as deep for a
-// parser.
+// One number with entry 0 in its lowest bits. A concatenation of 4096 entries would be nested as
+// deep in some parsers.
 void table(Header& header, const std::string& name, std::span<const std::uint32_t> entries) {
   const auto bits =
       static_cast<std::uint32_t>(std::bit_width(*std::max_element(entries.begin(), entries.end())));
@@ -167,7 +167,7 @@ void table(Header& header, const std::string& name, const Entries& entries) {
         std::span<const std::uint32_t>(std::vector<std::uint32_t>(entries.begin(), entries.end())));
 }
 
-// Codes of the rules, those that are chosen, and tables.
+// Codes of the options, the chosen ones, and tables.
 void print_tables(const texture::Parameters& chosen, const std::filesystem::path& folder) {
   Header header("tables");
   codes(header, "AXES", texture::kAxesNames);
@@ -198,7 +198,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   choose("CACHE_WAYS", chosen.cache_ways);
   choose("CACHE_REPLACEMENT", chosen.cache_replacement);
   choose("CACHE_OUTSTANDING", chosen.cache_outstanding);
-  // As for a memory that nobody tells of.
+  // The default, without information about the memory.
   choose("CACHE_FIFO_DEPTH", hw::LatencyFifo::depth(chosen, {}));
   for (std::size_t i = 1; i <= 3; ++i)
     header.define(fmt::format("AXIS_COSINE_{}", i),
@@ -209,7 +209,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   table(header, "RECIPROCAL", texture::kReciprocal);
   table(header, "SRGB_TO_LINEAR", texture::kSrgbToLinear);
   table(header, "LINEAR_TO_SRGB", texture::kLinearToSrgb);
-  // By N - 1 and sample.
+  // Indexed by N - 1 and sample.
   std::vector<std::uint32_t> weights;
   const auto& kernel = texture::kKernelWeights[static_cast<std::size_t>(chosen.kernel)];
   for (std::size_t n = 1; n < kernel.size(); ++n)

@@ -27,7 +27,7 @@ def run(program, *options):
 
 
 class Run(unittest.TestCase):
-    def test_units_are_replaced_and_nothing_changes(self):
+    def test_units_are_replaced_and_results_equal(self):
         for preset in ("paper", "deburr"):
             _, _, plain = run(DEBURR, "--preset", preset)
             for units in (["all"], ["filter,address"], ["cache"]):
@@ -44,13 +44,13 @@ class Run(unittest.TestCase):
                     for key in ("fragments", "bilinears", "misses_per_texel"):
                         self.assertEqual(result["work"][key], plain["work"][key])
 
-    def test_weather_changes_nothing(self):
+    def test_stalls_change_no_result(self):
         code, text, _ = run(DEBURR, "--hdl", "all", "--stalls", "0.2", "--shuffle", "--set", "run.poison=true",
                             "--set", "run.reset_after=3000", "--set", "memory.latency_max=300",
                             "--set", "texture.cache.fifo_depth=107")
         self.assertEqual(code, 0, text)
 
-    def test_what_cannot_be_is_rejected(self):
+    def test_rejects_invalid_combinations(self):
         for options, words in (
                 (["--hdl", "rasteriser"], ["run.hdl", "rasteriser", "address, cache or filter"]),
                 (["--hdl", "all", "--set", "texture.footprint=half"],
@@ -65,7 +65,7 @@ class Run(unittest.TestCase):
                 for word in words:
                     self.assertIn(word, text)
 
-    def test_a_planted_fault_is_seen(self):
+    def test_detects_injected_fault(self):
         code, text, _ = run(FAULTY, "--preset", "paper")
         self.assertEqual(code, 0, text)
         for unit, options in (("address", ["--preset", "paper"]), ("filter", ["--preset", "paper"]),

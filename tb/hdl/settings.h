@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the texture unit from texts as `axes=two`, for the program that prints a
-// configuration and for the tests that build the same one in SystemC: the build says it once, in
-// its list of models.
+// Reads parameters of the texture unit from text such as `axes=two`, for the program that prints a
+// configuration and for the tests that build the same one in SystemC: the build lists each
+// configuration once.
 #pragma once
 
 #include <charconv>
@@ -19,7 +19,7 @@ namespace deburr::tb::hdl {
 
 namespace detail {
 
-// Sets the one parameter of that name.
+// Sets the parameter of that name.
 struct Setter {
   std::string_view name, value;
   bool found = false;
@@ -39,8 +39,8 @@ struct Setter {
 
 }  // namespace detail
 
-// Default parameters with these changes, separated by spaces. std::invalid_argument for a name or a
-// value that there is not; ConfigError for what cannot be built.
+// Default parameters with these space-separated changes. Throws std::invalid_argument for an
+// unknown name or value, ConfigError for a configuration that cannot be built.
 inline spec::texture::Parameters parameters_of(std::string_view settings) {
   spec::texture::Parameters parameters;
   while (!settings.empty()) {

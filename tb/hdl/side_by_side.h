@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A unit of the SystemC model and its counterpart of hdl/ beside each other: the same beats, the
-// same stalls at both ends, and in every clock the question whether both did the same.
+// Runs a SystemC unit and its RTL counterpart in parallel with the same beats and the same stalls
+// at both ends, and compares them in every cycle.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@
 
 namespace deburr::tb::hdl {
 
-// Whether an end stands still in a clock, told by the clock alone, so that both sides have the same
-// stalls. Long waits are as frequent as short ones: a pipeline has to be full for once.
+// Decides from the cycle number whether an end stalls, so that both sides have the same stalls.
+// Long stalls are as frequent as short ones, so that a pipeline becomes full.
 struct Stalls {
   std::uint32_t permille = 0;
   std::uint64_t seed = 1;
   bool at(rtl::Cycle cycle) const {
     Random coarse(seed + cycle / 64), fine(seed ^ (cycle * Random::kStride));
-    // Of each 64 cycles some are free, some half, and some as dense as stalls get.
+    // In every 64 cycles some have no stalls, some half, and some the maximum density.
     const std::uint32_t density[] = {0, permille, permille, 1000 - permille / 4};
     return permille != 0 && fine.chance(density[coarse.below(4)]);
   }
@@ -37,7 +37,7 @@ struct Stalls {
 inline EndOptions stalled(const Stalls& stalls) {
   return {.stalls_at = [stalls](rtl::Cycle cycle) { return stalls.at(cycle); }};
 }
-// The beats of a list that is filled anew before each reset; two ends send the same one.
+// Sends a list of beats that is refilled before each reset; two ends send the same list.
 template <class T>
 typename Driver<T>::Generator those_of(const std::vector<T>& beats) {
   return [&beats](std::uint64_t index, T& beat) {
@@ -47,12 +47,12 @@ typename Driver<T>::Generator those_of(const std::vector<T>& beats) {
   };
 }
 
-// Counts the cycles in which one of two links had a push or a pop and the other one had not, and
-// the beats that differ. Ticked after the units, so that it sees what they did in this clock.
+// Counts the cycles in which only one of two links had a push or a pop, and the beats that differ.
+// Ticked after the units, so that it sees their actions in this cycle.
 template <class T>
 class LinkComparison final : public rtl::Unit {
  public:
-  // Fields that mean something in a beat, out of both; all of them without it.
+  // Masks the don't-care fields of a beat; without it all fields are compared.
   using Normal = std::function<T(const T&)>;
   LinkComparison(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
                  const rtl::Link<T>& model, const rtl::Link<T>& counterpart, Normal normal = {})
@@ -61,7 +61,7 @@ class LinkComparison final : public rtl::Unit {
   std::uint64_t beats() const { return beats_; }
   std::uint64_t cycles_that_differ() const { return cycles_; }
   std::uint64_t payloads_that_differ() const { return payloads_; }
-  // Of the first difference.
+  // Describes the first difference.
   const std::string& first() const { return first_; }
 
   rtl::Activity tick(rtl::Cycle cycle) override {
@@ -71,8 +71,7 @@ class LinkComparison final : public rtl::Unit {
                         std::to_string(counterpart_.pushes()) + ", pops " +
                         std::to_string(model_.pops()) + "/" + std::to_string(counterpart_.pops()));
     }
-    // A beat stays where it is until its place is filled again, a clock after its pop at the
-    // earliest.
+    // A popped beat remains readable until its entry is refilled, at the earliest one cycle later.
     for (; beats_ < std::min(model_.pushes(), counterpart_.pushes()); ++beats_) compare(cycle);
     return rtl::kIdle;
   }
@@ -101,8 +100,8 @@ class LinkComparison final : public rtl::Unit {
   std::string first_;
 };
 
-// The links inside of a unit and of its counterpart: the cycles in which one of them had a push or
-// a pop and its counterpart had not. The counterpart says what its links do by a bit each.
+// Compares the links inside a unit with those of its RTL counterpart: counts the cycles in which
+// only one of them had a push or a pop. The counterpart reports one bit per link.
 class InnerLinks final : public rtl::Unit {
  public:
   InnerLinks(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linked with the suites of the texture unit: they run with units of hdl/ in their places, and fail
-// where one took no part.
+// Linked with the suites of the texture unit: these run with units of hdl/ in place of SystemC
+// units, and fail if one of them was idle.
 #include <gtest/gtest.h>
 
 #include <exception>
@@ -16,8 +16,8 @@ namespace {
 
 using Units = std::vector<std::string>;
 
-// Tests with configurations that are not all built, by how their names begin: what may stay
-// SystemC.
+// Tests that use configurations that are not all built, by name prefix, with the units that may
+// stay SystemC.
 const std::vector<std::pair<std::string, Units>>& exceptions() {
   static const std::vector<std::pair<std::string, Units>> all = {
       {"Texture/EveryRule.", {"address", "filter"}},
@@ -25,9 +25,9 @@ const std::vector<std::pair<std::string, Units>>& exceptions() {
       {"Texture/FifoDepth.", {"cache"}},
       {"FifoDepthOfANarrowMemory.", {"cache"}},
       {"TextureStress/HiddenLatency.", {"cache"}},
-      {"TextureStress.AShortFifoDoesNotHideIt", {"cache"}},
+      {"TextureStress.ShortFifoDoesNotHideLatency", {"cache"}},
       {"TextureStress.RandomMemoryLatencyChangesNoData", {"cache"}},
-      {"FrameReset.IsMissedWhenThereIsNone", {"cache"}}};
+      {"FrameReset.MissingResetIsDetected", {"cache"}}};
   return all;
 }
 Units not_built() {
@@ -43,8 +43,9 @@ Units not_built() {
   return counterparts_do_the_work() = true;
 }();
 
-// A suite runs with SystemC units where the build has no others, so that it says nothing of it.
-TEST(SuitesWithCounterparts, TheBuildHasWhatTheyRunMost) {
+// Without a built counterpart a suite silently runs with SystemC units, so check the main
+// configurations.
+TEST(SuitesWithCounterparts, MainConfigurationsAreBuilt) {
   std::vector<spec::texture::Parameters> all = {stimuli::paper_configuration(), {}};
   for (int cycles : {1, 2, 4}) {
     spec::texture::Parameters storm;
@@ -62,8 +63,8 @@ TEST(SuitesWithCounterparts, TheBuildHasWhatTheyRunMost) {
   }
 }
 
-// Injected: runs in which one unit stays SystemC, since the build has no other for them.
-TEST(SuitesWithCounterparts, ARunWithoutThemFails) {
+// Injected: runs in which one unit stays SystemC, because it is not built for their configuration.
+TEST(SuitesWithCounterparts, RunWithIdleCounterpartFails) {
   spec::texture::Parameters ways, spread, kernel;
   ways.cache_ways = 4;
   spread.spread = 11;

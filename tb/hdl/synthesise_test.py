@@ -18,7 +18,7 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else pathlib.Path(".").resolve()
 LIBERTY = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
-# Ctrl-C must reach what is started here, also where this is run in the background of a shell.
+# Ctrl-C must reach the processes started here, even if this runs in the background of a shell.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 HEADERS = """#!/bin/sh
@@ -27,7 +27,7 @@ ways=3
 for word in "$@"; do case "$word" in ways=*) ways=${word#ways=} ;; esac; done
 printf '`define CHOSEN_WAYS %s\\n' "$ways" >"$1/tokens.svh"
 """
-# 8 flip-flops that count, a memory of 16 x 4 bits.
+# 8 counting flip-flops, a memory of 16 x 4 bits.
 SMALL = """`include "tokens.svh"
 module small #(parameter integer WAYS = `CHOSEN_WAYS) (
   input logic clk, input logic write, input logic [3:0] at, output logic [3:0] word, output logic [7:0] sum
@@ -97,20 +97,20 @@ class Synthesise(unittest.TestCase):
         return next(one for one in cls.cost()["units"] if one["unit"] == unit)
 
     def changed(self, name, good, bad):
-        """Plants a fault until the test ends."""
+        """Injects a fault until the test ends."""
         text = (self.root / name).read_text(encoding="utf-8")
         self.assertEqual(text.count(good), 1, name)
         self.write(name, text.replace(good, bad))
         self.addCleanup(self.write, name, text)
 
-    def test_figures(self):
+    def test_figures_match_manual_counts(self):
         self.assertEqual(self.first.returncode, 0, self.first.stderr)
         small = self.row("small")
         self.assertEqual(small["parameters"], {"ways": 3})
         gates = small["osu018"]
         self.assertEqual((gates["flip_flops"], gates["memory_bits"]), (8, 64))
         self.assertEqual((gates["from"], gates["to"]), ("sum", "sum"))
-        # Eight flip-flops of four gates each and at least a gate a bit of the sum.
+        # Eight flip-flops of four gates each and at least one gate per bit of the sum.
         self.assertGreater(gates["gates"], 8 * 4 + 8)
         self.assertLess(gates["gates"], 100)
         self.assertTrue(0.1 < gates["ns"] < self.cost()["yardstick"]["ns"], gates)
@@ -122,7 +122,7 @@ class Synthesise(unittest.TestCase):
             self.assertTrue(4 < row["luts"] < most or row["block_rams"], row)
             self.assertEqual(row["multipliers"], 0)
 
-    def test_sum_of_parts(self):
+    def test_sum_of_parts_matches(self):
         both, small = self.row("both"), self.row("small")
         self.assertEqual(both["parts"], [["small", {"ways": 3}, 2]])
         self.assertEqual(both["osu018"]["flip_flops"], 16)
@@ -130,14 +130,14 @@ class Synthesise(unittest.TestCase):
         self.assertEqual(both["xc7"]["luts"], 2 * small["xc7"]["luts"])
         self.assertEqual((both["osu018"]["ns"], both["osu018"]["to"]), (small["osu018"]["ns"], "small.sum"))
 
-    def test_page(self):
+    def test_page_is_written(self):
         page = (self.root / "out/cost.md").read_text(encoding="utf-8")
         row = self.row("small")["osu018"]
         self.assertIn(f"| `small` | `ways=3` | {row['gates']} | 8 | 64 | {row['ns']:.2f} | {row['ratio']:.2f} | `sum` |", page)
         self.assertIn("ns (osu018)", page)
         self.assertLessEqual(max(len(line) for line in page.splitlines() if not line.startswith("|")), 120)
 
-    def test_cache(self):
+    def test_cache_is_used(self):
         page = (self.root / "out/cost.md").read_bytes()
         again = self.call()
         self.assertEqual(again.returncode, 0, again.stderr)
@@ -148,14 +148,14 @@ class Synthesise(unittest.TestCase):
         self.assertIn("3 rows, 0 from the cache", one.stderr)
         self.assertEqual((self.root / "out/cost.md").read_bytes(), page, "a printed unit writes nothing")
 
-    def test_check(self):
+    def test_check_passes_recorded_figures(self):
         done = self.call("--check")
         self.assertEqual((done.returncode, done.stdout), (0, "cost.md and cost.json are current\n"), done.stderr)
 
     def test_check_needs_no_tool(self):
         self.assertEqual(self.call("--check", env={"PATH": self.shell_alone()}).returncode, 0)
 
-    def test_check_finds(self):
+    def test_check_finds_differences(self):
         for name, good, bad, said in (
                 ("hdl/texture/small.sv", "sum + ", "sum - ", "VBoth: its sources have changed"),
                 ("hdl/fabric/sram_1r1w.sv", "if (write) memory", "if (!write) memory", "VBoth: its sources have changed"),
@@ -177,7 +177,7 @@ class Synthesise(unittest.TestCase):
                 self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
                 self.assertIn(said, done.stdout)
 
-    def test_check_finds_a_row_of_a_preset_that_is_not_run(self):
+    def test_check_finds_missing_preset_row(self):
         for name, said in (("small", "VSmall: small ways=3 is not run for xc7\n"), ("sram_1r1w", "VSmall: sram_1r1w ")):
             cost = self.cost()
             for unit in cost["units"]:
@@ -190,11 +190,11 @@ class Synthesise(unittest.TestCase):
             self.assertIn(said, done.stdout)
             self.doCleanups()
 
-    def test_check_passes_a_comment(self):
+    def test_check_ignores_comments(self):
         self.changed("hdl/texture/small.sv", "endmodule", "  // Said in other words.\nendmodule")
         self.assertEqual(self.call("--check").returncode, 0)
 
-    def test_over_the_limit(self):
+    def test_reports_row_over_time_limit(self):
         kept = {name: (self.root / "out" / name).read_bytes() for name in ("cost.md", "cost.json")}
         self.addCleanup(lambda: [(self.root / "out" / name).write_bytes(old) for name, old in kept.items()])
         self.changed("configurations", "VBoth both ways=3", "VBoth both ways=3\nVSlow slow\n")
@@ -206,11 +206,11 @@ class Synthesise(unittest.TestCase):
         self.assertEqual(self.row("small")["osu018"]["flip_flops"], 8)
         self.assertEqual(self.call("--cached", "--seconds", "3").returncode, 0)
         self.assertEqual((self.row("slow")["xc7"], self.row("both")["xc7"]["flip_flops"] > 8), ("not run", True))
-        # The limit is remembered, and a higher one tries again.
+        # The limit is stored; a higher one tries again.
         self.assertRegex(self.call("--seconds", "2").stderr, r"\b(\d+) rows, \1 from the cache")
         self.assertNotRegex(self.call("--seconds", "2.5").stderr, r"\b(\d+) rows, \1 from the cache")
 
-    def test_interrupted(self):
+    def test_interrupt_ends_all_processes(self):
         for end in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(end=end):
                 self.interrupted(end)
@@ -238,7 +238,7 @@ class Synthesise(unittest.TestCase):
         self.assertEqual(left, [], "yosys goes on")
 
     def shell_alone(self):
-        """A PATH on which there is what the headers are printed with, and nothing else."""
+        """A PATH with only the tools that print the headers."""
         folder = self.root / "bin"
         folder.mkdir(exist_ok=True)
         for name in ("sh", "mkdir", "printf", "env"):
@@ -246,7 +246,7 @@ class Synthesise(unittest.TestCase):
                 (folder / name).symlink_to(shutil.which(name))
         return str(folder)
 
-    def test_errors(self):
+    def test_errors_are_reported(self):
         def said(words, code, *arguments, **options):
             done = self.call(*arguments, **options)
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texture cache of hdl/texture, verilated: a unit with two links to memory besides, in which it
-// stands where the SystemC cache has its memory port (tb/hdl/adapter.h).
+// The verilated texture cache of hdl/texture: a unit with two additional links to memory, which
+// take the place of the SystemC cache's memory port (tb/hdl/adapter.h).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct CachePorts {
   rtl::In<rtl::MemoryResponse>& responses_in;
 };
 
-// At ports that stand anywhere.
+// A cache at given ports.
 template <class Model>
 class VerilatedCacheAt : public rtl::Unit {
  public:
@@ -39,7 +39,7 @@ class VerilatedCacheAt : public rtl::Unit {
   }
   ~VerilatedCacheAt() override { model_->final(); }
 
-  // What the cache says before each edge.
+  // Called before each edge.
   std::function<void(Model&)> on_clock;
 
   rtl::Activity tick(rtl::Cycle cycle) override {
@@ -64,7 +64,7 @@ class VerilatedCacheAt : public rtl::Unit {
            : ready                            ? rtl::kIdle
                                               : rtl::kStalledDownstream;
   }
-  // Reset and invalidation take a clock of their own, in which the links do nothing.
+  // Reset and invalidation take an additional cycle, in which the links are idle.
   void reset() override {
     model_->rst_n = 0;
     edge();
@@ -77,7 +77,7 @@ class VerilatedCacheAt : public rtl::Unit {
   }
 
  private:
-  // What it did.
+  // Called for the cache's actions in the cycle.
   virtual void asked(const rtl::MemoryRequest&) {}
   virtual void received(const rtl::MemoryResponse&) {}
   void edge() {
@@ -99,7 +99,7 @@ class VerilatedCacheAt : public rtl::Unit {
   std::unique_ptr<Model> model_;
 };
 
-// With ports of its own.
+// A cache with its own ports.
 template <class Model>
 class VerilatedCache final : public VerilatedCacheAt<Model> {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// GL gives anisotropic filtering no number to reach, but aliasing must fall strictly as more
-// samples are allowed, from 1 x to 2 x to the maximum, on a plane seen at a shallow angle.
+// OpenGL specifies no quality for anisotropic filtering. On a plane seen at a shallow angle,
+// aliasing must fall strictly as the number of samples rises from 1 to 2 to the maximum.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ const std::vector<golden::ideal::Rgba>& reference() {
   return pixels;
 }
 
-// Error of the plane against the supersampled one for N_max = 1, 2, 4, 8, 16.
+// Error against the supersampled plane for N_max = 1, 2, 4, 8, 16.
 using Errors = std::vector<double>;
 
 Errors errors(const std::function<QuadFilter(int lb_n)>& unit) {
@@ -38,7 +38,7 @@ Errors errors(const std::function<QuadFilter(int lb_n)>& unit) {
 }
 
 bool falls_strictly(const Errors& e) {
-  constexpr double kVisible = 0.98;  // at least 2 % a step: not a matter of rounding
+  constexpr double kVisible = 0.98;  // at least 2 % per step: more than rounding
   return e[1] < kVisible * e[0] && e[4] < kVisible * e[1];
 }
 
@@ -52,12 +52,12 @@ Errors golden_errors(const spec::texture::Parameters& parameters,
   });
 }
 
-TEST(Anisotropy, AliasingFallsWithoutMipLevels) {
+TEST(Anisotropy, AliasingFallsWithMoreSamplesWithoutMipLevels) {
   EXPECT_TRUE(falls_strictly(golden_errors({}, spec::texture::MinFilter::kLinear)));
   EXPECT_TRUE(falls_strictly(golden_errors({}, spec::texture::MinFilter::kNearest)));
 }
 
-TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
+TEST(Anisotropy, ErrorFallsWithMoreSamplesForEveryFootprintRule) {
   for (std::size_t footprint = 0; footprint < spec::texture::kFootprintNames.size(); ++footprint) {
     for (std::size_t log2 = 0; log2 < spec::texture::kLog2Names.size(); ++log2) {
       spec::texture::Parameters parameters;
@@ -75,8 +75,8 @@ TEST(Anisotropy, ErrorFallsWithMipLevelsForEveryRule) {
   }
 }
 
-// N_max ignored, or all N samples at the pixel's centre: nothing falls.
-TEST(AnisotropyFault, IgnoredSampleCountAndMissingSpreadAreSeen) {
+// With N_max ignored, or with all N samples at the pixel's centre, nothing falls.
+TEST(AnisotropyFault, IgnoredSampleCountAndMissingSpreadAreDetected) {
   for (const spec::texture::MinFilter filter :
        {spec::texture::MinFilter::kLinear, spec::texture::MinFilter::kLinearMipmapLinear}) {
     EXPECT_FALSE(falls_strictly(golden_errors({}, filter, false)));

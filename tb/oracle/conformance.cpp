@@ -57,7 +57,7 @@ CaseResult check_all(const FilterFactory& filter, const Sweep& sweep) {
   return sum;
 }
 
-// The golden model's level of detail over the fragments of all sizes.
+// Compares the golden model's level of detail over the fragments of all sizes.
 void measure_lod(const spec::texture::Parameters& parameters, ConformanceRow& row) {
   constexpr golden::ideal::Precision kExact{"exact", 1000, 1000, 1000, 1000};
   std::uint32_t seed = 1;
@@ -79,7 +79,7 @@ void measure_lod(const spec::texture::Parameters& parameters, ConformanceRow& ro
         const golden::ideal::Interval legal = golden::ideal::legal_lod(ideal, sampler, f, kExact);
         const double rho = std::max(std::hypot(f.ds_dx * size.width, f.dt_dx * size.height),
                                     std::hypot(f.ds_dy * size.width, f.dt_dy * size.height));
-        if (l <= 0.0 || rho <= 1.0) continue;  // clamped at 0: no error to be seen
+        if (l <= 0.0 || rho <= 1.0) continue;  // clamped at 0: no error is visible
         row.lod_below = std::max(row.lod_below, legal.low - l);
         row.lod_above = std::max(row.lod_above, l - legal.high);
         const double error = l - std::log2(rho);

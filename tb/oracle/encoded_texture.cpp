@@ -30,7 +30,7 @@ ChannelBits channel_bits(spec::texture::Format format) {
   return {};
 }
 
-// The code whose channels are nearest to `colour`, 0..255 each. L8 takes R.
+// The code whose channels are nearest to `colour`, 0..255 each. L8 uses R.
 std::uint32_t encode(spec::texture::Format format, const std::array<double, 4>& colour) {
   const ChannelBits layout = channel_bits(format);
   std::uint32_t code = 0;
@@ -65,7 +65,7 @@ std::array<double, 4> texel(Pattern pattern, int level, int x, int y, Random& ra
   return {};
 }
 
-// Box average of the texels of `above` that a texel of the next level covers.
+// Box average of the texels of `above` covered by a texel of the next level.
 std::array<double, 4> box_average(spec::texture::Format format, const EncodedLevel& above, int x,
                                   int y, int width, int height) {
   std::array<double, 4> sum{};
@@ -90,7 +90,7 @@ double linear_light(double stored) {
 
 std::uint32_t round_up_to_line(std::uint32_t bytes) { return (bytes + 63u) / 64u * 64u; }
 
-// Index of tile (x, y) among 2^a by 2^b tiles: bits interleave while both axes have some left.
+// Index of tile (x, y) among 2^a by 2^b tiles: interleaves bits until the shorter axis is used up.
 std::uint32_t morton(std::uint32_t x, std::uint32_t y, int a, int b) {
   std::uint32_t index = 0;
   int place = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Test textures as the codes that are stored, and the three things that are made of them: bytes in
-// the unit's memory layout, real colours for the criterion, RGBA bytes for other programs.
+// Test textures as stored codes, and conversions to bytes in the unit's memory layout, to real
+// colours for the criterion, and to RGBA bytes for other programs.
 //
-// The memory layout is written here a second time, from docs/reference/texture/formats.md: a golden
-// that addressed memory differently would read wrong texels.
+// The memory layout is implemented independently of the golden model, from
+// docs/reference/texture/formats.md, so an addressing error in the golden model reads wrong texels.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace deburr::tb::texture {
 
-// Codes are the texels as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as
-// in docs/reference/texture/formats.md, L8 as it is.
+// A code is a texel as one integer: RGBA8 and sRGB8A8 with R in the low byte, 16-bit formats as in
+// docs/reference/texture/formats.md, L8 unchanged.
 struct EncodedLevel {
   int width = 0, height = 0;
   std::vector<std::uint32_t> codes;  // row-major
@@ -29,8 +29,8 @@ struct EncodedTexture {
   int height() const { return levels.front().height; }
 };
 
-// What the levels show. The first three have unrelated levels: a wrong level is as visible as a
-// wrong texel.
+// Contents of the levels. The first three have unrelated levels, so a wrong level is as visible as
+// a wrong texel.
 enum class Pattern {
   kNoise,      // every channel of every texel 0 or full scale at random
   kComposite,  // R 0 or full scale at random, G any value, B full scale on odd levels, A
@@ -46,16 +46,16 @@ EncodedTexture make_texture(Pattern pattern, spec::texture::Format format, int w
 
 // A channel of a code, as stored, scaled to 0..255 without rounding.
 std::array<double, 4> channels(spec::texture::Format format, std::uint32_t code);
-// The same brought to linear light: what a sampler filters.
+// The texture in linear light, as a sampler filters it.
 golden::ideal::Texture ideal_texture(const EncodedTexture& texture);
-// Level as R, G, B, A bytes, nearest where a channel has fewer than 8 bits.
+// A level as R, G, B, A bytes; channels of fewer than 8 bits are rounded to nearest.
 std::vector<std::uint8_t> rgba_bytes(spec::texture::Format format, const EncodedLevel& level);
 
 // Texture memory of a unit.
 class EncodedMemory {
  public:
-  // Places the texture behind what is there; returns a descriptor with size, levels, format, layout
-  // and bases set, the sampler state at its defaults.
+  // Appends the texture; returns a descriptor with size, levels, format, layout and bases set, and
+  // default sampler state.
   spec::texture::Descriptor place(const EncodedTexture& texture, spec::texture::Layout layout);
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 

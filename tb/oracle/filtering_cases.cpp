@@ -23,9 +23,9 @@ Jacobian jacobian(int kind, double lod, Random& random) {
   const double c = d * std::cos(angle);
   const double s = d * std::sin(angle);
   switch (kind) {
-    case 0:  // along u alone
+    case 0:  // along u only
       return {d, 0.0, 0.0, 0.0};
-    case 1:  // along v alone
+    case 1:  // along v only
       return {0.0, 0.0, 0.0, d};
     case 2:  // square
       return {d, 0.0, 0.0, d};
@@ -37,9 +37,9 @@ Jacobian jacobian(int kind, double lod, Random& random) {
     }
     case 5:  // mirrored, quarter turn
       return {0.0, -d, -d, 0.0};
-    case 6:  // mirrored along u, long along x
+    case 6:  // mirrored along u, longer along x
       return {-d, 0.0, 0.0, random.uniform(0.0, d)};
-    default:  // long along y
+    default:  // longer along y
       return {random.uniform(-d, d) / 4, 0.0, 0.0, -d};
   }
 }
@@ -56,7 +56,7 @@ std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, st
   const int last = std::bit_width(static_cast<unsigned>(std::max(size.width, size.height))) - 1;
   std::vector<spec::texture::Quad> quads;
   for (int i = 0; i < count; ++i) {
-    // Every fourth quad lies close to where a filter switches: l = 0, k + 1/2.
+    // Every fourth quad is close to a switching point of a filter: l = 0, k + 1/2.
     const double sweep = -3.0 + (last + 4.0) * (i + random.uniform(0.0, 1.0)) / count;
     const double threshold = std::max(0.0, std::floor(2.0 * sweep) / 2.0);
     const double reach = i % 8 == 3 ? 0.08 : 0.025;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The fragments that filters are checked with: quads that each have their own affine map from
-// pixels to the texture, with footprints of every size, shape and direction.
+// Test fragments for filters: quads with their own affine map from pixels to the texture, with
+// footprints of every size, shape and direction.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ struct Size {
 inline constexpr Size kFilteringSizes[] = {{4, 8}, {32, 64}, {128, 128},
                                            {3, 7}, {31, 55}, {127, 99}};
 
-// `count` quads for a texture of the given size, their coordinates within -4..4: footprints along u
-// alone, along v alone, square, rotated, sheared, magnified, mirrored and close to the thresholds
-// of the level of detail, in turns. The levels of detail, `lod_bias` included, sweep -3 .. last
-// level + 1.
+// Makes `count` quads for a texture of the given size, with coordinates within -4..4. Footprints
+// alternate between along u only, along v only, square, rotated, sheared, magnified, mirrored and
+// close to the thresholds of the level of detail. The levels of detail, including `lod_bias`, sweep
+// -3 .. last level + 1.
 std::vector<spec::texture::Quad> filtering_quads(const Size& size, int count, std::uint32_t seed,
                                                  double lod_bias = 0.0);
 
-// A lane with its own row's and column's differences as derivatives, without rounding.
+// A lane's fragment; derivatives are unrounded differences in its own row and column.
 golden::ideal::Fragment fragment_of(const spec::texture::Quad& quad, int lane);
 
-// The sampler state of a descriptor, in real numbers.
+// A descriptor's sampler state in real numbers.
 golden::ideal::Sampler sampler_of(const spec::texture::Descriptor& descriptor);
 
 }  // namespace deburr::tb::texture

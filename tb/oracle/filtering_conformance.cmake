@@ -12,7 +12,7 @@ deburr_test(filtering_criterion_test LABELS oracle
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/filtering_criterion_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_conformance_test LABELS oracle TIMEOUT 600  # with sanitizers; 10 s without
-  LONG Configuration[.]TheLogarithmDecidesTheVerdict
+  LONG Configuration[.]LogarithmDecidesTheVerdict
   SOURCE "${CMAKE_CURRENT_LIST_DIR}/filtering_conformance_test.cpp"
   LINK deburr::conformance)
 deburr_test(filtering_faults_test LABELS negative

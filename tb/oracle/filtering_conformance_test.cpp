@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The golden model under Khronos's filtering criterion.
+// Checks the golden model against Khronos's filtering criterion.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ spec::texture::Parameters segments() {
 
 class EveryFormat : public testing::TestWithParam<spec::texture::Format> {};
 
-TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
+TEST_P(EveryFormat, HighVerdictInEveryModeWrapLayoutAndSize) {
   const FilterFactory filter = golden_filter(segments());
   std::int64_t fragments = 0;
   double worst = 0.0;
@@ -41,7 +41,7 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
             c.descriptor.mag_filter = static_cast<spec::texture::MagFilter>(mode % 2);
             c.descriptor.layout = layout;
             c.descriptor.wrap_s = static_cast<spec::texture::Wrap>(wrap);
-            // The layouts share the work of the nine pairs of wraps.
+            // The layouts share the nine pairs of wraps.
             c.descriptor.wrap_t = static_cast<spec::texture::Wrap>(
                 (wrap + (layout == spec::texture::Layout::kLinear ? 0 : seed)) % 3);
             const CaseResult r = check(c, filter);
@@ -59,8 +59,8 @@ TEST_P(EveryFormat, IsHighInEveryModeWrapLayoutAndSize) {
               static_cast<long long>(fragments), worst, where.c_str());
 }
 
-// The project's own rules: the ellipse's axis is longer than row and column, and still legal.
-TEST(DefaultConfiguration, AreHighInEveryModeAndSize) {
+// The default configuration: the ellipse's axis exceeds row and column, and is still legal.
+TEST(DefaultConfiguration, HighVerdictInEveryModeAndSize) {
   for (const spec::texture::Axes axes :
        {spec::texture::Axes::kTwo, spec::texture::Axes::kFour, spec::texture::Axes::kEight}) {
     spec::texture::Parameters parameters;
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(spec::texture::kFormatNames[static_cast<std::size_t>(suite.param)]);
     });
 
-TEST(Golden, IsHighWithBiasAndClamps) {
+TEST(Golden, HighVerdictWithBiasAndClamps) {
   const FilterFactory filter = golden_filter(segments());
   Random random(3);
   for (std::uint32_t seed = 1; seed <= 400; ++seed) {
@@ -111,9 +111,9 @@ TEST(Golden, IsHighWithBiasAndClamps) {
   }
 }
 
-// What each footprint and logarithm rule gets: the paper never asks. The footprint rules all stay
-// inside the legal interval, the logarithm decides.
-TEST(Configuration, TheLogarithmDecidesTheVerdict) {
+// The verdict of each footprint and logarithm rule, which the paper does not examine. All footprint
+// rules stay inside the legal interval, so the logarithm decides.
+TEST(Configuration, LogarithmDecidesTheVerdict) {
   const std::vector<ConformanceRow> rows = conformance_table();
   ASSERT_EQ(rows.size(), 20u);
   std::printf("%s", conformance_markdown(rows).c_str());
@@ -131,7 +131,7 @@ TEST(Configuration, TheLogarithmDecidesTheVerdict) {
         EXPECT_NEAR(row.lod_below, 0.0861, 0.0003) << name;
         break;
       case spec::texture::Log2Rule::kCorrected:
-        // Beyond the 1/64 of `high`, but the colour tolerance hides it from all filters but
+        // The level exceeds the 1/64 of `high`, but the colour tolerance hides it except from
         // *_MIPMAP_NEAREST with a bias.
         EXPECT_EQ(row.mipmap_nearest.verdict, Verdict::kHigh) << name;
         EXPECT_EQ(row.mipmap_linear.verdict, Verdict::kHigh) << name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Is the checker itself right? Against values worked out by hand and against brute force.
+// Checks the filtering criterion itself against manually computed values and against brute force.
 #include "golden/ideal/filtering_criterion.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ using tb::Random;
 
 Rgba grey(double value) { return {value, value, value, value}; }
 
-// 4 x 1 texels 0, 100, 200, 40, and one level below of 1 x 1: 250.
+// 4 x 1 texels 0, 100, 200, 40, and a level of 1 x 1: 250.
 Texture ramp() {
   Texture texture;
   texture.levels.push_back({4, 1, {grey(0), grey(100), grey(200), grey(40)}});
@@ -43,10 +43,10 @@ Sampler sampler(spec::texture::MinFilter min, spec::texture::MagFilter mag,
   return s;
 }
 
-// A fragment of `ramp` whose footprint is `texels` wide along u.
+// A fragment of `ramp` with a footprint of `texels` along u.
 Fragment along_u(double s, double texels) { return {s, 0.5, texels / 4.0, 0.0, 0.0, 0.0}; }
 
-TEST(LegalLod, HoldsEveryFootprintBetweenTheLongestComponentAndTheirWeightedSum) {
+TEST(LegalLod, LegalLodSpansLongestComponentToWeightedSum) {
   Texture texture;
   texture.levels.push_back({8, 16, std::vector<Rgba>(128, grey(0))});
   const Sampler s;
@@ -56,13 +56,13 @@ TEST(LegalLod, HoldsEveryFootprintBetweenTheLongestComponentAndTheirWeightedSum)
   EXPECT_NEAR(high.high, std::log2(6.0 * std::sqrt(2.0)) + 1.0 / 64, 1e-4);
   const Interval low = legal_lod(texture, s, fragment, kPrecisionLow);
   EXPECT_NEAR(low.low, 2.0 - 1.0 / 16, 1e-4);
-  // Derivatives of seven bits count.
+  // With the derivatives' precision reduced to seven bits.
   const Interval coarse = legal_lod(texture, s, fragment, kPrecisionGles2);
   EXPECT_NEAR(coarse.low, std::log2(4.0 * (1 - 1.0 / 128)) - 1.0 / 16, 1e-9);
   EXPECT_NEAR(coarse.high, std::log2(6.0 * std::sqrt(2.0) * (1 + 1.0 / 128)) + 1.0 / 16, 1e-9);
 }
 
-TEST(LegalLod, AddsTheBiasAndThenClamps) {
+TEST(LegalLod, BiasIsAddedBeforeClamping) {
   const Texture texture = ramp();
   Sampler s;
   s.lod_bias = 1.5;
@@ -73,7 +73,7 @@ TEST(LegalLod, AddsTheBiasAndThenClamps) {
   EXPECT_EQ(legal_lod(texture, s, along_u(0, 0.0), kPrecisionHigh).low, 0.25);
 }
 
-TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
+TEST(Criterion, OneColourStepIsAllowedBeyondWeightTolerance) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
   const Criterion high(texture, s, kPrecisionHigh);
@@ -87,7 +87,7 @@ TEST(Criterion, AllowsOneColourStepBeyondTheWeightTolerance) {
   EXPECT_NEAR(low.deviation(f, grey(60)), 10.0 - 100.0 / 16, 0.02);
 }
 
-TEST(Criterion, NeedsOneExplanationForAllChannels) {
+TEST(Criterion, OneExplanationMustFitAllChannels) {
   Texture texture;
   texture.levels.push_back({2, 1, {Rgba{0, 255, 0, 0}, Rgba{255, 0, 0, 0}}});
   const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear,
@@ -99,7 +99,7 @@ TEST(Criterion, NeedsOneExplanationForAllChannels) {
   EXPECT_FALSE(low.reachable(f, {127.5 + 14, 127.5 + 14, 0, 0}, 2.0));
 }
 
-TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
+TEST(Criterion, NearestAcceptsOnlyTexelsWithinCoordinateError) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
   const Criterion high(texture, s, kPrecisionHigh);
@@ -110,7 +110,7 @@ TEST(Criterion, NearestTakesOnlyTexelsThatTheCoordinateErrorReaches) {
   EXPECT_FALSE(high.reachable(along_u(0.25, 0.5), grey(50), 1.0));
 }
 
-TEST(Criterion, NearestTakesTheRowOfItsCoordinate) {
+TEST(Criterion, NearestUsesTheRowOfItsCoordinate) {
   Texture texture;
   texture.levels.push_back({1, 4, {grey(0), grey(100), grey(200), grey(40)}});
   const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
@@ -120,7 +120,7 @@ TEST(Criterion, NearestTakesTheRowOfItsCoordinate) {
   }
 }
 
-TEST(Criterion, ATolerancesEndIsWithinIt) {
+TEST(Criterion, ToleranceBoundsAreInclusive) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kNearest, spec::texture::MagFilter::kNearest);
   const Criterion high(texture, s, kPrecisionHigh);
@@ -132,7 +132,7 @@ TEST(Criterion, ATolerancesEndIsWithinIt) {
   EXPECT_FALSE(high.reachable(f, grey(101.01), 1.0));
 }
 
-TEST(Criterion, WrapsNegativeAndMirroredCoordinates) {
+TEST(Criterion, NegativeAndMirroredCoordinatesWrap) {
   const Texture texture = ramp();
   const auto texel = [&](spec::texture::Wrap wrap, double s) {
     const Sampler state =
@@ -159,7 +159,7 @@ TEST(Criterion, WrapsNegativeAndMirroredCoordinates) {
   EXPECT_EQ(edge(spec::texture::Wrap::kClampToEdge), 40);
 }
 
-TEST(Criterion, AllowsBothFiltersWhereTheSwitchIsWithinTheLegalInterval) {
+TEST(Criterion, BothFiltersAreLegalNearTheirSwitch) {
   const Texture texture = ramp();
   const Sampler s =
       sampler(spec::texture::MinFilter::kNearestMipmapNearest, spec::texture::MagFilter::kLinear);
@@ -169,10 +169,10 @@ TEST(Criterion, AllowsBothFiltersWhereTheSwitchIsWithinTheLegalInterval) {
   EXPECT_TRUE(high.reachable(along_u(0.25, 1.0), linear, 2.0));
   EXPECT_FALSE(high.reachable(along_u(0.25, 1.1), linear, 2.0));
   EXPECT_TRUE(high.reachable(along_u(0.2, 1.0), grey(0), 2.0));
-  EXPECT_FALSE(high.reachable(along_u(0.2, 0.5), grey(0), 2.0));  // magnified for certain
+  EXPECT_FALSE(high.reachable(along_u(0.2, 0.5), grey(0), 2.0));  // certainly magnified
 }
 
-TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
+TEST(Criterion, LevelRoundsAsInGlAndStopsAtLast) {
   const Texture texture = ramp();
   const Sampler s =
       sampler(spec::texture::MinFilter::kNearestMipmapNearest, spec::texture::MagFilter::kNearest);
@@ -182,11 +182,11 @@ TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
   EXPECT_TRUE(high.reachable(near_base, grey(100), 1.0));
   EXPECT_TRUE(high.reachable(near_base, grey(250), 1.0));
   EXPECT_FALSE(high.reachable(near_base, grey(0), 1.0));
-  // l from 0.6 to 1.1: level 1 alone.
+  // l from 0.6 to 1.1: only level 1.
   EXPECT_FALSE(high.reachable(along_u(0.4, std::exp2(0.6)), grey(100), 1.0));
   EXPECT_TRUE(high.reachable(along_u(0.4, 1000.0), grey(0), 1.0));
   EXPECT_FALSE(high.reachable(along_u(0.4, 1000.0), grey(250), 1.0));
-  // l = 1/2 exactly: level 0 alone.
+  // l = 1/2 exactly: only level 0.
   Sampler half = s;
   half.min_lod = half.max_lod = 0.5;
   const Criterion tie(texture, half, kPrecisionHigh);
@@ -194,7 +194,7 @@ TEST(Criterion, RoundsTheLevelAsGlDoesAndStopsAtTheLastOne) {
   EXPECT_FALSE(tie.reachable(near_base, grey(250), 1.0));
 }
 
-TEST(Criterion, BoundsTheLevelFraction) {
+TEST(Criterion, LevelFractionIsBounded) {
   Texture texture;
   texture.levels.push_back({2, 2, std::vector<Rgba>(4, grey(0))});
   texture.levels.push_back({1, 1, {grey(200)}});
@@ -208,9 +208,9 @@ TEST(Criterion, BoundsTheLevelFraction) {
   EXPECT_NEAR(high.deviation(f, grey(190)), 10 - 200.0 / 64, 0.02);
 }
 
-// Only one channel differs, along only one of the five weights: whatever that is, the search halves
-// it, so that the one legal colour is found at the end of an interval, where no box's middle lies.
-TEST(Criterion, SearchesEveryWeightByEveryChannel) {
+// Only one channel differs, along one of the five weights. The search bisects that weight and finds
+// the only legal colour at the end of an interval, which is not the centre of any box.
+TEST(Criterion, EveryWeightIsSearchedByEveryChannel) {
   using spec::texture::MagFilter, spec::texture::MinFilter;
   const auto level = [](int size, const auto& value) {
     golden::ideal::Level l{size, size, {}};
@@ -233,12 +233,12 @@ TEST(Criterion, SearchesEveryWeightByEveryChannel) {
       texture.levels.push_back(level(1, flat));
       Sampler s = sampler(MinFilter::kLinearMipmapLinear, MagFilter::kLinear);
       const bool fine = weight < 2, coarse = weight == 2 || weight == 3;
-      // Level 0 alone, half of level 1, or from half to three quarters of it.
+      // Level 0 only, half of level 1, or from half to three quarters of it.
       s.min_lod = fine ? 0.0 : 0.5;
       s.max_lod = fine ? 0.0 : coarse ? 0.5 : 0.75;
       const Criterion low(texture, s, kPrecisionLow);
       const Fragment f{0.4, 0.4, fine ? 0.1 : std::exp2(0.4) / 4, 0, 0, 0};
-      // The most that is legal: 1/16 of a texel further on, or the whole three quarters.
+      // The legal maximum: 1/16 of a texel further, or the whole three quarters.
       const double position = (fine ? 1.6 - 0.5 : 0.8 - 0.5) + 1.0 / 16;
       Rgba most = grey(100);
       most[channel] += fine     ? 64 * (position + 0.4 * std::ldexp(4.0, -20))
@@ -253,9 +253,9 @@ TEST(Criterion, SearchesEveryWeightByEveryChannel) {
     }
 }
 
-// All colours lie on the line R = G, whatever the five weights are. One beside it is seen to be out
-// of reach as a whole: boxes alone would have to be as small as it is near.
-TEST(Criterion, SeparatesAColourFromThoseOfAllWeights) {
+// All legal colours lie on the line R = G for any of the five weights. A colour next to that line
+// must be rejected at once: with boxes only, their size would have to be as small as its distance.
+TEST(Criterion, ColourOffTheLegalLineIsRejected) {
   Texture texture;
   for (int size = 4; size > 0; size /= 2) {
     golden::ideal::Level level{size, size, {}};
@@ -269,15 +269,15 @@ TEST(Criterion, SeparatesAColourFromThoseOfAllWeights) {
       sampler(spec::texture::MinFilter::kLinearMipmapLinear, spec::texture::MagFilter::kLinear);
   const Criterion low(texture, s, kPrecisionLow);
   const Fragment f{0.4, 0.4, std::exp2(0.4) / 4, 0, 0, 0};  // l from 0.4 to 0.9
-  // Level 0 gives 216, level 1 gives 72; not where the middles of all intervals are.
+  // Level 0 gives 216, level 1 gives 72; the result is not at the centre of all intervals.
   const double v = 141.7;
   EXPECT_TRUE(low.reachable(f, {v + 0.9, v - 0.9, 0, 0}, 1.0));
   EXPECT_FALSE(low.reachable(f, {v + 1.1, v - 1.1, 0, 0}, 1.0));
   EXPECT_EQ(low.undecided(), 0);
 }
 
-// Random textures, fragments and sampler states; the level's fraction and both levels' weights are
-// free inside their intervals.
+// Random textures, fragments and sampler states; the level fraction and both levels' weights vary
+// inside their intervals.
 struct RandomCase {
   Texture texture;
   Sampler state;
@@ -301,7 +301,7 @@ RandomCase random_case(Random& random) {
   return c;
 }
 
-// A colour that the description allows, computed straight from it: one l, one position error.
+// A legal colour, computed directly from the definition: one l, one position error.
 Rgba random_legal_colour(const RandomCase& c, const golden::ideal::Precision& precision,
                          Random& random) {
   const Interval lod = legal_lod(c.texture, c.state, c.fragment, precision);
@@ -321,7 +321,7 @@ Rgba random_legal_colour(const RandomCase& c, const golden::ideal::Precision& pr
   return exact_colour(c.texture, c.state, moved);
 }
 
-TEST(Criterion, AcceptsEveryLegalColour) {
+TEST(Criterion, EveryLegalColourIsAccepted) {
   Random random(7);
   for (int i = 0; i < 20000; ++i) {
     const RandomCase c = random_case(random);
@@ -333,9 +333,9 @@ TEST(Criterion, AcceptsEveryLegalColour) {
   }
 }
 
-// What the criterion calls the distance to the nearest legal colour is no more than the distance to
-// any legal colour that a random search finds, and not much less than the nearest of those.
-TEST(Criterion, MeasuresTheDistanceToTheNearestLegalColour) {
+// The criterion's distance to the nearest legal colour must not exceed the distance to any legal
+// colour found by a random search, and must not be much less than the smallest of those.
+TEST(Criterion, DistanceIsToTheNearestLegalColour) {
   Random random(11);
   double largest_gap = 0.0;
   int away = 0;
@@ -358,11 +358,11 @@ TEST(Criterion, MeasuresTheDistanceToTheNearestLegalColour) {
     if (claimed > golden::ideal::kFilteredTolerance) ++away;
   }
   EXPECT_GT(away, 50);
-  // The random search moves both levels together, which the criterion does not require.
+  // The random search moves both levels together; the criterion does not require that.
   EXPECT_LT(largest_gap, 12.0);
 }
 
-// A checker counts; one bad colour among many is enough.
+// One bad colour among many is enough to fail.
 TEST(Checker, OneWrongColourIsEnough) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
@@ -379,7 +379,7 @@ TEST(Checker, OneWrongColourIsEnough) {
   EXPECT_EQ(checker.fragments(), 102);
 }
 
-TEST(Checker, KeepsTheLargestDeviationWhateverComesAfterIt) {
+TEST(Checker, LargestDeviationIsKept) {
   const Texture texture = ramp();
   const Sampler s = sampler(spec::texture::MinFilter::kLinear, spec::texture::MagFilter::kLinear);
   golden::ideal::Checker checker(texture, s);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Negative tests of the filtering criterion: a plain sampler must pass, the same with a injected
-// fault must not. Where Khronos's tolerance is wide enough for a fault, that is stated here too.
+// Negative tests of the filtering criterion: it must accept a plain sampler and reject the same
+// sampler with an injected fault. Faults within Khronos's tolerance are listed with the verdict
+// they get.
 #include <gmock/gmock.h>
 
 #include "golden/texture/texture_golden.h"
@@ -30,7 +31,7 @@ struct Outcome {
   double deviation = 0.0;
 };
 
-// All modes, wraps and formats on two sizes.
+// All modes, wraps and formats with two texture sizes.
 Outcome check_everywhere(const FilterFactory& filter) {
   Outcome outcome;
   std::uint32_t seed = 1;
@@ -63,7 +64,7 @@ struct Expectation {
 
 class InjectedFault : public testing::TestWithParam<Expectation> {};
 
-TEST_P(InjectedFault, GetsItsVerdict) {
+TEST_P(InjectedFault, GetsExpectedVerdict) {
   const Outcome outcome = check_everywhere(plain_filter(GetParam().fault));
   std::printf("%d of %d cases are not high, largest deviation %.1f, verdict %s\n", outcome.not_high,
               outcome.cases, outcome.deviation, std::string(verdict_name(outcome.verdict)).c_str());
@@ -73,8 +74,8 @@ TEST_P(InjectedFault, GetsItsVerdict) {
 INSTANTIATE_TEST_SUITE_P(
     Criterion, InjectedFault,
     testing::Values(Expectation{Fault::kNone, Verdict::kHigh},
-                    // Rounded to b bits a weight is wrong by 2^-(b+1), truncated by 2^-b:
-                    // truncation costs a class. 3 bits rounded are exactly what `low` tolerates.
+                    // Rounding a weight to b bits costs up to 2^-(b+1), truncating up to 2^-b, so
+                    // truncation gets a lower verdict. 3 bits rounded are the tolerance of `low`.
                     Expectation{Fault::kFiveBitWeights, Verdict::kHigh},
                     Expectation{Fault::kFiveBitTruncatedWeights, Verdict::kLow},
                     Expectation{Fault::kThreeBitWeights, Verdict::kLow},
@@ -93,13 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Expectation{Fault::kLateMagnification, Verdict::kFail},
                     Expectation{Fault::kUnreplicatedChannels, Verdict::kFail},
                     Expectation{Fault::kEncodedSrgb, Verdict::kFail},
-                    // At most one step of 255: the criterion cannot see it, ColourBias below does.
+                    // At most one step of 255: only ColourBias below detects it.
                     Expectation{Fault::kTruncatedColour, Verdict::kHigh}),
     [](const auto& suite) {
       return std::string(kFaultNames[static_cast<std::size_t>(suite.param.fault)]);
     });
 
-// Mean of result - exact over LINEAR filtering, where nothing but rounding separates the two.
+// Mean of result - exact over LINEAR filtering, where they differ by rounding only.
 double colour_bias(const FilterFactory& filter) {
   double sum = 0.0;
   double count = 0.0;
@@ -115,7 +116,7 @@ double colour_bias(const FilterFactory& filter) {
       const auto colours = sample(quad);
       for (std::size_t lane = 0; lane < 4; ++lane) {
         const auto exact = exact_colour(ideal, sampler, fragment_of(quad, static_cast<int>(lane)));
-        for (const std::size_t channel : {0u, 1u, 3u}) {  // B is solid in a level
+        for (const std::size_t channel : {0u, 1u, 3u}) {  // B is constant within a level
           sum += colours[lane][channel] - exact[channel];
           count += 1.0;
         }
@@ -125,14 +126,14 @@ double colour_bias(const FilterFactory& filter) {
   return sum / count;
 }
 
-TEST(ColourBias, GoldenRoundsAndTruncationIsSeen) {
+TEST(ColourBias, GoldenRoundsAndTruncationIsDetected) {
   EXPECT_NEAR(colour_bias(golden_filter({})), 0.0, 0.02);
   EXPECT_NEAR(colour_bias(plain_filter(Fault::kNone)), 0.0, 0.02);
   EXPECT_LT(colour_bias(plain_filter(Fault::kTruncatedColour)), -0.4);
 }
 
-// One wrong texel in memory, or one wrong mip base, is found in the golden model itself.
-TEST(GoldenWithFault, OneSwappedMipBaseFails) {
+// A wrong texel in memory or a wrong mip base is detected in the golden model.
+TEST(GoldenWithFault, SwappedMipBaseFails) {
   const FilterFactory faulty = [](const EncodedTexture& texture,
                                   const spec::texture::Descriptor& state) {
     struct Unit {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Does the bit-exact geometric engine do what the paper's equations say in real numbers? Lines,
-// weights and colours against golden/ideal/geometric.h; the equations themselves against the area
-// that a half-plane covers.
+// Compares the bit-exact geometric engine with the paper's equations in real numbers: lines,
+// weights and colours against golden/ideal/geometric.h, and the equations themselves against the
+// area covered by a half-plane.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -41,9 +41,9 @@ constexpr double kDepthScale = 0xFFFFFF;
 
 // ---- the equations ------------------------------------------------------------------------------
 
-// Over a whole number of periods of a line the weights give away as much as the line cuts off; a
-// single pixel may lie off by an eighth of the slope, where the line leaves it through its top.
-TEST(Ideal, WeightsAreTheAreaThatALineCutsOff) {
+// Over whole periods of a line the weights sum to the area that the line cuts off. A single pixel
+// can differ by an eighth of the slope, where the line leaves it through its top.
+TEST(Ideal, WeightsSumToTheAreaCutOff) {
   constexpr int kSize = 64;
   for (const double slope : {0.0, 0.05, 0.21, 0.5, 0.77, 0.99, -0.3, -0.9}) {
     const ScreenLine line{{-10, 32.3 - 42 * slope, 1}, {74, 32.3 + 42 * slope, 1}};
@@ -54,7 +54,7 @@ TEST(Ideal, WeightsAreTheAreaThatALineCutsOff) {
     double sum = 0, worst = 0;
     for (const CutPixel& cut : cuts) {
       const double covered = golden::ideal::coverage(below, cut.x, cut.y);
-      // The centre's owner keeps 1 - coverage of its pixel.
+      // The owner of the centre keeps 1 - coverage of its pixel.
       const double owner_is_below = cut.distance <= 0.0 ? 1.0 : 0.0;
       const double given = owner_is_below != 0.0 ? 1.0 - cut.coverage : cut.coverage;
       sum += given - covered;
@@ -68,13 +68,13 @@ TEST(Ideal, WeightsAreTheAreaThatALineCutsOff) {
   }
 }
 
-// With both pixels of a column the weights are that area in every pixel, not on average alone.
-TEST(Ideal, BothPixelsOfAColumnHaveTheWholeArea) {
+// With both pixels of a column, the weights equal that area in every pixel, not only on average.
+TEST(Ideal, TwoPixelColumnsMatchTheAreaExactly) {
   constexpr int kSize = 64;
   for (const double slope : {0.0, 0.05, 0.21, 0.5, 0.77, 0.99, 1.0, -0.3, -0.9}) {
     const ScreenLine line{{-10, 32.3 - 42 * slope, 1}, {74, 32.3 + 42 * slope, 1}};
     const golden::ideal::HalfPlane below{-slope, 1, -(line.p.y - slope * line.p.x)};
-    // By column along the longer axis; a diagonal has rows for columns.
+    // Columns along the longer axis; a diagonal line uses rows instead.
     std::size_t seconds = 0;
     for (const CutPixel& cut : cut_pixels(line, kSize, kSize, true)) {
       const double covered = golden::ideal::coverage(below, cut.x, cut.y);
@@ -88,17 +88,17 @@ TEST(Ideal, BothPixelsOfAColumnHaveTheWholeArea) {
   }
 }
 
-TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
+TEST(Ideal, BorderAndCentreFollowTheCorrectedPaper) {
   const auto at = [](double y) { return cut_pixels({{2, y, 1}, {5, y, 1}}, 8, 8); };
-  EXPECT_EQ(at(3.0).size(), 0u);  // |dis| = 1/2: nothing
-  ASSERT_EQ(at(3.5).size(), 3u);  // through the centre: a half
+  EXPECT_EQ(at(3.0).size(), 0u);  // |dis| = 1/2: no weight
+  ASSERT_EQ(at(3.5).size(), 3u);  // through the centre: one half
   EXPECT_EQ(at(3.5)[0].coverage, 0.5);
   EXPECT_EQ(at(3.5)[0].direction, 0);
   EXPECT_EQ(at(3.75)[0].coverage, 0.25);
   EXPECT_EQ(at(3.75)[0].direction, 1);
   EXPECT_EQ(at(8.25).size(), 0u);  // below the last row
-  // A line through a centre goes on with the pixel below only where it is flat and falls: of a
-  // steep one the pixel to the left has the half.
+  // A line through a centre continues with the pixel below only if it is flat and falls; a steep
+  // line gives the pixel to the left the half.
   const auto through = [](ScreenPoint p, ScreenPoint q) {
     std::vector<int> directions;
     for (const CutPixel& cut : cut_pixels({p, q}, 8, 8))
@@ -109,21 +109,21 @@ TEST(Ideal, BorderAndCentreAreThePapersCorrected) {
   EXPECT_EQ(through({2, 4.75, 1}, {5, 3.25, 1}), (std::vector{0, 0}));
   EXPECT_EQ(through({3.25, 2, 1}, {4.75, 5, 1}), (std::vector{2, 2}));
   EXPECT_EQ(through({4.75, 2, 1}, {3.25, 5, 1}), (std::vector{2, 2}));
-  // The distance runs along the axis, not across the line.
+  // The distance is measured along the axis, not perpendicular to the line.
   const auto slanted = cut_pixels({{0, 0.2, 1}, {8, 6.2, 1}}, 8, 8);
   EXPECT_NEAR(slanted[0].distance, 0.2 + 0.75 * 0.5 - 0.5, 1e-12);
 }
 
-TEST(Ideal, LinesOfOnePixelCutIt) {
+TEST(Ideal, OnePixelLinesCutTheirPixel) {
   const auto cuts = [](ScreenPoint p, ScreenPoint q) { return cut_pixels({p, q}, 8, 8).size(); };
   EXPECT_EQ(cuts({3.25, 2, 1}, {3.25, 3, 1}), 1u);
   EXPECT_EQ(cuts({2, 3.25, 1}, {3, 3.25, 1}), 1u);
   EXPECT_EQ(cuts({2.5, 3.25, 1}, {2.5, 3.25, 1}), 0u);
 }
 
-// In each corner of the frame, where a pixel has two neighbours: the heavier one gives its share,
-// and the axis of rows if both weigh the same.
-TEST(Ideal, PixelsTakeFromTheNeighboursOfTheirHeavierAxis) {
+// In each corner of the frame, a pixel has two neighbours: the one with the larger weight is used,
+// and the axis of rows if both are equal.
+TEST(Ideal, NeighbourOnTheHeavierAxisIsUsed) {
   const std::vector<Light> frame = {{0, 10, 20}, {40, 50, 60}, {80, 90, 100}, {120, 200, 240}};
   for (std::size_t pixel = 0; pixel < 4; ++pixel) {
     const std::size_t beside = pixel ^ 1, across = pixel ^ 2;
@@ -142,9 +142,10 @@ TEST(Ideal, PixelsTakeFromTheNeighboursOfTheirHeavierAxis) {
   }
 }
 
-// Against the farther of a pixel, in row 2, and its neighbour above it: up to the bias behind it a
-// line is seen, a crease if that lies no more than so far behind the crease; both at equality.
-TEST(Ideal, DepthsDecideWhatIsSeen) {
+// Visibility by depth. The larger depth of a pixel in row 2 and its neighbour above is compared: a
+// line is visible up to the bias behind it, a crease if that depth is at most the limit behind the
+// crease. Both include equality.
+TEST(Ideal, DepthsDecideVisibility) {
   struct Row {
     double own, other, line;
     bool crease, seen;
@@ -175,8 +176,8 @@ TEST(Ideal, DepthsDecideWhatIsSeen) {
 // ---- golden against ideal -----------------------------------------------------------------------
 
 struct Compared {
-  std::size_t weights = 0, off = 0;  // of at least one of them above 0
-  double worst = 0;                  // of those that are not off
+  std::size_t weights = 0, off = 0;  // pixels where one of them is above 0
+  double worst = 0;                  // among those that are not off
   std::size_t pixels = 0, codes_off = 0;
   int worst_code = 0;
 };
@@ -187,7 +188,7 @@ Light decoded(const tb::Rgba8& pixel) {
   return light;
 }
 
-// Kept edges as lines of the vertices that the engine sees.
+// Kept edges as lines between the vertices that the engine reads.
 std::vector<ScreenLine> lines_of(const Frame& frame, const GeometricGolden& golden) {
   std::vector<ScreenLine> lines;
   for (std::size_t i = 0; i < frame.screen.edges.size(); ++i) {
@@ -222,7 +223,7 @@ Compared compare(const Frame& frame, const Parameters& parameters) {
   for (const tb::Rgba8& pixel : frame.image.pixels) light.push_back(decoded(pixel));
   const std::vector<Light> image = golden::ideal::blended(light, weights, width, height);
 
-  // Areas of the corners of a pixel come from a table.
+  // Corner areas of a pixel come from a table.
   const double kRounding = options.area ? 2.5 / 256 : 1.0 / 512 + 1.0 / 16384;
   Compared result;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -242,7 +243,7 @@ Compared compare(const Frame& frame, const Parameters& parameters) {
     if (!same || !golden::geometric::is_blended(golden.weights()[i])) continue;
     ++result.pixels;
     for (std::size_t c = 0; c < 3; ++c) {
-      // Codes next to the exact value are one code off at most.
+      // Codes next to the exact value differ by one code at most.
       const auto code = spec::geometric::kSrgbFromLinear12[static_cast<std::size_t>(
           std::clamp(std::lround(image[i][c]), 0l, 4095l))];
       const int difference = std::abs(int{code} - int{golden.pixels()[i][c]});
@@ -263,7 +264,7 @@ Parameters with_configuration(Combine combine, CoverageRule coverage, int crease
 
 class Scenes : public testing::TestWithParam<const char*> {};
 
-TEST_P(Scenes, GoldenIsTheIdealRounded) {
+TEST_P(Scenes, GoldenIsTheRoundedIdeal) {
   const Frame frame =
       tb::geometric::make_frame(tb::make_scene(GetParam(), {.texture_size = 128}), 640, 480);
   std::vector<std::pair<std::string, Parameters>> all;
@@ -278,15 +279,15 @@ TEST_P(Scenes, GoldenIsTheIdealRounded) {
               << " off, worst other " << c.worst * 512 << " / 512; " << c.pixels
               << " pixels, worst " << c.worst_code << " codes\n";
     EXPECT_GT(c.weights, 500u);
-    // A tie, or a depth at the limit, that rounding turns: the weight goes to another neighbour.
+    // Rounding can turn a tie, or a depth at the limit, so that another neighbour gets the weight.
     // The road's far end has depths of a few thousand units, of which the line lacks up to four.
     const bool shallow = std::string(GetParam()) == "road";
-    // With areas a corner may round to nothing, and leave the pixel to a line further in.
+    // With area coverage a corner can round to zero, which leaves the pixel to an inner line.
     const bool area = parameters.coverage == CoverageRule::kArea;
     EXPECT_LE(c.off, 4 + c.weights / (shallow ? 25 : area ? 80 : 500));
     EXPECT_GT(c.worst, 0.9 / 512);
     EXPECT_LE(c.codes_off, (area ? 6 : 3) * c.pixels / 100);
-    EXPECT_LE(c.worst_code, 6);  // in the dark, where a code is a small step of light
+    EXPECT_LE(c.worst_code, 6);  // in dark pixels, where a code is a small step of light
   }
 }
 
@@ -294,8 +295,8 @@ INSTANTIATE_TEST_SUITE_P(Models, Scenes,
                          testing::Values("cube", "wheelcover", "wing", "canopy", "sphere",
                                          "terrain", "object", "road"));
 
-// The ideal line in real numbers against P, over random lines far beyond the frame.
-TEST(Line, PositionsAreTheIdealOnes) {
+// The ideal line in real numbers against P, for random lines far beyond the frame.
+TEST(Line, PositionsMatchTheIdealLine) {
   tb::Random random(21);
   std::size_t compared = 0;
   for (int i = 0; i < 3000; ++i) {

@@ -13,7 +13,7 @@ if(PC_OracleEgl_FOUND)
     SOURCE "${CMAKE_CURRENT_LIST_DIR}/mesa_test.cpp"
     LINK deburr::mesa)
   deburr_test(smaa_shader_test PROGRAM oracle_mesa_tests LABELS oracle TIMEOUT 300
-    LONG PublishedShader[.]HasTheseWeightsAtOtherSizesByEveryQuality
+    LONG PublishedShader[.]WeightsAreCloseAtOtherSizesForEveryQuality
     SOURCE "${CMAKE_CURRENT_LIST_DIR}/smaa_shader_test.cpp"
     LINK deburr::mesa deburr::golden_morphological deburr::ideal deburr::scene deburr::stimuli)
 else()

@@ -38,7 +38,7 @@ unsigned int gl_program(const std::string& vertex_shader, const std::string& fra
   for (const GLuint shader :
        {compile(GL_VERTEX_SHADER, vertex_shader), compile(GL_FRAGMENT_SHADER, fragment_shader)}) {
     glAttachShader(program, shader);
-    glDeleteShader(shader);  // with the program
+    glDeleteShader(shader);  // deleted with the program
   }
   glLinkProgram(program);
   GLint ok = 0;
@@ -88,7 +88,7 @@ std::unique_ptr<MesaContext> MesaContext::open(const std::string& driver,
 MesaContext::~MesaContext() {
   if (display_ == EGL_NO_DISPLAY) return;
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-  // The display stays: Mesa unloads its driver with it and loses memory on the way.
+  // The display is kept: terminating it unloads Mesa's driver, which leaks memory.
   if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An OpenGL ES 3 context of one of Mesa's software rasterisers, without a window (EGL surfaceless),
-// and programs that draw over a whole target.
+// An OpenGL ES 3 context on one of Mesa's software rasterisers, without a window (EGL surfaceless),
+// and programs that draw a full-target quad.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@ namespace deburr::tb {
 
 class MesaContext {
  public:
-  // driver: "llvmpipe" or "softpipe". Null where EGL, the surfaceless platform or the driver is
-  // missing; `why` then says what. Mesa reads the driver's name and `accuracy`, what of llvmpipe's
-  // arithmetic is not made faster (GALLIVM_PERF), once a process.
+  // driver: "llvmpipe" or "softpipe". Null if EGL, the surfaceless platform or the driver is
+  // missing; `why` then holds the reason. Mesa reads the driver's name and `accuracy` (llvmpipe's
+  // shortcuts to disable, GALLIVM_PERF) once per process.
   static std::unique_ptr<MesaContext> open(const std::string& driver, const std::string& accuracy,
                                            std::string& why);
   ~MesaContext();
@@ -23,12 +23,12 @@ class MesaContext {
 
  private:
   MesaContext() = default;
-  // EGLDisplay and EGLContext: this header is read without EGL's.
+  // EGLDisplay and EGLContext as void*, so that this header does not include EGL's.
   void* display_ = nullptr;
   void* context_ = nullptr;
 };
 
-// A GL program. Throws SimulationError with Mesa's words for text that it rejects.
+// A GL program. Throws SimulationError with Mesa's message if a shader does not compile.
 unsigned int gl_program(const std::string& vertex_shader, const std::string& fragment_shader);
 
 }  // namespace deburr::tb

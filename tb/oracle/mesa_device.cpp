@@ -30,7 +30,7 @@ void main() {
   colour = texture(image, st);
 })";
 
-// A program of its own: softpipe's anisotropic filter goes wrong with any bias, even 0.
+// A separate program: softpipe's anisotropic filter fails with any bias, even 0.
 constexpr const char* kBiasedFragmentShader = R"(#version 300 es
 precision highp float;
 precision highp sampler2D;
@@ -127,7 +127,7 @@ Pixels MesaDevice::draw(const CoordinateImage& image, const EncodedTexture& text
   std::array<GLuint, 3> textures{};
   glGenTextures(3, textures.data());
 
-  // Coordinates: one float pair a pixel. Row 0 of the image is row 0 of the target.
+  // Coordinates: one pair of floats per pixel. Row 0 of the image is row 0 of the target.
   std::vector<float> coordinates;
   for (std::size_t i = 0; i < image.s.size(); ++i) {
     coordinates.push_back(static_cast<float>(image.s[i]) * 0x1p-24f);

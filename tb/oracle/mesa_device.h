@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Mesa's software rasterisers as texture filters: OpenGL ES 3 without a window (EGL surfaceless).
 //
-// A scene is drawn over the whole target; each pixel fetches its coordinate from a float texture
-// and samples the texture under test with implicit derivatives, so that Mesa and the unit under
-// test see the same coordinates in the same 2 x 2 quads.
+// A scene covers the whole target; each pixel fetches its coordinate from a float texture and
+// samples the texture under test with implicit derivatives, so that Mesa and the unit under test
+// see the same coordinates in the same 2 x 2 quads.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace deburr::tb::texture {
 
 class MesaDevice {
  public:
-  // driver: "llvmpipe" or "softpipe". Null where EGL, the surfaceless platform or the driver is
-  // missing; `why` then says what. Mesa reads the driver's name once a process.
+  // driver: "llvmpipe" or "softpipe". Null if EGL, the surfaceless platform or the driver is
+  // missing; `why` then holds the reason. Mesa reads the driver's name once per process.
   static std::unique_ptr<MesaDevice> open(const std::string& driver, std::string& why);
   ~MesaDevice();
   MesaDevice(const MesaDevice&) = delete;
   MesaDevice& operator=(const MesaDevice&) = delete;
 
-  // Filters every pixel of `image`. The sampler state is the descriptor's; N_max is passed on as
+  // Filters every pixel of `image` with the descriptor's sampler state; N_max is passed on as
   // GL_TEXTURE_MAX_ANISOTROPY.
   Pixels draw(const CoordinateImage& image, const EncodedTexture& texture,
               const spec::texture::Descriptor& state);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The golden model against Mesa's software rasterisers: llvmpipe without anisotropy, softpipe with
-// (llvmpipe gives one image for every N). Skipped where Mesa is absent.
+// Compares the golden model with Mesa's software rasterisers: llvmpipe without anisotropy, softpipe
+// with it (llvmpipe gives the same image for every N). Skipped if Mesa is absent.
 //
-// Bit equality is never required: the two drivers themselves differ. softpipe uses one level of
-// detail for a quad and llvmpipe one for each pixel, as the unit does.
+// Bit equality is never required, because the two drivers differ from each other. softpipe uses one
+// level of detail per quad; llvmpipe and the unit use one per pixel.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ spec::texture::Parameters papers_configuration() {
   return spec::texture::preset_parameters(spec::texture::Preset::kPaper);
 }
 
-// The rules nearest to what Mesa does; the paper's are printed beside them.
+// The configuration nearest to Mesa's arithmetic; results of the paper's are printed next to it.
 spec::texture::Parameters exact_configuration() {
   spec::texture::Parameters parameters = papers_configuration();
   parameters.footprint = spec::texture::FootprintRule::kExact;
@@ -38,7 +38,7 @@ spec::texture::Parameters segments_configuration() {
   return parameters;
 }
 
-// Agreement of two images, over pixels of a mask.
+// Agreement of two images over the pixels of a mask.
 struct Agreement {
   double pixels = 0, within_one = 0, square = 0;
   double share() const { return within_one / pixels; }
@@ -62,7 +62,7 @@ golden::ideal::Fragment fragment_at(const CoordinateImage& image, std::size_t i)
   return fragment_of(image.quad(x & ~1, y & ~1), 2 * (y & 1) + (x & 1));
 }
 
-// Whether a filter that is off by `margin` levels may take another mip level or another filter.
+// Whether a filter with a level error of up to `margin` can select another mip level or filter.
 bool at_threshold(const golden::ideal::Fragment& f, const Size& size, MinFilter filter,
                   double margin) {
   const double rho = std::max(std::hypot(f.ds_dx * size.width, f.dt_dx * size.height),
@@ -83,8 +83,8 @@ class Mesa : public testing::Test {
     std::printf("%s\n", device_->name().c_str());
   }
 
-  // Every size and format, with wraps in turns (all of them without mip levels), on the quads of
-  // the criterion and on a plane.
+  // Visits every size and format, with alternating wraps (all of them without mip levels), on the
+  // quads of the criterion and on a plane.
   using Visit = std::function<void(const CoordinateImage&, const EncodedTexture&, const Size&,
                                    const spec::texture::Descriptor&, const Pixels& mesa)>;
   void draw_all(MinFilter min_filter, Pattern pattern, bool with_quads, const Visit& visit) {
@@ -124,7 +124,7 @@ class Mesa : public testing::Test {
 
 class MesaDriver : public Mesa, public testing::WithParamInterface<const char*> {};
 
-TEST_P(MesaDriver, NearestAndLinearAgreeToOneStep) {
+TEST_P(MesaDriver, NearestAndLinearAgreeWithinOneStep) {
   ASSERT_NO_FATAL_FAILURE(open(GetParam()));
   if (device_ == nullptr) return;
   for (const MinFilter filter : {MinFilter::kNearest, MinFilter::kLinear}) {
@@ -155,11 +155,12 @@ TEST_F(Mesa, MipModesAgree) {
   struct Configuration {
     const char* name;
     spec::texture::Parameters parameters;
-    double margin;  // error of the level of detail, and what llvmpipe's own adds
+    double margin;  // error of the level of detail, including llvmpipe's own
     double goal_db;
   };
-  // The goal is for the rules that compute the same level of detail. `half` is up to 0.16 above it,
-  // which costs more than 35 dB allows on noise: a floor for these, the number is in the docs.
+  // The goal applies to the configurations that compute the same level of detail. `half` is up to
+  // 0.16 levels above, which on noise exceeds 35 dB: its limit is a floor, and the measured value
+  // is in the docs.
   const std::array<Configuration, 3> configuration = {
       Configuration{"exact, exact", exact_configuration(), 0.05, 35.0},
       Configuration{"half, segments", segments_configuration(), 0.2, 30.0},
@@ -195,9 +196,9 @@ TEST_F(Mesa, MipModesAgree) {
   }
 }
 
-// An independent program under the criterion: a checker that rejected what Mesa draws would be
-// suspect.
-TEST_P(MesaDriver, PassesTheFilteringCriterion) {
+// Checks the criterion with an independent program: a criterion that rejected Mesa's images would
+// be suspect.
+TEST_P(MesaDriver, MesaPassesTheFilteringCriterion) {
   ASSERT_NO_FATAL_FAILURE(open(GetParam()));
   if (device_ == nullptr) return;
   for (std::uint8_t mode = 0; mode < 6; ++mode) {
@@ -234,7 +235,7 @@ TEST_P(MesaDriver, PassesTheFilteringCriterion) {
   }
 }
 
-TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
+TEST_F(Mesa, AnisotropicErrorFallsAsInSoftpipe) {
   ASSERT_NO_FATAL_FAILURE(open("softpipe"));
   if (device_ == nullptr) return;
   for (const Pattern pattern : {Pattern::kChecker, Pattern::kPyramid}) {
@@ -261,7 +262,7 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
           "exact, ceil against softpipe %.1f dB\n",
           pattern == Pattern::kChecker ? "checker" : "noise", 1 << lb_n, paper[lb_n], ceiling[lb_n],
           theirs[lb_n], agreement.psnr());
-      EXPECT_GE(agreement.psnr(), 15.0);  // another picture altogether would be below 10
+      EXPECT_GE(agreement.psnr(), 15.0);  // a different picture would be below 10
     }
     for (const auto& errors : {paper, ceiling}) {
       EXPECT_LT(errors[1], errors[0]);
@@ -272,8 +273,8 @@ TEST_F(Mesa, AnisotropyFallsAsSoftpipesDoes) {
   }
 }
 
-// The comparison can fail: the wrong wrap, and the wrong level, are seen against Mesa.
-TEST_F(Mesa, PlantedFaultsAreSeen) {
+// A wrong wrap mode and a wrong level are detected.
+TEST_F(Mesa, InjectedFaultsAreDetected) {
   ASSERT_NO_FATAL_FAILURE(open("llvmpipe"));
   if (device_ == nullptr) return;
   Agreement wrap;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How far are the integer areas from real arithmetic on the same corners? Every run length and
-// shape, every reach of long runs, and extended lines with up to 16 steps a side.
+// Error of the integer areas against real arithmetic on the same corners: every run length and
+// shape, every search range of long runs, and extended lines with up to 16 steps per side.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,10 +27,10 @@ using tb::Random;
 
 // In units of a weight, 1/256. Half of it is the rounding to 8 bits.
 constexpr double kBound = 0.57;
-// The rounded slope is multiplied by up to 34 times the distance to the middle of the extended
+// The rounded slope is multiplied by up to 34 times the distance to the centre of the extended
 // line.
 constexpr double kBoundOfExtendedLines = 0.8;
-// A U whose middle pixel holds both triangles rounds twice.
+// A U whose middle pixel holds both triangles is rounded twice.
 constexpr double kBoundOfTwoTriangles = 1.07;
 
 double weight_of(spec::morphological::Side side, const spec::morphological::LineDescriptor& line,
@@ -77,7 +77,7 @@ Prediction not_extended(int length) {
   return p;
 }
 
-TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
+TEST(MorphologicalArea, EveryRunLengthAndShapeIsWithinBound) {
   Worst worst;
   for (int length = 1; length <= 2048; ++length) {
     const std::array<StepCorner, 2> corners = {{{0, 0}, {1, length}}};
@@ -91,10 +91,10 @@ TEST(MorphologicalArea, OfEveryRunLengthAndShapeIsWithinTheBound) {
             << " / 256\n";
   EXPECT_LT(worst.single, kBound);
   EXPECT_LT(worst.two_triangles, kBoundOfTwoTriangles);
-  EXPECT_GT(worst.single, 0.45);  // all runs were looked at
+  EXPECT_GT(worst.single, 0.45);  // all runs were covered
 }
 
-TEST(MorphologicalArea, OfTheEndsOfLongRunsIsWithinTheBound) {
+TEST(MorphologicalArea, EndsOfLongRunsAreWithinBound) {
   Worst worst;
   for (int search_range = 4; search_range <= 2048; ++search_range) {
     spec::morphological::Parameters p = with(spec::morphological::Predictor::kNone);
@@ -145,7 +145,7 @@ struct DigitalRun {
   }
 };
 
-TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
+TEST(MorphologicalArea, ExtendedLinesAreWithinBound) {
   Random random(5);
   Worst fit, chord;
   for (int i = 0; i < 100000; ++i) {
@@ -162,7 +162,7 @@ TEST(MorphologicalArea, OfExtendedLinesIsWithinTheBound) {
   EXPECT_LT(chord.single, kBoundOfExtendedLines);
 }
 
-TEST(MorphologicalArea, AnErrorOfOneShareIsCaught) {
+TEST(MorphologicalArea, WeightErrorOfOneStepIsDetected) {
   const std::array<StepCorner, 2> corners = {{{0, 0}, {1, 7}}};
   spec::morphological::LineDescriptor line =
       line_through(with(spec::morphological::Predictor::kNone), whole_run(7, 9), not_extended(7));

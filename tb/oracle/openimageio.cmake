@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# OpenImageIO's texture system as a second oracle. Debian's CMake package needs OpenCV's headers, its
-# pkg-config file does not.
+# OpenImageIO's texture system as a second oracle. Debian's CMake package needs OpenCV's headers; its pkg-config file
+# does not.
 pkg_check_modules(PC_OracleOpenImageIO QUIET IMPORTED_TARGET OpenImageIO)
 if(PC_OracleOpenImageIO_FOUND)
   set(oracle_openimageio PkgConfig::PC_OracleOpenImageIO)

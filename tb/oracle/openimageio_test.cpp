@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The golden model against OpenImageIO's texture system, without mip levels: its closest and
-// bilinear lookups follow the same texel and wrap conventions. Its trilinear blend does not follow
-// GL (the fraction between two levels is no logarithm), so mip modes are left to Mesa and the
+// Compares the golden model with OpenImageIO's texture system without mip levels: its closest and
+// bilinear lookups use the same texel and wrap conventions. Its trilinear blend differs from GL
+// (the fraction between two levels is not logarithmic), so mip modes are left to Mesa and the
 // criterion.
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
@@ -23,7 +23,7 @@ class OpenImageIo : public testing::Test {
   }
 
   std::string write(const EncodedTexture& texture) {
-    static int count = 0;  // the texture system remembers a file by its name
+    static int count = 0;  // the texture system caches files by name
     const std::string name = testing::TempDir() + "deburr_oracle_" + std::to_string(getpid()) +
                              "_" + std::to_string(count++) + ".tif";
     const OIIO::ImageSpec spec(texture.width(), texture.height(), 4, OIIO::TypeDesc::UINT8);
@@ -36,18 +36,18 @@ class OpenImageIo : public testing::Test {
     return name;
   }
 
-  // Share of lanes whose four channels agree to one step.
+  // Fraction of lanes whose four channels agree within one step.
   double agreement(spec::texture::MinFilter filter, spec::texture::Wrap oiio_wrap_shift) {
     constexpr std::array<OIIO::TextureOpt::Wrap, 3> kWraps = {
         OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapMirror, OIIO::TextureOpt::WrapClamp};
-    // The shared one: destroying another deletes it by the wrong type (version 2.4).
+    // The shared instance: destroying a private one deletes it with the wrong type (version 2.4).
     OIIO::TextureSystem* const system = OIIO::TextureSystem::create(true);
     double within = 0.0;
     double count = 0.0;
     std::uint32_t seed = 1;
     for (const Size& size : kFilteringSizes) {
       for (std::size_t wrap = 0; wrap < 3; ++wrap, ++seed) {
-        // No alpha of 0: the texture system must not be asked what it does with associated alpha.
+        // Alpha is never 0, so the result does not depend on how associated alpha is handled.
         const EncodedTexture texture = make_texture(Pattern::kNoise, spec::texture::Format::kRgb565,
                                                     size.width, size.height, seed);
         const OIIO::ustring file(write(texture));
@@ -93,7 +93,7 @@ class OpenImageIo : public testing::Test {
   std::vector<std::string> files_;
 };
 
-TEST_F(OpenImageIo, ClosestAndBilinearAgreeToOneStep) {
+TEST_F(OpenImageIo, ClosestAndBilinearAgreeWithinOneStep) {
   const double nearest =
       agreement(spec::texture::MinFilter::kNearest, spec::texture::Wrap::kRepeat);
   const double linear = agreement(spec::texture::MinFilter::kLinear, spec::texture::Wrap::kRepeat);
@@ -103,7 +103,7 @@ TEST_F(OpenImageIo, ClosestAndBilinearAgreeToOneStep) {
   EXPECT_GE(linear, 0.98);
 }
 
-TEST_F(OpenImageIo, WrongWrapIsSeen) {
+TEST_F(OpenImageIo, WrongWrapIsDetected) {
   EXPECT_LT(agreement(spec::texture::MinFilter::kLinear, spec::texture::Wrap::kMirroredRepeat),
             0.9);
 }

@@ -24,7 +24,7 @@ Colour blend(const Colour& a, const Colour& b, double f) {
   return result;
 }
 
-// Position of the highest kept bit of narrow channels when they are widened with zeros.
+// Widens narrow channels with zeros, keeping their highest bits in place.
 Colour with_zeros(spec::texture::Format format, Colour colour) {
   const auto widen = [](double value, int bits) {
     const double code = std::round(value / 255.0 * ((1 << bits) - 1));

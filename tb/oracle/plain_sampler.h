@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A small texture sampler with an exact level of detail and 8-bit weights, into which faults can be
-// injected: what the filtering criterion must accept without a fault and reject with one.
+// injected: the filtering criterion must accept it without a fault and reject it with one.
 //
-// Written for the negative tests of the criterion and for nothing else; it shares no code with the
-// golden model nor with the criterion.
+// Used only by the criterion's negative tests; independent of the golden model and the criterion.
 #pragma once
 
 #include <array>
@@ -25,10 +24,10 @@ enum class Fault {
   kThreeBitWeights,
   kThreeBitTruncatedWeights,
   kHalfTexelShift,         // linear filtering forgets the half texel
-  kNearestHalfTexelShift,  // nearest filtering rounds the position where it should truncate
+  kNearestHalfTexelShift,  // nearest filtering rounds the position instead of truncating
   kWrongWrap,              // repeat <-> mirrored, clamp -> repeat
-  kNeighbourPastEdge,      // the right neighbour of the last column is clamped, whatever the wrap
-  kTruncatedIndex,         // positions are truncated towards 0 where floor is meant
+  kNeighbourPastEdge,      // the right neighbour of the last column is clamped for every wrap mode
+  kTruncatedIndex,         // positions are truncated towards 0 instead of floored
   kTruncatedLevel,         // *_MIPMAP_NEAREST takes floor(l)
   kTwoBitLevelFraction,    // level fraction rounded to 1/4
   kLevelTooLow,            // l is 1/8 too low
@@ -37,7 +36,7 @@ enum class Fault {
   kSwappedAxes,            // u and v fractions are exchanged
   kLateMagnification,      // the switch to the magnification filter is at l = 1/2
   kUnreplicatedChannels,   // 4, 5 and 6-bit channels are widened with zeros
-  kEncodedSrgb,            // sRGB is filtered and delivered as stored
+  kEncodedSrgb,            // sRGB is filtered and returned as stored
   kTruncatedColour,        // the result is truncated to 8 bits: legal for the criterion, biased
 };
 inline constexpr std::array<std::string_view, 20> kFaultNames = {"none",
@@ -63,7 +62,7 @@ inline constexpr std::array<std::string_view, 20> kFaultNames = {"none",
 
 class PlainSampler {
  public:
-  // Keeps the reference to the texture.
+  // Keeps a reference to the texture.
   PlainSampler(const EncodedTexture& texture, const golden::ideal::Sampler& sampler, Fault fault)
       : texture_(texture), sampler_(sampler), fault_(fault) {}
 

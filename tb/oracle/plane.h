@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A textured ground plane seen in perspective, as coordinates of pixels: the scene on which
-// anisotropic filtering and other programs' filters are compared.
+// A textured ground plane in perspective, as texture coordinates per pixel: the scene for comparing
+// anisotropic filtering and other programs' filters.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace deburr::tb::texture {
 
-std::int32_t fixed(double coordinate);  // as S7.24, the nearest
+std::int32_t fixed(double coordinate);  // rounds to S7.24
 
 // Texture coordinates S7.24 at the centres of width x height pixels, both even; row 0 is farthest.
 struct CoordinateImage {
@@ -34,13 +34,13 @@ struct PlaneView {
 };
 CoordinateImage plane(const PlaneView& view);
 
-// Quads that need not belong together, 32 in a row; their number is a multiple of 32.
+// Unrelated quads, 32 per row; their number is a multiple of 32.
 CoordinateImage quads_image(const std::vector<spec::texture::Quad>& quads);
 
 using Pixels = std::vector<std::array<std::uint8_t, 4>>;  // row-major
 Pixels filter_image(const CoordinateImage& image, const QuadFilter& filter);
 
-// What the plane's pixels show when n x n points of each are averaged over bilinear level 0.
+// Reference image of the plane: each pixel averages n x n bilinear samples of level 0.
 std::vector<golden::ideal::Rgba> plane_reference(const PlaneView& view,
                                                  const golden::ideal::Texture& texture, int n);
 // Root mean square difference over R, G and B, 8-bit steps.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The files that the authors of SMAA publish. They are not here: a folder `smaa` of the data folder
-// (DEBURR_DATA) holds SMAA.hlsl, AreaTex.h and SearchTex.h. FileError for others.
+// The files published by the authors of SMAA. They are not in this repository: folder `smaa` of the
+// data folder (DEBURR_DATA) must hold SMAA.hlsl, AreaTex.h and SearchTex.h. Files with other
+// contents throw FileError.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,14 +19,14 @@
 
 namespace deburr::tb {
 
-inline constexpr int kSmaaAreaWidth = 160, kSmaaAreaHeight = 560;    // two bytes a texel
-inline constexpr int kSmaaSearchWidth = 64, kSmaaSearchHeight = 16;  // one
+inline constexpr int kSmaaAreaWidth = 160, kSmaaAreaHeight = 560;    // two bytes per texel
+inline constexpr int kSmaaSearchWidth = 64, kSmaaSearchHeight = 16;  // one byte per texel
 inline constexpr std::size_t kSmaaAreaBytes = std::size_t{2} * kSmaaAreaWidth * kSmaaAreaHeight;
 inline constexpr std::size_t kSmaaSearchBytes = std::size_t{kSmaaSearchWidth} * kSmaaSearchHeight;
 
 inline std::filesystem::path smaa_file(const char* name) { return data_folder() / "smaa" / name; }
 
-// A test that needs `name` says this where it is absent.
+// Skip message of a test that needs the file `name`.
 inline std::string no_smaa_file(const char* name) {
   return "no " + smaa_file(name).string() + ": set DEBURR_DATA to the folder that holds smaa/";
 }
@@ -36,7 +37,7 @@ inline std::string no_smaa_file(const char* name) {
       fmt::format("'{}' {}: take the files of SMAA's repository", path.string(), reason));
 }
 
-// With line ends of one byte.
+// With line ends converted to LF.
 inline std::string smaa_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) reject_smaa_file(path, "cannot be read");
@@ -45,7 +46,7 @@ inline std::string smaa_text(const std::filesystem::path& path) {
   return text;
 }
 
-// The bytes between the braces of a header, `expected` of them.
+// Bytes of the array in a header; there must be `expected` of them.
 inline std::vector<std::uint8_t> smaa_bytes(const std::filesystem::path& path,
                                             std::size_t expected) {
   const std::string text = smaa_text(path);

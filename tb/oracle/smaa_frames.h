@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Frames by formula on which SMAA is compared with the published one, and its settings.
+// Procedural frames for comparison with the published SMAA, and its settings.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline std::string name_of(spec::morphological::Quality quality) {
   return std::string(spec::morphological::kQualityNames[static_cast<std::size_t>(quality)]);
 }
 
-// As published, with the bytes of the textures.
+// Settings as published, with the values of the byte textures.
 inline golden::ideal::SmaaSettings smaa_settings(spec::morphological::Quality quality) {
   const golden::ideal::SmaaSettings all[] = {{0.15, 4, 0, {}, true},
                                              {0.1, 8, 0, {}, true},

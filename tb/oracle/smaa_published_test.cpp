@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// How far is this SMAA from the published one? From equal edges the weights of golden/morphological
-// against golden/ideal/smaa as it is published: its sampler's border, its area texture's bytes.
-// That the oracle has those bytes is read from the published files, where they are (DEBURR_DATA).
+// Measures the distance from the published SMAA. From equal edges, the weights of
+// golden/morphological are compared with golden/ideal/smaa as published: its sampler's border, its
+// area texture's bytes. The oracle's bytes are checked against the published files if these are
+// present (DEBURR_DATA).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,8 +44,8 @@ using spec::morphological::Quality;
 
 // ---- the published tables -----------------------------------------------------------------------
 
-// The error names the file, its bytes, and what to do.
-TEST(SmaaFiles, OfOtherBytesAreRejected) {
+// The error names the file, its size and what to do.
+TEST(SmaaFiles, FilesWithOtherBytesAreRejected) {
   const test::TemporaryFolder folder;
   const std::filesystem::path path = folder / "SearchTex.h";
   const auto error = [&](std::size_t expected) {
@@ -71,15 +72,15 @@ class PublishedTables : public testing::Test {
   }
 };
 
-// Of the row for subsample offset 0.
-TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
+// Row of subsample offset 0.
+TEST_F(PublishedTables, AreasMatchTheOracle) {
   const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("AreaTex.h"), kSmaaAreaBytes);
   const auto expect = [&](int x, int y, const SmaaBytes& entry, const std::string& what) {
     const auto at = static_cast<std::size_t>(2 * (y * kSmaaAreaWidth + x));
     EXPECT_EQ(texture[at], entry.r) << what;
     EXPECT_EQ(texture[at + 1], entry.g) << what;
   };
-  // 4e of an end by its crossings: N weighs 1, S weighs 3.
+  // 4e of an end by its crossings: N has weight 1, S weight 3.
   for (int pattern = 0; pattern < 16; ++pattern) {
     const int start = 3 * (pattern & 1) + (pattern >> 2 & 1),
               end = 3 * (pattern >> 1 & 1) + (pattern >> 3 & 1);
@@ -97,8 +98,8 @@ TEST_F(PublishedTables, HaveTheAreasOfTheOracle) {
                  fmt::format("diagonal {}, {}, distances {} and {}", e1, e2, d1, d2));
 }
 
-// What the tables hold with area_values = published: a byte v is v / 255, to the nearest.
-TEST_F(PublishedTables, HaveTheValuesOfTheTables) {
+// Table values with area_values = published: a byte v becomes v / 255, rounded to nearest.
+TEST_F(PublishedTables, AreaValuesMatchTheTables) {
   const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("AreaTex.h"), kSmaaAreaBytes);
   const auto byte = [&](int x, int y, int channel) {
     return texture[static_cast<std::size_t>(2 * (y * kSmaaAreaWidth + x) + channel)];
@@ -127,10 +128,10 @@ TEST_F(PublishedTables, HaveTheValuesOfTheTables) {
         }
 }
 
-// What exact areas of a diagonal differ by from the published bytes, in 1/255: by points on the
-// line, which belong to A but where rounding puts them below the line, and by bytes being rounded
+// Differences between exact areas of diagonals and the published bytes, in 1/255. Two causes:
+// sample points on the line count as A unless rounding puts them below it, and bytes are rounded
 // down. Where two diagonals cross, one side of an edge gets A of one and B of the other.
-TEST(ExactDiagonals, DifferFromThePublishedOnes) {
+TEST(ExactDiagonals, AreasDifferFromPublishedBytes) {
   const golden::morphological::DiagonalTable exact(AreaValues::kExact);
   double least = 0, most_a = 0, most_b = 0;
   for (int e1 = 0; e1 < 4; ++e1)
@@ -150,8 +151,9 @@ TEST(ExactDiagonals, DifferFromThePublishedOnes) {
   EXPECT_LT(most_a + most_b, 3.7);
 }
 
-// A fetch weighs its four edges with 1, 3, 7 and 21 of 32; the texture is cropped and upside down.
-TEST_F(PublishedTables, HaveTheSearchesOfTheOracle) {
+// A fetch encodes its four edges with weights 1, 3, 7 and 21 of 32; the texture is cropped and
+// upside down.
+TEST_F(PublishedTables, SearchesMatchTheOracle) {
   const std::vector<std::uint8_t> texture = smaa_bytes(smaa_file("SearchTex.h"), kSmaaSearchBytes);
   constexpr std::array<int, 4> kWeights = {1, 3, 7, 21};
   for (int bits = 0; bits < 256; ++bits) {
@@ -175,8 +177,8 @@ TEST_F(PublishedTables, HaveTheSearchesOfTheOracle) {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-// Luma edges differ where the rounding of luma's three weights, by half of 2^-16 each, decides.
-TEST(PublishedSmaa, HasTheseEdges) {
+// Luma edges differ only where the rounding of luma's three weights, up to 2^-17 each, decides.
+TEST(PublishedSmaa, EdgesAreCloseToPublished) {
   constexpr double kRounding = 3.0 / 131072;
   std::vector<Image> all = smaa_frames();
   all.push_back(random_colours(700, 500));
@@ -208,7 +210,8 @@ TEST(PublishedSmaa, HasTheseEdges) {
     table.row({name_of(quality), fmt::format("{}", edges), fmt::format("{}", differing),
                fmt::format("{}", unexplained)});
   }
-  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.HasTheseEdges", table.text());
+  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.EdgesAreCloseToPublished",
+                   table.text());
 }
 
 // ---- weights ------------------------------------------------------------------------------------
@@ -216,7 +219,7 @@ TEST(PublishedSmaa, HasTheseEdges) {
 // Differences of the weights of all edges, in 1/255.
 struct Differences {
   int edges = 0, over_1 = 0, over_3 = 0;
-  int sums_over_3 = 0;  // of the areas of two diagonals
+  int sums_over_3 = 0;  // where the areas of two diagonals add up
   double largest = 0;
   void add(const SmaaWeights& published, EdgeWeights found, bool two_diagonals = false) {
     ++edges;
@@ -260,7 +263,7 @@ Differences differences(Quality quality, const std::vector<Image>& frames,
   return found;
 }
 
-TEST(PublishedSmaa, HasTheseWeights) {
+TEST(PublishedSmaa, WeightsAreCloseToPublished) {
   const std::vector<Image> all = smaa_frames();
   MarkdownTable table({"quality", "edges", "preset: over 1", "over 3.1", "largest",
                        "published values: over 1", "over 3.1", "largest ", "border ends: over 1",
@@ -275,7 +278,7 @@ TEST(PublishedSmaa, HasTheseWeights) {
     const Differences both_end = differences(quality, all, ideal, ending, SmaaBorder::kEnd);
     EXPECT_GT(preset.edges, 10000);
     // Only bytes and diagonals differ. Where two diagonals cross, A of one and B of the other add
-    // up (ExactDiagonals.DifferFromThePublishedOnes).
+    // up (ExactDiagonals.AreasDifferFromPublishedBytes).
     EXPECT_EQ(preset.over_3, preset.sums_over_3);
     EXPECT_LE(preset.largest, 3.7);
     EXPECT_LE(preset.over_3, 1);
@@ -288,12 +291,12 @@ TEST(PublishedSmaa, HasTheseWeights) {
                              fmt::format("{:.1f}", d->largest)});
     table.row(row);
   }
-  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.HasTheseWeights",
+  expect_generated("reference/morphological/smaa.md", "PublishedSmaa.WeightsAreCloseToPublished",
                    table.text());
 }
 
-// The comparison sees searches, diagonals and corners, and areas that are not of bytes.
-TEST(PublishedSmaa, IsNotAnotherSetting) {
+// The comparison detects changed searches, diagonals and corners, and areas not rounded to bytes.
+TEST(PublishedSmaa, OtherSettingsAreDetected) {
   const std::vector<Image> all = smaa_frames();
   const auto over_1 = [&](void (*change)(SmaaSettings&)) {
     SmaaSettings ideal = smaa_settings(Quality::kHigh);

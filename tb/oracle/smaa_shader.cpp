@@ -11,8 +11,8 @@
 namespace deburr::tb {
 namespace {
 
-// Rows of textures and targets count from the top, as the shader's do: row 0 has texture coordinate
-// 0 and is the first that is read back.
+// Rows of textures and targets count from the top, as in the published shader: row 0 has texture
+// coordinate 0 and is read back first.
 constexpr const char* kEdgesVertex = R"(
 out vec2 at;
 out vec4 around[3];
@@ -94,7 +94,7 @@ GLuint texture_of(GLenum unit, TexelFormat texels, int width, int height, const 
   return texture;
 }
 
-// Draws over a target of the size of `result`, cleared first, and reads it.
+// Clears a target of the size of `result`, draws over it, and reads it back.
 template <class Texel>
 void draw_over(GLuint program, GLenum internal, GLenum format, GLenum type,
                ImageOf<Texel>& result) {
@@ -136,7 +136,7 @@ void draw_over(GLuint program, GLenum internal, GLenum format, GLenum type,
 }  // namespace
 
 std::unique_ptr<SmaaShader> SmaaShader::open(std::string& why) {
-  // llvmpipe filters bytes to bytes unless it is told not to.
+  // llvmpipe filters 8-bit textures with 8-bit results unless this is disabled.
   auto context = MesaContext::open("llvmpipe", "no_aos_sampling,no_brilinear", why);
   if (context == nullptr) return nullptr;
   const std::string extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));

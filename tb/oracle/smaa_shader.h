@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The shader that the authors of SMAA publish, run: SMAA.hlsl in its GLSL mode, with the vertex
-// shaders and the textures that come with it, on Mesa's llvmpipe.
+// Runs the shader published by the authors of SMAA: SMAA.hlsl in its GLSL mode, with the published
+// vertex shaders and textures, on Mesa's llvmpipe.
 //
-// Its first two passes, each by itself, so that weights can be made from edges of someone else.
-// Edges are a target of bytes as published; weights one of floats, so that no rounding of a target
-// lies between.
+// The first two passes run separately, so that weights can be computed from given edges. The edge
+// target has bytes, as published; the weight target has floats, so that the target does not round.
 #pragma once
 
 #include <array>
@@ -19,24 +18,24 @@
 
 namespace deburr::tb {
 
-// Of a pixel: an edge at its left and one above it, 255 or 0, as in the shader's target.
+// Per pixel: the edges at its left and above it, 255 or 0, as in the shader's target.
 using SmaaEdgeImage = ImageOf<std::array<std::uint8_t, 2>>;
-// Of a pixel: weights of its top edge, second and first pixel, and of its left edge.
+// Per pixel: weights of its top edge (second and first pixel), then of its left edge.
 using SmaaWeightImage = ImageOf<std::array<float, 4>>;
 
-// What is run. The default is as published.
+// Options of a run. The defaults are as published.
 struct SmaaShaderRun {
   std::string preset;   // of the shader: LOW, MEDIUM, HIGH or ULTRA
-  bool colour = false;  // edges of colour, not of luma
-  // Words of the shader and what stands in their place; each must be there.
+  bool colour = false;  // colour edges instead of luma edges
+  // Replacements in the shader's text; each text must be found.
   std::vector<std::pair<std::string, std::string>> changes = {};
-  int area_row = 0;      // of the seven, by subsample offset
+  int area_row = 0;      // one of the seven, by subsample offset
   bool repeats = false;  // the samplers of the second pass repeat instead of clamping
 };
 
 class SmaaShader {
  public:
-  // Null where Mesa is absent; `why` then says what.
+  // Null if Mesa is absent; `why` then holds the reason.
   static std::unique_ptr<SmaaShader> open(std::string& why);
   ~SmaaShader();
   SmaaShader(const SmaaShader&) = delete;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Is this SMAA the published one? The shader that its authors publish, run on Mesa, against
-// golden/morphological and against golden/ideal/smaa, its port in exact arithmetic: edges from the
-// same picture, weights from the same edges, the frame's border included. Skipped where Mesa or the
-// files are absent.
+// Compares the published SMAA shader, run on Mesa, with golden/morphological and with
+// golden/ideal/smaa, its port in exact arithmetic: edges from the same picture, weights from the
+// same edges, including the frame's border. Skipped if Mesa or the files are absent.
 #include "tb/oracle/smaa_shader.h"
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ using spec::morphological::Parameters;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 
-// Texture coordinates are exact in single precision where both sizes are powers of two.
+// Texture coordinates are exact in single precision if both sizes are powers of two.
 std::vector<Image> power_of_two_frames() {
   std::vector<Image> all = {
       stimuli::noise_image(128, 64),        stimuli::line_image(256, 128),
@@ -62,17 +61,17 @@ SmaaShaderRun run_of(Quality quality, bool colour) {
   return {kNames[static_cast<std::size_t>(quality)], colour};
 }
 
-// The published detection from colour compares the pixel itself with the pixel two to the left and
-// with that two above, where it means their neighbours (pull request 11 of its repository).
+// Fixes the published colour edge detection, which compares the pixel itself with the pixels two to
+// the left and two above instead of comparing their neighbours (pull request 11 of its repository).
 SmaaShaderRun mended(SmaaShaderRun run) {
   run.changes.emplace_back("t = abs(C - Cleftleft)", "t = abs(Cleft - Cleftleft)");
   run.changes.emplace_back("t = abs(C - Ctoptop)", "t = abs(Ctop - Ctoptop)");
   return run;
 }
 
-// A texel that is fetched at its middle has a little of its neighbours where coordinates are
-// rounded: a GPU filters in steps of 1/256, so it has nothing of them, but llvmpipe in single
-// precision. The shader compares such fetches with 0.
+// Rounded coordinates mix a little of the neighbours into a texel fetched at its centre. A GPU
+// filters in steps of 1/256, so it adds nothing; llvmpipe filters in single precision. The shader
+// compares such fetches with 0.
 SmaaShaderRun whole_texels(SmaaShaderRun run) {
   for (const auto* const edge : {"if (e.r", "if (e.r", "int2(1, 0)).r", "if (e.g"})
     run.changes.emplace_back(std::string(edge) + " > 0.0)", std::string(edge) + " > 0.5)");
@@ -103,8 +102,8 @@ class PublishedShader : public testing::Test {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-// How an edge at the left of (x, y) or above it is decided, in the unit of `step`, which compares
-// two pixels; a sampler gives the nearest pixel for one outside.
+// Decides an edge at the left of (x, y) or above it, in the units of `step`, which compares two
+// pixels; outside the frame the sampler returns the nearest pixel.
 template <class Step>
 SmaaMargins margins(const Image& image, double threshold, int x, int y, bool left, Step&& step) {
   const auto at = [&](int px, int py) -> const Rgba8& {
@@ -128,13 +127,13 @@ double colour_step(const Rgba8& a, const Rgba8& b) {
 
 struct EdgeFigures {
   int edges = 0;
-  int golden = 0;       // that golden has otherwise
-  int port = 0;         // that exact arithmetic has otherwise
-  int unexplained = 0;  // of golden's, not by rounding
+  int golden = 0;       // differences of golden
+  int port = 0;         // differences of exact arithmetic
+  int unexplained = 0;  // differences of golden that rounding does not explain
   int port_unexplained = 0;
 
   void add(bool published, bool found, const SmaaMargins& exact, double rounding) {
-    constexpr double kSingle = 1e-6;  // of single precision, a few of its units
+    constexpr double kSingle = 1e-6;  // single precision, a few units
     const auto within = [&](double by) {
       return std::abs(exact.threshold) <= by || std::abs(exact.contrast) <= 2 * by;
     };
@@ -146,10 +145,10 @@ struct EdgeFigures {
   }
 };
 
-// `changed` is what is done to golden's parameters.
+// `changed` modifies golden's parameters.
 EdgeFigures edge_figures(SmaaShader& shader, const SmaaShaderRun& run, Quality quality,
                          const std::vector<Image>& frames, void (*changed)(Parameters&) = nullptr) {
-  // Each of luma's three weights is rounded by half of 2^-16 at most; steps of colour are exact.
+  // Each of luma's three weights is rounded by 2^-17 at most; colour steps are exact.
   const double rounding = run.colour ? 0 : 3.0 / 131072;
   const double threshold = smaa_settings(quality).threshold;
   EdgeFigures figures;
@@ -178,7 +177,7 @@ std::vector<Image> frames_for_edges() {
   return all;
 }
 
-TEST_F(PublishedShader, HasTheseEdges) {
+TEST_F(PublishedShader, EdgesAreCloseToGolden) {
   const std::vector<Image> frames = frames_for_edges();
   for (const bool colour : {false, true})
     for (const Quality quality : kSmaaQualities) {
@@ -189,7 +188,7 @@ TEST_F(PublishedShader, HasTheseEdges) {
       EXPECT_GT(found.edges, 100000);
       EXPECT_EQ(found.unexplained, 0);
       EXPECT_EQ(found.port_unexplained, 0);
-      // Steps of colour are exact, so contrasts of exactly the factor are many.
+      // Colour steps are exact, so contrasts of exactly the factor are frequent.
       EXPECT_LT(found.golden, found.edges / (colour ? 500 : 10000));
       if (!colour) continue;
       const EdgeFigures text = edge_figures(*shader_, run, quality, frames);
@@ -212,16 +211,17 @@ struct WeightFigures {
   }
 };
 
-// From the shader's.
+// Comparison with the shader's weights.
 struct Comparison {
   int edges = 0;
-  int last_steps = 0;   // edges that have a step of a search more than the port; in no figure
-  int unexplained = 0;  // others that differ from the port
+  int last_steps =
+      0;  // edges where a search makes one step more than the port; excluded from the figures
+  int unexplained = 0;  // other differences from the port
   int crossing = 0;     // of preset.over_3, where two diagonals cross
   WeightFigures port, published, preset;
 };
 
-// Weights of an edge by its sides; a target of codes holds one at most.
+// Weights of an edge by its sides; an 8-bit target holds one at most.
 double difference(const SmaaWeights& a, const SmaaWeights& b) {
   return 255 * std::max(std::abs(std::min(1.0, a.first) - std::min(1.0, b.first)),
                         std::abs(std::min(1.0, a.second) - std::min(1.0, b.second)));
@@ -233,9 +233,9 @@ SmaaWeights weights_of(const std::array<float, 4>& texel, bool top) {
   return top ? SmaaWeights{texel[1], texel[0]} : SmaaWeights{texel[3], texel[2]};
 }
 
-// How far the shader may be from its port, in 1/255: where coordinates are exact, and where they
-// are rounded, so that crossing edges of corners and diagonals, which it does not round, have a
-// little of their neighbours. A step of a search is seen above the third.
+// Tolerance between the shader and its port, in 1/255: where coordinates are exact, and where
+// rounded coordinates mix neighbours into the crossing edges of corners and diagonals, which the
+// shader does not round. The third is the threshold above which a search step is visible.
 constexpr double kExact = 0.005, kRounded = 0.7, kStep = 0.05;
 
 class Frame {
@@ -297,8 +297,8 @@ class Frame {
     if (golden(*exact_) > 3.1 && top) figures.crossing += two_diagonals(x, y);
   }
 
-  // Is it nearer to the port with a step more at either end or at both? A rounded coordinate that
-  // is still inside of the search's limit gives it one, none takes one.
+  // Whether the weight is nearer to the port with one more step at either end or both. A rounded
+  // coordinate that is still inside the search limit adds a step, never removes one.
   bool has_a_step_more(const SmaaWeights& shader, double than, int x, int y, bool top) const {
     constexpr std::array<std::array<int, 2>, 3> kMore = {{{1, 0}, {0, 1}, {1, 1}}};
     return std::any_of(kMore.begin(), kMore.end(), [&](const std::array<int, 2>& more) {
@@ -339,13 +339,13 @@ void print(const std::string& what, const Comparison& found) {
 void expect_published(const Comparison& found) {
   EXPECT_EQ(found.unexplained, 0);
   EXPECT_EQ(found.published.over_1, 0);
-  // One side of an edge gets A of a diagonal, and where a second one crosses it B of that, too
-  // (ExactDiagonals.DifferFromThePublishedOnes).
+  // One side of an edge gets A of a diagonal and, where a second one crosses it, also B of that
+  // (ExactDiagonals.AreasDifferFromPublishedBytes).
   EXPECT_EQ(found.preset.over_3, found.crossing);
   EXPECT_LE(found.preset.largest, 3.7);
 }
 
-TEST_F(PublishedShader, HasTheseWeightsWhereSinglePrecisionIsExact) {
+TEST_F(PublishedShader, WeightsMatchWhereSinglePrecisionIsExact) {
   const std::vector<Image> frames = power_of_two_frames();
   for (const bool colour : {false, true})
     for (const Quality quality : kSmaaQualities) {
@@ -357,11 +357,11 @@ TEST_F(PublishedShader, HasTheseWeightsWhereSinglePrecisionIsExact) {
     }
 }
 
-// At other sizes the rounding of coordinates decides whether a search makes a step more.
+// At other sizes the rounding of coordinates decides whether a search makes another step.
 void PublishedShader::expect_weights_at_other_sizes(std::span<const Quality> qualities) {
   std::vector<Image> frames = smaa_frames();
   frames.push_back(stimuli::rendered_like(1280, 720, 400));
-  // At most, per thousand edges by quality: twice what is measured.
+  // Limit per thousand edges by quality: twice the measured value.
   constexpr std::array<int, 4> kLastSteps = {94, 27, 12, 5};
   for (const bool colour : {false, true})
     for (const Quality quality : qualities) {
@@ -375,24 +375,24 @@ void PublishedShader::expect_weights_at_other_sizes(std::span<const Quality> qua
     }
 }
 
-TEST_F(PublishedShader, HasTheseWeightsAtOtherSizes) {
+TEST_F(PublishedShader, WeightsAreCloseAtOtherSizes) {
   expect_weights_at_other_sizes(std::array{Quality::kHigh});
 }
 
 // Label long.
-TEST_F(PublishedShader, HasTheseWeightsAtOtherSizesByEveryQuality) {
+TEST_F(PublishedShader, WeightsAreCloseAtOtherSizesForEveryQuality) {
   expect_weights_at_other_sizes(kSmaaQualities);
 }
 
 // ---- injected faults
 // -----------------------------------------------------------------------------
 
-TEST_F(PublishedShader, IsNotOfAnotherThreshold) {
+TEST_F(PublishedShader, OtherThresholdIsDetected) {
   const std::vector<Image> frames = smaa_frames();
   for (const bool colour : {false, true}) {
     SmaaShaderRun run = run_of(Quality::kHigh, colour);
     if (colour) run = mended(run);
-    // Half a code more.
+    // Half a code higher.
     run.changes.emplace_back("#define SMAA_THRESHOLD 0.1\n#define SMAA_MAX_SEARCH_STEPS 16",
                              "#define SMAA_THRESHOLD 0.102\n#define SMAA_MAX_SEARCH_STEPS 16");
     EXPECT_GT(edge_figures(*shader_, run, Quality::kHigh, frames).unexplained, 10) << colour;
@@ -404,15 +404,15 @@ TEST_F(PublishedShader, IsNotOfAnotherThreshold) {
       10);
 }
 
-TEST_F(PublishedShader, IsNotOfAnotherRowOfAreas) {
+TEST_F(PublishedShader, OtherRowOfAreasIsDetected) {
   SmaaShaderRun run = run_of(Quality::kHigh, false);
   run.area_row = 1;
   const Comparison found = compared(*shader_, run, Quality::kHigh, power_of_two_frames(), kExact);
   EXPECT_GT(found.unexplained, 100);
 }
 
-// Where rounding may give a search one step more, two more or one less are seen.
-TEST_F(PublishedShader, HasNoOtherLimitOfSearches) {
+// Rounding can add one step to a search; two more or one fewer are detected.
+TEST_F(PublishedShader, OtherSearchLimitIsDetected) {
   for (const char* const steps : {"3", "6"}) {
     SmaaShaderRun run = whole_texels(run_of(Quality::kLow, false));
     run.changes.emplace_back(
@@ -424,7 +424,7 @@ TEST_F(PublishedShader, HasNoOtherLimitOfSearches) {
   }
 }
 
-TEST_F(PublishedShader, IsNotOfAnotherBorder) {
+TEST_F(PublishedShader, OtherBorderIsDetected) {
   const std::vector<Image> frames = {stimuli::random_edges(128, 64, 300),
                                      stimuli::line_image(128, 64)};
   SmaaShaderRun run = run_of(Quality::kHigh, false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Is the integer golden SMAA? Its edges and the shares of every edge against golden/ideal/smaa,
-// which follows the published description in real numbers, on frames of greys, where no step of
-// luma lies at a threshold, and of colours, where rounding must explain every difference.
+// Compares the integer golden SMAA with golden/ideal/smaa, which follows the published description
+// in real numbers: edges, and weights of every edge. On grey frames no luma step is at a threshold;
+// on coloured frames rounding must explain every difference.
 #include "golden/ideal/smaa.h"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ using spec::morphological::Quality;
 using tb::Image;
 using tb::Random;
 
-// As published.
+// Settings as published.
 SmaaSettings settings(Quality quality) {
   switch (quality) {
     case Quality::kLow:
@@ -59,7 +59,7 @@ SmaaLuma luma_of(const Image& image) {
   return luma;
 }
 
-// Bars of all lengths and slopes, so that runs end at crossings, at gaps, at T's and at the limits.
+// Bars of all lengths and slopes, so that runs end at crossings, gaps, T junctions and limits.
 Image bars(int width, int height, std::uint64_t seed, bool coloured) {
   Random random(seed);
   Image image(width, height);
@@ -106,7 +106,7 @@ SmaaEdges edges_of(const MorphologicalGolden& golden, Border border) {
 struct EdgeComparison {
   int edges = 0, differing = 0, unexplained = 0;
   EdgeComparison(const MorphologicalGolden& golden, const SmaaLuma& luma, double threshold) {
-    // Each of three weights of luma is rounded by half of 2^-16 at most.
+    // Each of luma's three weights is rounded by 2^-17 at most.
     constexpr double kRounding = 3.0 / 131072;
     const auto compare = [&](bool edge, const SmaaMargins& ideal) {
       edges += ideal.edge();
@@ -124,7 +124,7 @@ struct EdgeComparison {
   }
 };
 
-TEST(Smaa, HasTheEdgesOfThePublishedOneOnGreys) {
+TEST(Smaa, EdgesMatchPublishedOnGreys) {
   int edges = 0;
   for (const Image& image : greys()) {
     for (const Quality quality : kAll) {
@@ -138,9 +138,9 @@ TEST(Smaa, HasTheEdgesOfThePublishedOneOnGreys) {
   EXPECT_GT(edges, 100000);
 }
 
-TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
+TEST(Smaa, ColourEdgesDifferOnlyByRounding) {
   int edges = 0, differing = 0, unexplained = 0;
-  // Of colours at random one in a million lies between the two thresholds.
+  // One in a million random colours is between the two thresholds.
   Random random(3);
   const auto any = [&](int, int) {
     const std::uint32_t r = random.word();
@@ -170,7 +170,7 @@ TEST(Smaa, HasItsEdgesOnColoursButWhereRoundingDecides) {
 
 // A step of exactly T is an edge in both: one of 255 blue codes has 0.0722 of full scale, which is
 // 4732 / 65536 in the weights of luma.
-TEST(Smaa, TakesAStepOfExactlyTheThreshold) {
+TEST(Smaa, StepOfExactlyTheThresholdIsAnEdge) {
   const auto edges = [](int step, int threshold, double ideal) {
     const Image image = tb::stimuli::draw(2, 1, [&](int x, int) {
       return tb::Rgba8{0, 0, static_cast<std::uint8_t>(x * step), 255};
@@ -190,7 +190,7 @@ TEST(Smaa, TakesAStepOfExactlyTheThreshold) {
 
 struct WeightComparison {
   int edges = 0, diagonals = 0, wrong = 0, differently_taken = 0;
-  double worst = 0;  // of 255
+  double worst = 0;  // in 1/255
   void add(const MorphologicalGolden& golden, const SmaaSettings& ideal, Border border) {
     const SmaaEdges edge_map = edges_of(golden, border);
     std::uint64_t taken = 0;
@@ -217,7 +217,7 @@ struct WeightComparison {
   }
 };
 
-// Windows wide enough that no run is cut by them.
+// Windows wide enough to hold every run.
 WeightComparison compared(Quality quality, const SmaaSettings& ideal,
                           Border border = Border::kClamp,
                           std::optional<Border> ideal_border = std::nullopt) {
@@ -232,7 +232,7 @@ WeightComparison compared(Quality quality, const SmaaSettings& ideal,
   return comparison;
 }
 
-TEST(Smaa, HasTheWeightsOfThePublishedOne) {
+TEST(Smaa, WeightsMatchPublished) {
   for (const Border border : {Border::kEnd, Border::kClamp}) {
     for (const Quality quality : kAll) {
       const WeightComparison found = compared(quality, settings(quality), border);
@@ -248,9 +248,9 @@ TEST(Smaa, HasTheWeightsOfThePublishedOne) {
   }
 }
 
-// Two steps of two pixels see no crossing six pixels away, a step more does: to the left of pixel
-// 10, or to its right, where the step is made.
-TEST(Smaa, MakesAStepMoreToTheSideThatHasIt) {
+// A search of two steps of two pixels does not find a crossing six pixels away, one more step does:
+// to the left of pixel 10, or to its right, depending on the side with the additional step.
+TEST(Smaa, ExtraStepIsOnTheExpectedSide) {
   SmaaSettings ideal;
   ideal.search_steps = 2;
   ideal.diagonal_steps = 0;
@@ -279,14 +279,14 @@ TEST(Smaa, MakesAStepMoreToTheSideThatHasIt) {
       std::array<int, 2> more{}, other{};
       more[side] = other[1 - side] = 1;
       EXPECT_NE(weights(more), plain) << top << side;
-      // The other side ends within two steps.
+      // The search on the other side ends within two steps.
       EXPECT_EQ(weights(more), weights({0, 0}, 3)) << top << side;
       EXPECT_EQ(weights(other), plain) << top << side;
     }
 }
 
-// The comparison sees a step of a search, a step of a diagonal, the corners and the border.
-TEST(Smaa, DiffersFromAnyOtherSetting) {
+// The comparison detects one search step, one diagonal step, the corners and the border.
+TEST(Smaa, OtherSettingsAreDetected) {
   const auto wrong = [](void (*change)(SmaaSettings&)) {
     SmaaSettings ideal = settings(Quality::kHigh);
     change(ideal);

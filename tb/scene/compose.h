@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures made of pictures: differences, zoomed crops, side-by-side sheets. Text is
-// label.h's; reports put theirs beside the pictures.
+// Composes images: differences, zoomed crops, side-by-side sheets. Text is drawn by label.h.
 #pragma once
 
 #include <vector>
@@ -12,20 +11,21 @@ namespace deburr::tb {
 // min(255, gain * |a - b|) per channel, alpha 255. Sizes must agree (ConfigError).
 Image difference(const Image& a, const Image& b, int gain = 8);
 
-// The rectangle, moved and shrunk as needed to lie inside the picture.
+// The rectangle is moved and shrunk as needed to lie inside the image.
 Image crop(const Image& image, int x, int y, int width, int height);
 
-// Every pixel becomes factor x factor pixels, so that single pixels can be seen.
+// Every pixel becomes a block of factor x factor pixels.
 Image zoom(const Image& image, int factor);
 
-// Cells of equal size (the largest picture's), row by row, `gap` pixels of `background` between.
+// Cells have the size of the largest image and are laid out row by row with `gap` pixels of
+// `background` between them.
 Image sheet(const std::vector<Image>& cells, int columns, int gap = 8,
             const Rgba8& background = {255, 255, 255, 255});
 
-// `colour` in place of the pixels that the mask selects.
+// Replaces the pixels selected by the mask with `colour`.
 Image painted(Image image, const Mask& mask, const Rgba8& colour);
 
-// `picture` onto `onto`, which it must not leave.
+// Copies `picture` into `onto`. It must fit inside.
 void paste(Image& onto, const Image& picture, int left, int top);
 
 // A one-pixel frame in `colour` around the rectangle, to show where a crop was taken.

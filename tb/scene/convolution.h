@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Convolutions along one axis, for measures of quality. They go through a picture in bands of rows,
-// so that what lies between two steps stays in a cache, and planes are made once.
+// One-dimensional convolutions for quality metrics. An image is processed in bands of rows, so that
+// intermediate results stay in a cache, and planes are allocated once.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace deburr::tb {
 
 inline constexpr int kBandRows = 48;
 
-// A kernel by its middle and what is to the right of it: tap -k is tap k, or -tap k.
+// A symmetric or antisymmetric kernel, stored from its middle to the right: tap -k is tap k, or
+// -tap k.
 template <class T>
 struct Kernel {
   std::vector<T> taps;
@@ -24,7 +25,7 @@ struct Kernel {
   int reach() const { return static_cast<int>(taps.size()) - 1; }
 };
 
-// What it holds is undefined where it grows.
+// New elements are left uninitialised.
 template <class T>
 void resize(ImageOf<T>& plane, int width, int height) {
   plane.width = width;
@@ -32,7 +33,7 @@ void resize(ImageOf<T>& plane, int width, int height) {
   plane.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
-// Neighbours, as many as a register holds.
+// One register of neighbouring values.
 template <class T>
 using Lanes [[gnu::vector_size(16)]] = T;
 
@@ -43,7 +44,7 @@ Some load(const T* from) {
   return some;
 }
 
-// How many values a register has; one of them may be the register.
+// Number of values in a register; a register can be one value.
 template <class Some, class T>
 constexpr std::size_t lanes_of() {
   if constexpr (std::is_same_v<Some, T>)
@@ -52,8 +53,8 @@ constexpr std::size_t lanes_of() {
     return sizeof(Some) / sizeof(T);
 }
 
-// The sums of neighbours, to[x] = middle[x] x tap 0 + sum of tap k x (middle[x + k step] +
-// middle[x - k step]), or the difference: of kCount registers of them (Some), where they stay.
+// Computes kCount registers of to[x] = middle[x] * tap 0 + sum of tap k * (middle[x + k step] +-
+// middle[x - k step]), and keeps them in registers (Some).
 template <bool kOdd, std::size_t kCount, class Some, class T>
 void convolve_some(const Kernel<T>& kernel, const T* middle, std::ptrdiff_t step, T* to) {
   constexpr std::size_t kLanes = lanes_of<Some, T>();
@@ -84,7 +85,7 @@ void convolve_line(const Kernel<T>& kernel, std::size_t n, const T* middle, std:
   for (; x < n; ++x) convolve_some<kOdd, 1, T>(kernel, middle + x, step, to + x);
 }
 
-// n values along a row; the pixels of the kernel lie `step` apart.
+// n values along a row; neighbouring kernel samples are `step` values apart.
 template <class T>
 void convolve(const Kernel<T>& kernel, std::size_t n, const T* middle, std::ptrdiff_t step, T* to) {
   if (kernel.odd)
@@ -93,7 +94,7 @@ void convolve(const Kernel<T>& kernel, std::size_t n, const T* middle, std::ptrd
     convolve_line<false>(kernel, n, middle, step, to);
 }
 
-// A row goes on beyond its ends as its outermost pixels.
+// A row is extended by repeating its outermost pixels.
 template <class T>
 void convolve_along_rows(const ImageOf<T>& in, const Kernel<T>& kernel, ImageOf<T>& out) {
   resize(out, in.width, in.height);
@@ -110,7 +111,7 @@ void convolve_along_rows(const ImageOf<T>& in, const Kernel<T>& kernel, ImageOf<
   }
 }
 
-// The rows from..from + rows - 1 alone. The kernel must not reach beyond the rows that there are.
+// Processes rows from..from + rows - 1 only. The kernel must not reach beyond the existing rows.
 template <class T>
 void convolve_along_columns(const ImageOf<T>& in, const Kernel<T>& kernel, int from, int rows,
                             ImageOf<T>& out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth buffers as hardware reads them.
+// Depth buffers in the hardware's format.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace deburr::tb {
 
-// U24 depths of a buffer of near / w; NaN is 0, what is over 1 the largest.
+// U24 depth codes of a near / w buffer; NaN becomes 0, values above 1 saturate.
 std::vector<std::uint32_t> depth_codes(const DepthImage& depth);
 
 }  // namespace deburr::tb

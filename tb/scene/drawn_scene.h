@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene and the fragments that it is drawn by, whatever engine colours them.
+// A scene and its fragments, independent of the engine that colours them.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ class DrawnScene {
   virtual ~DrawnScene() = default;
   virtual const Scene& scene() const = 0;
   virtual const FragmentStream& stream() const = 0;
-  // Files that it was made of, and those that were looked for in vain.
+  // Input files, including those that were looked for and not found.
   const std::vector<std::filesystem::path>& inputs() const { return scene().mesh.files; }
 
  protected:

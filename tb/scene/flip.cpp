@@ -21,13 +21,13 @@ using Triple = std::array<double, 3>;
 
 // ---- colours (section 4.1) ----------------------------------------------------------------------
 
-// XYZ of linear R, G, B, and the white of all three.
+// XYZ of linear R, G and B; their sum is the XYZ of white.
 constexpr std::array<Triple, 3> kXyzFromRgb = {
     {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
      {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
      {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}}};
 
-// XYZ over white, of linear R, G, B: rows that add up to 1.
+// Linear RGB to XYZ relative to white: each row sums to 1.
 std::array<Triple, 3> relative_xyz() {
   std::array<Triple, 3> rows = kXyzFromRgb;
   for (Triple& row : rows) {
@@ -60,9 +60,9 @@ std::array<float, 256> linear_of_codes() {
   return linear;
 }
 
-// Of a value above (6/29)^3 = 0.00886: within a bit of single precision, and without a branch.
+// Branch-free cube root for values above (6/29)^3 = 0.00886, within one bit of single precision.
 float cube_root(float value) {
-  // A third of the exponent and of the mantissa as a number, with the error of that shared out.
+  // Divides exponent and mantissa by three in one integer division, with the error centred.
   auto bits = std::bit_cast<std::uint32_t>(value);
   bits = bits / 3 + 709921077u;
   const auto closer = [value](float root) {
@@ -79,13 +79,14 @@ float lab_curve(float value) {
   return value > kDelta * kDelta * kDelta ? above : below;
 }
 
-// L*, a*, b* with Hunt's effect, of XYZ over white on that curve: colours of dark pixels tell less.
+// L*a*b* from XYZ relative to white, with the Hunt effect: chroma weighs less in dark colours.
 std::array<float, 3> hunt_lab(float x, float y, float z) {
   const float lightness = 116 * y - 16;
   return {lightness, 0.01f * lightness * 500 * (x - y), 0.01f * lightness * 200 * (y - z)};
 }
 
-// ---- the error of colours (section 4.1.3) -------------------------------------------------------
+// ---- colour error (section 4.1.3)
+// ----------------------------------------------------------------
 
 constexpr float kColourExponent = 0.7f;           // q_c
 constexpr float kKneeAt = 0.4f, kKneeTo = 0.95f;  // p_c, p_t
@@ -94,7 +95,7 @@ float hyab(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
 }
 
-// The largest error that there is: pure green against pure blue.
+// The largest possible error: pure green against pure blue.
 float largest_colour_error() {
   const std::array<Triple, 3> xyz = relative_xyz();
   const auto pure = [&](std::size_t channel) {
@@ -105,14 +106,15 @@ float largest_colour_error() {
   return std::pow(hyab(pure(1), pure(2)), kColourExponent);
 }
 
-// 0..1; the first 40 % of the range take 95 % of it.
+// Result in 0..1; the first 40 % of the error range maps to 95 % of the output range.
 float redistributed(float error, float largest) {
   const float knee = kKneeAt * largest;
   return error < knee ? error * kKneeTo / knee
                       : kKneeTo + (error - knee) / (largest - knee) * (1 - kKneeTo);
 }
 
-// ---- what an eye lets pass (section 4.1.1) ------------------------------------------------------
+// ---- contrast sensitivity (section 4.1.1)
+// --------------------------------------------------------
 
 // a sqrt(pi / b) exp(-pi^2 r^2 / b), r in degrees.
 struct Sensitivity {
@@ -122,7 +124,7 @@ constexpr Sensitivity kAchromatic = {1, 0.0047}, kRedGreen = {1, 0.0053};
 constexpr std::array<Sensitivity, 2> kBlueYellow = {{{34.1, 0.04}, {13.5, 0.025}}};
 constexpr double kWidestB = 0.04;
 
-// Three standard deviations of the widest.
+// Three standard deviations of the widest Gaussian.
 int sensitivity_reach(double pixels_per_degree) {
   return static_cast<int>(std::ceil(
       3 * std::sqrt(kWidestB / (2 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree));
@@ -141,7 +143,7 @@ double sum_of(const Kernel<double>& kernel) {
   return 2 * std::accumulate(kernel.taps.begin(), kernel.taps.end(), 0.0) - kernel.taps[0];
 }
 
-// In single precision, without taps that no sum can feel.
+// In single precision; drops taps too small to change a sum.
 Kernel<float> scaled(const Kernel<double>& kernel, double factor) {
   constexpr double kNothing = 1e-10;
   Kernel<float> result{{}, kernel.odd};
@@ -150,7 +152,7 @@ Kernel<float> scaled(const Kernel<double>& kernel, double factor) {
   return result;
 }
 
-// The two Gaussians of blue and yellow with their shares of a sum of taps that is 1.
+// The two Gaussians of the blue-yellow channel, with weights that normalise the tap sum to 1.
 std::array<double, 2> blue_yellow_shares(double pixels_per_degree) {
   std::array<double, 2> shares{};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -166,16 +168,17 @@ Kernel<float> passing(const Sensitivity& sensitivity, double pixels_per_degree) 
   return scaled(kernel, 1 / sum_of(kernel));
 }
 
-// ---- edges and points (section 4.2) -------------------------------------------------------------
+// ---- edges and points (section 4.2)
+// --------------------------------------------------------------
 
-constexpr double kFeatureWidth = 0.082;   // w, degrees: of an edge that is seen
+constexpr double kFeatureWidth = 0.082;   // w, degrees: width of a visible edge
 constexpr float kFeatureExponent = 0.5f;  // q_f
 
 struct FeatureKernels {
   Kernel<float> smooth, edge, point;
 };
 
-// A Gaussian and its derivatives; of these the positive taps add up to 1, and the negative to -1.
+// A Gaussian and its derivatives, scaled so that the positive taps sum to 1 and the negative to -1.
 FeatureKernels feature_kernels(double pixels_per_degree) {
   const double deviation = 0.5 * kFeatureWidth * pixels_per_degree;
   Kernel<double> smooth, edge{{}, true}, point;
@@ -194,12 +197,13 @@ FeatureKernels feature_kernels(double pixels_per_degree) {
           scaled(point, 1)};
 }
 
-// ---- a picture, and two of them -----------------------------------------------------------------
+// ---- images
+// --------------------------------------------------------------------------------------
 
-// What an eye sees of some rows of a picture.
+// The perceived colours and features of some rows of an image.
 struct Seen {
-  std::array<Plane, 3> colour;  // L*a*b* after Hunt
-  Plane edge, point;            // how much of either
+  std::array<Plane, 3> colour;  // L*a*b* with the Hunt effect
+  Plane edge, point;            // feature strengths
 };
 
 class Eye {
@@ -246,8 +250,8 @@ class Eye {
     return row[0] * a + row[1] * b + row[2] * c;
   }
 
-  // Y, X - Y and Y - Z over white, which are YCxCz without its factors and its offset: means of
-  // neighbours keep both. The rows beyond the border are the outermost.
+  // Y, X - Y and Y - Z relative to white: YCxCz without its factors and offset, which averaging
+  // preserves. Rows beyond the border repeat the outermost row.
   void convert(const Image& image, int from, int rows) {
     for (Plane* plane : {&y_, &cx_, &cz_}) resize(*plane, image.width, rows + 2 * reach_);
     float *const first = y_.pixels.data(), *const second = cx_.pixels.data(),
@@ -275,7 +279,7 @@ class Eye {
     convolve_along_rows(columns_, kernel, to);
   }
 
-  // The length of the vector that a kernel gives along both axes, of what is smooth across each.
+  // Magnitude of the kernel's responses along x and y, each smoothed along the other axis.
   void see_feature(const Kernel<float>& kernel, int rows, Plane& length) {
     convolve_along_columns(along_, kernel, reach_, rows, columns_);
     convolve_along_rows(across_, kernel, length);
@@ -284,8 +288,8 @@ class Eye {
           std::sqrt(length.pixels[i] * length.pixels[i] + columns_.pixels[i] * columns_.pixels[i]);
   }
 
-  // What was passed becomes L*a*b*. Colours that no screen shows are the nearest of each channel.
-  // Step by step, each for many pixels at a time.
+  // Converts filtered planes to L*a*b*. Colours out of gamut are clamped per channel. Each step
+  // processes many pixels, so that it vectorises.
   void colours(std::array<Plane, 3>& planes) const {
     const std::size_t n = planes[0].pixels.size();
     float *const first = planes[0].pixels.data(), *const second = planes[1].pixels.data(),
@@ -334,7 +338,7 @@ float error_of(const Seen& a, const Seen& b, std::size_t i, float largest) {
   return std::pow(colour, 1 - std::pow(features / std::numbers::sqrt2_v<float>, kFeatureExponent));
 }
 
-// each(test, pixel, error) of all pixels of all tests.
+// Calls each(test, pixel, error) for every pixel of every test image.
 template <class Each>
 void for_each_error(const Image& reference, std::span<const Image* const> tests,
                     double pixels_per_degree, Each each) {

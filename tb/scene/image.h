@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in memory: one pixel type, row-major, top row first. No file formats here (image_io.h).
+// Images in memory: row-major, top row first. File formats are in image_io.h.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures as bytes and back, for a cache on the same machine: no file format of its own.
+// Serialises images for a cache on the same machine; not a file format.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ void append_bytes(std::string& bytes, const ImageOf<Pixel>& image) {
                image.pixels.size() * sizeof(Pixel));
 }
 
-// Takes what append_bytes() put there off the front.
+// Reads what append_bytes() wrote and removes it from the front.
 template <class Pixel>
 ImageOf<Pixel> take_image(std::string_view& bytes) {
   std::int32_t size[2] = {};

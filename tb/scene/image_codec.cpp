@@ -11,7 +11,7 @@ namespace {
 
 using Entry = const ImageCodec* (*)();
 
-// The program's run path says where to look: beside the program, or where the build puts it.
+// Searched in the program's run path: next to the program, or in the build folder.
 const ImageCodec* load() {
   void* const module = ::dlopen(kImageModule, RTLD_LAZY | RTLD_LOCAL);
   void* const symbol = module != nullptr ? ::dlsym(module, kImageModuleEntry) : nullptr;

@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 using DecoderPointer = std::unique_ptr<ImageDecoder>;
 using Header = ImageDecoder::Header;
 
-// libpng and others print on the error stream what they report as well; ours says it once. While it
-// lives, nothing else in this process prints.
+// libpng and others print errors that they also return; this suppresses the printed copy. Nothing
+// else in this process may print during its lifetime.
 class SilentLibraries {
  public:
   SilentLibraries() : kept_(::dup(STDERR_FILENO)) {
@@ -78,7 +78,7 @@ DecoderPointer open_file(const fs::path& path) {
   return std::move(source.decoder);
 }
 
-// Whether the stored pixels are not the picture, but lie somewhere in it or reach beyond.
+// Whether the stored pixels cover only a part of the image or extend beyond it.
 bool is_window(const Header& header) {
   return header.x != 0 || header.y != 0 || header.width != header.full_width ||
          header.height != header.full_height;
@@ -107,7 +107,7 @@ void check_header(const std::string& name, const Header& header) {
   if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
 
-// libjpeg fills the rest of a truncated file with grey and only warns, so look for the end marker.
+// libjpeg fills the rest of a truncated file with grey and only warns, so check the end marker.
 void check_complete_jpeg(const fs::path& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto size = static_cast<std::streamoff>(file.tellg());
@@ -119,8 +119,8 @@ void check_complete_jpeg(const fs::path& path) {
     fail_read(path.string(), "the JPEG has no end marker: the file is truncated; copy it again");
 }
 
-// libtiff fills the rest of a truncated file with zeros, so see whether every strip or tile of the
-// first picture lies within the file.
+// libtiff fills the missing part of a truncated file with zeros, so check that every strip or tile
+// of the first image lies within the file.
 void check_complete_tiff(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::uint64_t size = fs::file_size(path);
@@ -174,11 +174,11 @@ std::vector<Value> read_pixels(const std::string& name, ImageDecoder& decoder, i
   return values;
 }
 
-// Which stored channels become R, G, B and A.
+// Maps stored channels to R, G, B and A.
 struct Channels {
-  int read = 0;  // as many of the first
+  int read = 0;  // number of channels to read, from the first
   std::array<std::size_t, 3> colour{};
-  std::optional<std::size_t> alpha;  // none: opaque
+  std::optional<std::size_t> alpha;  // empty: opaque
 };
 
 Channels channels_of(const std::string& name, const Header& header) {
@@ -202,7 +202,7 @@ Channels channels_of(const std::string& name, const Header& header) {
   return channels;
 }
 
-// The picture that the stored pixels lie in; `around` where there are none.
+// Places the stored pixels in the whole image; pixels that are not stored get `around`.
 template <class Pixel>
 ImageOf<Pixel> placed(ImageOf<Pixel> stored, const Header& header, const Pixel& around) {
   if (!is_window(header)) return stored;
@@ -213,7 +213,7 @@ ImageOf<Pixel> placed(ImageOf<Pixel> stored, const Header& header, const Pixel& 
   return image;
 }
 
-// A colour of integers that was multiplied by alpha: 255 colour / alpha, rounded half up.
+// Divides a premultiplied integer colour by alpha: 255 colour / alpha, rounded half up.
 std::uint8_t straight_code(std::uint64_t colour, std::uint64_t alpha) {
   return static_cast<std::uint8_t>(
       std::min<std::uint64_t>((510 * colour + alpha) / (2 * alpha), 255));
@@ -230,8 +230,8 @@ std::uint8_t code_of(float value, bool linear) {
 constexpr const char *kBytes = "uint8", *kWords = "uint16";
 constexpr float kLargestWord = 65535.0f;
 
-// By the name that OpenImageIO gives the file's colour space: "Linear" (every EXR), "linear" (HDR),
-// "lin_srgb", "scene_linear". Integers are codes, whatever the file says.
+// Decided by OpenImageIO's name of the file's colour space: "Linear" (every EXR), "linear" (HDR),
+// "lin_srgb", "scene_linear". Integers are always taken as encoded.
 bool declares_linear_light(const Header& header) {
   if (!header.floating_point) return false;
   std::string space = header.colour_space;
@@ -276,7 +276,7 @@ void describe_conversions(const Header& header, const Channels& channels, bool l
   if (header.several) note("the first of several pictures");
 }
 
-// What is cut is not counted.
+// Pixels outside the image are not counted.
 void describe_values(const Header& header, const std::vector<float>& values, std::size_t channels,
                      ReadReport& report) {
   spec::Found outside, nan;
@@ -321,7 +321,7 @@ Image of_floats(std::vector<float>& values, const Header& header, const Channels
                 bool linear, ReadReport* report) {
   const auto step = static_cast<std::size_t>(channels.read);
   const bool divide = header.associated && channels.alpha;
-  const bool exact = header.value_format == kWords;  // divided as integers
+  const bool exact = header.value_format == kWords;  // integers divided exactly
   Image image(header.width, header.height);
   for (std::size_t i = 0; i < image.pixels.size() && divide && !exact; ++i) {
     float* const pixel = &values[i * step];
@@ -361,7 +361,7 @@ Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report)
   return placed(of_floats(values, header, channels, linear, report), header, kNothing);
 }
 
-// What is no number is at no distance, and silhouettes would be found around it.
+// NaN has no distance; silhouettes would be found around it.
 void check_depths(const std::string& name, const DepthImage& depths, ReadReport* report) {
   spec::DepthCheck check;
   for (const float depth : depths.pixels) check.add_binary32(std::bit_cast<std::uint32_t>(depth));
@@ -376,7 +376,7 @@ float depth_of_code(std::uint64_t code) {
   return static_cast<float>(static_cast<double>(code) / spec::kLargestDepth);
 }
 
-// The channel of an EXR of several that is the depth by its name; none: it has one channel.
+// The depth channel of a multi-channel EXR, by name. Empty if the file has one channel.
 std::optional<int> named_depth(const std::string& name, const Header& header, ReadReport* report) {
   const std::size_t all = header.names.size();
   if (header.depth < 0 && (all > 1 || (all == 1 && header.several)))
@@ -408,8 +408,8 @@ DecoderPointer open_checked(const fs::path& path) {
   return decoder;
 }
 
-// OpenImageIO chooses a reader by extension; a picture inside a glTF has none, so look at its
-// bytes.
+// OpenImageIO selects a reader by file extension. An image embedded in a glTF has none, so detect
+// the format from its first bytes.
 std::string extension_of(std::string_view bytes) {
   auto starts = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
   if (starts("\x89PNG")) return ".png";
@@ -438,7 +438,7 @@ Image decode_memory(const std::string& name, const std::string& extension, std::
   throw spec::FileError(fmt::format("cannot write the image '{}': {}", path.string(), reason));
 }
 
-// Encodes to memory, so that what reaches the disk is written by write_file_atomically alone.
+// Encodes to memory, because only write_file_atomically() writes to disk.
 std::vector<unsigned char> encode(const fs::path& path, const ImageCodec::Pixels& pixels) {
   ImageCodec::Encoded encoded = image_codec().encode(path.string(), pixels);
   if (!encoded.writable)
@@ -476,7 +476,7 @@ Image read_image_memory(const std::string& name, std::string_view bytes, ReadRep
   const SilentLibraries silent;
   if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
   const std::string extension = extension_of(bytes);
-  if (extension.empty())  // every reader there is would try
+  if (extension.empty())  // OpenImageIO would try every reader
     fail_read(name, "its first bytes are of no format that is read from memory; use PNG or JPEG");
   return decode_memory(name, extension, bytes, report);
 }
@@ -494,7 +494,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
   const std::optional<int> named = named_depth(name, header, report);
   if (named && report != nullptr) report->channels = 1;
   DepthImage depth(header.width, header.height);
-  // Colours that a file or its decoder has made others are no codes any more.
+  // Colours converted by the file's encoding or the decoder are no longer exact codes.
   const bool divided = header.value_format == kBytes && header.associated;
   const bool changed = header.cmyk || header.lossy;
   if (named) {

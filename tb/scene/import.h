@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two importers behind import_mesh() and mesh_files(). Internal to tb/scene.
+// The importers used by import_mesh() and mesh_files(). Internal to tb/scene.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace deburr::tb {
 
-// Reads one file in two steps, so that what it opens is known without the work of making a mesh.
+// Reads a mesh in two steps, so that the files it opens are known without building the mesh.
 class Importer {
  public:
   Importer(std::filesystem::path path, const ImportOptions& options)
@@ -21,23 +21,23 @@ class Importer {
   Importer(const Importer&) = delete;
   Importer& operator=(const Importer&) = delete;
 
-  // Finds the file and everything that it names. FileError as of import_mesh().
+  // Finds the mesh file and all files that it names. Throws FileError as import_mesh() does.
   virtual void open() = 0;
-  // Makes a mesh of what open() has found, and reads nothing else.
+  // Builds a mesh from the files found by open(); reads no others.
   virtual Mesh build() = 0;
-  // What open() has found, and what it has looked for in vain, until it failed if it did.
+  // Files found, and files looked for but not found, by open(); also if open() failed.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  protected:
   const std::filesystem::path& path() const { return path_; }
   const ImportOptions& options() const { return options_; }
-  // Of the mesh's folder, which relative names begin in; empty for the current one.
+  // Folder of the mesh, to which relative names refer; empty for the current folder.
   std::filesystem::path folder() const { return path_.parent_path(); }
-  // Whatever is read of a file begins with this.
+  // Called before a file is read.
   void add_file(const std::filesystem::path& file) { add_once(files_, file); }
   // The mesh's own file.
   std::string read_mesh();
-  // A file that the mesh names; nothing where it is not there.
+  // Contents of a file named by the mesh; empty if the file does not exist.
   std::optional<std::string> read_named(const std::filesystem::path& file);
 
  private:

@@ -44,7 +44,7 @@ bool is_applied(const std::string& extension) {
          extension == "KHR_mesh_quantization";
 }
 
-// A file may also require these: neither changes geometry nor base colour.
+// Required extensions that can be ignored: they change neither geometry nor base colour.
 bool is_harmless(const std::string& extension) {
   return extension == "KHR_materials_unlit" || extension == "KHR_materials_variants";
 }
@@ -55,8 +55,8 @@ spec::texture::Wrap wrap_of(int gl) {
   return spec::texture::Wrap::kRepeat;
 }
 
-// KHR_texture_transform: scale, then rotation, then offset. The rotation is that of the extension's
-// example and of other readers; its GLSL listing turns the other way.
+// KHR_texture_transform: scale, then rotation, then offset. The rotation follows the extension's
+// example and other readers; its GLSL listing rotates the other way.
 struct TextureTransform {
   V2d offset{0, 0}, scale{1, 1};
   double rotation = 0.0;
@@ -69,13 +69,13 @@ struct TextureTransform {
   }
 };
 
-// A member of an object, or a value that has no members.
+// A member of an object, or an empty value.
 const tinygltf::Value& member(const tinygltf::Value& value, const char* key) {
   static const tinygltf::Value none;
   return value.Has(key) ? value.Get(key) : none;
 }
 
-// An object's extension, or a value that has no members.
+// An extension of an object, or an empty value.
 const tinygltf::Value& extension_of(const tinygltf::ExtensionMap& extensions, const char* name) {
   static const tinygltf::Value none;
   const auto found = extensions.find(name);
@@ -95,7 +95,7 @@ std::string listed(const std::set<Name>& names) {
 }
 
 struct MaterialUse {
-  int texcoord = 0;  // which TEXCOORD_n the base colour reads
+  int texcoord = 0;  // n of the TEXCOORD_n that the base colour uses
   TextureTransform transform;
 };
 
@@ -104,7 +104,7 @@ class GltfImporter final : public Importer {
   GltfImporter(const fs::path& path, const ImportOptions& options)
       : Importer(path, options), builder_(path) {}
 
-  // tinygltf reads buffers and images as it comes to them, those too that no material uses.
+  // tinygltf reads all buffers and images during parsing, including unused ones.
   void open() override { parse(); }
 
   Mesh build() override {
@@ -119,8 +119,7 @@ class GltfImporter final : public Importer {
  private:
   [[noreturn]] void fail(const std::string& reason) const { fail_mesh(path(), reason); }
 
-  // Numbers of an extension: `otherwise` where they are not there, an error where they are not as
-  // many numbers.
+  // Numbers of an extension; `otherwise` if absent. Throws if their count is wrong.
   template <std::size_t N>
   std::array<double, N> numbers_of(const tinygltf::Value& value, const char* key,
                                    std::array<double, N> otherwise) const {
@@ -162,7 +161,7 @@ class GltfImporter final : public Importer {
     return container[static_cast<std::size_t>(index)];
   }
 
-  // Of extensions those that this import does not apply.
+  // Extensions of the file that this import does not apply.
   std::set<std::string> unread_extensions() const {
     std::set<std::string> names;
     const auto add = [&names](const std::string& name) {
@@ -180,7 +179,7 @@ class GltfImporter final : public Importer {
     return names;
   }
 
-  // What of materials has no counterpart here: the base colour alone is read.
+  // Material properties that are ignored: only the base colour is read.
   std::set<std::string> unread_of_materials() const {
     std::set<std::string> names;
     for (const tinygltf::Material& material : model_.materials) {
@@ -249,15 +248,15 @@ class GltfImporter final : public Importer {
       errors += error.what();
     }
     if (!unreadable_.empty()) throw spec::FileError(unreadable_);
-    // Before what tinygltf says: data that an extension holds are gaps without it.
+    // Checked before tinygltf's errors: data held by an unsupported extension appears as missing.
     for (const std::string& extension : model_.extensionsRequired)
       if (!is_applied(extension) && !is_harmless(extension))
         fail(fmt::format("it requires the extension {}, which is not supported; export without it",
                          extension));
     while (errors.ends_with('\n')) errors.pop_back();
     for (char& c : errors) c = c == '\n' ? ' ' : c;
-    // tinygltf drops a primitive without attributes; what else it says of a file that it takes is
-    // not always an error.
+    // tinygltf drops a primitive without attributes; its messages on an accepted file are not
+    // always errors.
     if (!good || errors.find("'attributes'") != std::string::npos) {
       const std::set<std::string> unread = unread_extensions();
       fail(fmt::format(
@@ -272,8 +271,8 @@ class GltfImporter final : public Importer {
       fail(fmt::format("it needs a reader of glTF {}, and 2.0 is read; export it as that", least));
   }
 
-  // Encoded images stay as they are: those that a material uses are decoded, by OpenImageIO.
-  // tinygltf does not check that the buffer view lies in its buffer.
+  // Keeps encoded images: OpenImageIO decodes the ones that a material uses. tinygltf does not
+  // check that the buffer view lies within its buffer.
   static bool keep_encoded(tinygltf::Image* image, const int index, std::string* errors,
                            std::string*, int, int, const unsigned char* data, int size,
                            void* self) {
@@ -292,7 +291,7 @@ class GltfImporter final : public Importer {
     return true;
   }
 
-  // tinygltf decodes data URIs of some types; those of others come as a name in a folder.
+  // tinygltf decodes data URIs of some types; others arrive here as a file name with a folder.
   static std::size_t start_of_data(const std::string& name) {
     constexpr std::string_view kEncoded = ";base64,";
     const std::size_t uri = name.find("data:"), data = name.find(kEncoded);
@@ -302,7 +301,7 @@ class GltfImporter final : public Importer {
     return data + kEncoded.size();
   }
 
-  // tinygltf makes a blank of every plus sign of a URI, where only %20 is one.
+  // tinygltf turns every plus sign of a URI into a blank, where only %20 is one.
   static std::string expand_name(const std::string& name, void* self) {
     auto& importer = *static_cast<GltfImporter*>(self);
     const std::string folder = importer.folder().string();
@@ -318,8 +317,8 @@ class GltfImporter final : public Importer {
     return name;
   }
 
-  // What tinygltf asks of files, which no exception may leave. It looks in the mesh's folder first,
-  // and in the current one where that has no such file.
+  // Callbacks of tinygltf. They must not throw. tinygltf searches the mesh's folder first, then the
+  // current folder.
   static bool file_exists(const std::string& name, void* self) {
     if (name.ends_with('/')) return false;  // an empty name
     if (start_of_data(name) != std::string::npos) return true;
@@ -354,7 +353,7 @@ class GltfImporter final : public Importer {
                        stated, bytes.size()));
   }
 
-  // tinygltf calls itself for each level of JSON that it does not know.
+  // tinygltf recurses once per level of unknown JSON, so limit the nesting.
   void check_nesting(const std::string& bytes, bool binary) const {
     constexpr int kMaxNesting = 1000;
     std::string_view json = bytes;
@@ -383,7 +382,7 @@ class GltfImporter final : public Importer {
     }
   }
 
-  // The chunk after the JSON, if it is empty or of an unknown type, both of which tinygltf rejects.
+  // Drops a chunk after the JSON that is empty or of unknown type; tinygltf rejects both.
   static void drop_chunk(std::string& bytes) {
     std::uint32_t json = 0, length = 0;
     if (bytes.size() < 20) return;
@@ -409,7 +408,7 @@ class GltfImporter final : public Importer {
       int index = base.baseColorTexture.index;
       MaterialUse use = material_use(base.baseColorTexture.texCoord,
                                      extension_of(base.baseColorTexture.extensions, kTransform));
-      if (material.extensions.contains(kSpecularGlossiness)) {  // it replaces the other
+      if (material.extensions.contains(kSpecularGlossiness)) {  // replaces metallic-roughness
         const tinygltf::Value& diffuse = extension_of(material.extensions, kSpecularGlossiness);
         const auto colour = numbers_of<4>(diffuse, "diffuseFactor", {1, 1, 1, 1});
         ours.colour = {colour[0], colour[1], colour[2]};
@@ -435,7 +434,7 @@ class GltfImporter final : public Importer {
     return use;
   }
 
-  // WebP before the fallback, DDS where there is none.
+  // Prefers WebP to the fallback image; uses DDS only if there is no fallback.
   int image_of(int index, const tinygltf::Texture& texture) const {
     const int webp = integer_of(extension_of(texture.extensions, kWebp), "source", -1);
     const int dds = integer_of(extension_of(texture.extensions, kDds), "source", -1);
@@ -480,7 +479,7 @@ class GltfImporter final : public Importer {
   // ---- geometry ----
 
   void visit_scene() {
-    if (model_.scenes.empty()) {  // a file may be a mere library of nodes: draw all roots
+    if (model_.scenes.empty()) {  // a file without scenes is a library of nodes: draw all roots
       std::vector<bool> child(model_.nodes.size(), false);
       for (const tinygltf::Node& node : model_.nodes)
         for (int index : node.children)
@@ -532,8 +531,8 @@ class GltfImporter final : public Importer {
     return matrix * rotation.normalized().toMatrix44() * move;
   }
 
-  // glTF stores columns one after the other; Imath multiplies row vectors from the left, so the
-  // same sixteen numbers in the same order are Imath's matrix.
+  // glTF stores matrices column by column. Imath multiplies row vectors from the left, so the same
+  // sixteen numbers in the same order are Imath's matrix.
   M44d local_matrix(const tinygltf::Node& node) const {
     for (const auto& [name, numbers, count] : {std::tuple("matrix", &node.matrix, 16u),
                                                {"scale", &node.scale, 3u},
@@ -556,7 +555,7 @@ class GltfImporter final : public Importer {
     return transform_of(scale, rotation, translation);
   }
 
-  // Where a node's mesh is drawn: once, or once per instance of EXT_mesh_gpu_instancing.
+  // Transforms of a node's mesh: one, or one per instance of EXT_mesh_gpu_instancing.
   std::vector<M44d> places_of(const tinygltf::Node& node, const M44d& matrix) const {
     if (!node.extensions.contains(kInstances)) return {matrix};
     const tinygltf::Value& attributes =
@@ -601,7 +600,7 @@ class GltfImporter final : public Importer {
     V2d two(std::size_t i) const { return {at(i, 0), at(i, 1)}; }
   };
 
-  // Where and how the elements of an accessor are stored.
+  // Location and layout of an accessor's elements.
   struct Layout {
     int buffer_view = -1;
     std::size_t byte_offset = 0, components = 1, count = 0;
@@ -619,7 +618,7 @@ class GltfImporter final : public Importer {
     const std::size_t element = each * layout.components;
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
     const std::size_t most = buffer.data.size();
-    // Each term is bounded by the buffer before it is added or multiplied, so nothing can wrap.
+    // Each term is bounded by the buffer before it is added or multiplied: nothing overflows.
     const bool fits = view.byteOffset <= most && view.byteLength <= most - view.byteOffset &&
                       layout.byte_offset <= view.byteLength && stride >= element && stride <= 252 &&
                       layout.count <= most &&
@@ -639,7 +638,7 @@ class GltfImporter final : public Importer {
     return values;
   }
 
-  // An accessor is read anew wherever it is used.
+  // An accessor is decoded again for each use, so every use counts.
   void count_numbers(std::size_t numbers) const {
     numbers_read_ += numbers;
     if (numbers_read_ > kMaxNumbers)
@@ -653,7 +652,7 @@ class GltfImporter final : public Importer {
     fail(fmt::format("accessor {} has the wrong type; the file is damaged", accessor));
   }
 
-  // Without a buffer view an accessor is all zeros; sparse values replace some elements.
+  // An accessor without a buffer view is all zeros; sparse values replace some elements.
   Numbers read(int index, std::size_t needed) const {
     const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
     const int components =
@@ -730,7 +729,7 @@ class GltfImporter final : public Importer {
     }
   }
 
-  // The corners of triangle `t` of a list, strip or fan.
+  // Corner indices of triangle `t` of a list, strip or fan.
   static std::array<std::size_t, 3> corners_of(int mode, std::size_t t) {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP)
       return t % 2 == 0 ? std::array{t, t + 1, t + 2} : std::array{t + 1, t, t + 2};
@@ -824,7 +823,7 @@ class GltfImporter final : public Importer {
       return static_cast<std::size_t>(index);
     };
     for (const M44d& matrix : places) {
-      // A matrix that flattens has no inverse: the normals are the faces'.
+      // A singular matrix has no inverse: use face normals.
       const double determinant = matrix.determinant();
       const M44d normal_matrix = matrix.inverse().transposed();
       const auto corner_at = [&](std::size_t k) {
@@ -849,12 +848,12 @@ class GltfImporter final : public Importer {
   }
 
   static constexpr std::size_t kMaxParts = 1'000'000;
-  static constexpr std::size_t kMaxNumbers = std::size_t{1} << 28;  // of all accessors
+  static constexpr std::size_t kMaxNumbers = std::size_t{1} << 28;  // over all accessors
   MeshBuilder builder_;
   tinygltf::Model model_;
   std::map<int, std::string> encoded_;
-  std::string unreadable_;         // why a file that is there could not be read
-  std::vector<MaterialUse> uses_;  // by material, the default material last
+  std::string unreadable_;         // reason why an existing file could not be read
+  std::vector<MaterialUse> uses_;  // by material; the default material is last
   std::map<std::tuple<int, spec::texture::Wrap, spec::texture::Wrap>, int> textures_;
   std::size_t drawn_parts_ = 0;
   mutable std::size_t numbers_read_ = 0;

@@ -25,7 +25,7 @@ using Imath::V2d;
 using Imath::V3d;
 using spec::texture::Wrap;
 
-// Each line of the text once.
+// Removes duplicate lines.
 std::string one_line(const std::string& text) {
   std::string line;
   std::set<std::string> seen{""};
@@ -56,7 +56,7 @@ class Attributes {
   }
 
  private:
-  // The checker has seen to it, if it reads the file as tinyobjloader does.
+  // ObjChecker guarantees this, provided that it parses the file as tinyobjloader does.
   std::size_t place(const std::vector<tinyobj::real_t>& values, int index, std::size_t each) const {
     const std::size_t at = each * static_cast<std::size_t>(index);
     if (index < 0 || at + each > values.size())
@@ -79,7 +79,7 @@ struct TinyObj {
   std::string warnings;
 };
 
-// Makes triangles of faces, and notes of those that are not as they should be.
+// Splits faces into triangles and notes malformed faces.
 class FaceAdder {
  public:
   FaceAdder(const fs::path& path, MeshBuilder& builder) : path_(path), builder_(builder) {}
@@ -93,7 +93,7 @@ class FaceAdder {
       triangle(face[0], face[1], face[2]);
       if (!(area_vector(face).length2() > 0.0)) without_area_.add(line);
     } else if (face.size() == 4 && is_strictly_convex(face)) {
-      // Along the shorter diagonal, in single precision as tinyobjloader does it.
+      // Splits along the shorter diagonal, computed in single precision as tinyobjloader does.
       if (squared_distance(face[0], face[2]) < squared_distance(face[1], face[3])) {
         triangle(face[0], face[1], face[2]);
         triangle(face[0], face[2], face[3]);
@@ -126,7 +126,7 @@ class FaceAdder {
   using Corner = MeshBuilder::Corner;
   struct Faces {
     std::uint64_t count = 0;
-    std::uint32_t first = 0;  // its line
+    std::uint32_t first = 0;  // line number
     void add(std::uint32_t line) {
       if (count++ == 0) first = line;
     }
@@ -143,15 +143,15 @@ class FaceAdder {
   MeshBuilder& builder_;
   PolygonSplitter splitter_;
   Faces without_area_, crossing_;
-  bool any_ = false;  // has become a triangle
+  bool any_ = false;  // at least one triangle was added
 };
 
 class ObjImporter final : public Importer {
  public:
   using Importer::Importer;
 
-  // The lines that name materials, by themselves, make tinyobjloader ask for the same files in the
-  // same order as all of them do.
+  // Passes only the lines that name materials: tinyobjloader then requests the same files in the
+  // same order as for the whole file.
   void open() override {
     text_ = with_whole_lines(plain_text(read_mesh(), path().string()), Statements::kObj);
     checked_.emplace(path(), text_);
@@ -190,7 +190,7 @@ class ObjImporter final : public Importer {
  private:
   using MaterialFile = std::function<const ObjMaterials*(const std::string& name)>;
 
-  // Numbers tinyobjloader's materials as `file` gives them; what they say is read from ours.
+  // Gives tinyobjloader the material indices of `file`; the properties come from our own parser.
   class Materials final : public tinyobj::MaterialReader {
    public:
     explicit Materials(const MaterialFile& file) : file_(file) {}
@@ -232,7 +232,7 @@ class ObjImporter final : public Importer {
     return without_byte_order_mark(std::move(text));
   }
 
-  // A blank at the end of the line is an empty name.
+  // A trailing blank means an empty name.
   const ObjMaterials* read_material_file(const std::string& name) {
     std::optional<ObjMaterials>& file = material_files_[name];
     if (std::optional<std::string> text = name.empty() ? std::nullopt : read_named(folder() / name))
@@ -261,13 +261,13 @@ class ObjImporter final : public Importer {
   }
 
   void add_faces(const TinyObj& loaded, MeshBuilder& builder) const {
-    // Faces before the first usemtl, or of a material that no .mtl describes.
+    // Used for faces before the first usemtl and for materials that no .mtl describes.
     const auto plain = static_cast<std::uint32_t>(materials_.size());
     builder.add_material({"default", V3d(0.8, 0.8, 0.8), -1});
     const ObjMaterial none;
     const Attributes attributes(path(), loaded.attributes);
     FaceAdder adder(path(), builder);
-    // tinyobjloader keeps the order of the file, and the last eight bits of a face's corners.
+    // tinyobjloader keeps the order of faces, but only the low eight bits of their corner count.
     auto next = checked_->faces().begin();
     PolygonCorners corners;
     for (const tinyobj::shape_t& shape : loaded.shapes) {
@@ -289,8 +289,9 @@ class ObjImporter final : public Importer {
 
   std::string text_;
   std::optional<ObjChecker> checked_;
-  std::vector<ObjMaterial> materials_;  // of all files, in the order in which they are named
-  std::map<std::string, std::optional<ObjMaterials>> material_files_;  // by the name in the mesh
+  std::vector<ObjMaterial> materials_;  // all files, in the order in which they are named
+  std::map<std::string, std::optional<ObjMaterials>>
+      material_files_;  // by the name used in the mesh
 };
 
 }  // namespace

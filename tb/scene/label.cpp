@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDotsAcross = 5, kDotsDown = 9;
 
-// Nine rows of five dots, top row first; the last two are below the line.
+// Nine rows of five dots, top row first; the last two are below the baseline.
 struct Letter {
   char character;
   std::string_view dots;

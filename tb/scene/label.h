@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A few words of text as a picture, for sheets that must be read without a page around them.
+// Renders a short text as an image, for sheets that are viewed without captions.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,8 @@
 
 namespace deburr::tb {
 
-// One line in letters of 5 x 9 dots and a dot between, each dot scale x scale pixels. Throws
-// ConfigError for a character that has no letter: letters of names and units, digits, . , - + and
-// blanks are there.
+// One line of 5 x 9 dot characters, one dot apart; each dot is scale x scale pixels. Supports the
+// characters of names and units, digits, . , - + and blanks. Throws ConfigError for any other.
 Image label(std::string_view text, int scale, const Rgba8& ink = {0, 0, 0, 255},
             const Rgba8& paper = {255, 255, 255, 255});
 

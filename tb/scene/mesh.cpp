@@ -48,7 +48,7 @@ std::string shown_name(std::string_view name) {
 
 namespace {
 
-// The whole of a regular file. `fail` is told why not.
+// Reads a regular file completely. Calls `fail` with the reason on failure.
 template <class Fail>
 std::string whole_file(const fs::path& path, const Fail& fail) {
   std::error_code error;
@@ -112,7 +112,7 @@ std::vector<fs::path> mesh_files(const fs::path& path, const ImportOptions& opti
   try {
     importer = importer_of(path, options);
     importer->open();
-  } catch (const spec::FileError&) {  // import_mesh() says why
+  } catch (const spec::FileError&) {  // import_mesh() reports the reason
   }
   return importer ? importer->files() : std::vector<fs::path>();
 }
@@ -159,7 +159,8 @@ void texture_everything(Mesh& mesh, const Texture* fallback) {
     for (Material& material : mesh.materials) material.texture = 0;
     return;
   }
-  constexpr int kCell = 4, kColumns = 16;  // a cell of 4 x 4 texels: its centre sees no neighbour
+  constexpr int kCell = 4, kColumns = 16;  // cells of 4 x 4 texels: bilinear filtering at the
+                                           // centre does not reach a neighbour
   std::vector<std::size_t> plain;
   for (std::size_t i = 0; i < mesh.materials.size(); ++i)
     if (mesh.materials[i].texture < 0) plain.push_back(i);
@@ -181,7 +182,7 @@ void texture_everything(Mesh& mesh, const Texture* fallback) {
     centre[static_cast<std::uint32_t>(plain[k])] =
         V2d((left + 0.5 * kCell) / palette.image.width, (top + 0.5 * kCell) / palette.image.height);
     material.texture = static_cast<int>(mesh.textures.size());
-    material.colour = V3d(1, 1, 1);  // it is in the palette now
+    material.colour = V3d(1, 1, 1);  // the palette holds it now
   }
   mesh.textures.push_back(std::move(palette));
   for (Triangle& triangle : mesh.triangles) {
@@ -189,7 +190,7 @@ void texture_everything(Mesh& mesh, const Texture* fallback) {
     if (found == centre.end()) continue;
     for (std::uint32_t& index : triangle.vertex) {
       Vertex vertex =
-          mesh.vertices[index];  // may be shared with a textured triangle: make a new one
+          mesh.vertices[index];  // copied, because a textured triangle may use the same vertex
       vertex.uv = found->second;
       index = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(vertex);
@@ -213,7 +214,7 @@ bool is_finite(const V3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// The two coordinates across the largest component of the normal; y points up in the picture.
+// The two coordinates perpendicular to the normal's largest component; y points up in the image.
 V2d box_projection(const V3d& p, const V3d& normal) {
   const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
   if (y >= x && y >= z) return {p.x, p.z};
@@ -239,7 +240,7 @@ bool MeshBuilder::Equal::operator()(const Vertex& a, const Vertex& b) const {
 MeshBuilder::MeshBuilder(const fs::path& path) : path_(path) { mesh_.name = path.stem().string(); }
 
 std::uint32_t MeshBuilder::vertex_index(Vertex vertex) {
-  // -0 becomes 0, so that vertices that are equal also look equal.
+  // Turns -0 into 0, so that equal vertices compare equal bit by bit.
   vertex.position += V3d(0, 0, 0);
   vertex.normal += V3d(0, 0, 0);
   vertex.uv += V2d(0, 0);
@@ -347,7 +348,7 @@ int MeshBuilder::texture_from_file(const fs::path& file, spec::texture::Wrap wra
   return texture_files_[{file, wrap}] = add_texture(std::move(texture));
 }
 
-// Materials and textures that no triangle uses: a texture unit has sixteen descriptors only.
+// Drops unused materials and textures: a texture unit has only sixteen descriptors.
 void MeshBuilder::drop_unused() {
   std::vector<int> new_material(mesh_.materials.size(), -1), new_texture(mesh_.textures.size(), -1);
   std::vector<Material> materials;

@@ -21,7 +21,7 @@ namespace deburr::tb {
 
 struct Texture {
   std::string name = {};
-  Image image = {};  // level 0; mip_chain() makes the rest
+  Image image = {};  // level 0; mip_chain() makes the other levels
   spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat, wrap_t = spec::texture::Wrap::kRepeat;
 };
 
@@ -48,8 +48,8 @@ struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<Material> materials;  // at least one
   std::vector<Texture> textures;
-  std::vector<std::string> notes;  // what import had to decide: missing uv, missing normals, ...
-  std::vector<std::filesystem::path> files;  // mesh_files(), and textures from elsewhere
+  std::vector<std::string> notes;  // decisions of the import: missing uv, missing normals, ...
+  std::vector<std::filesystem::path> files;  // mesh_files(), and textures from other sources
 };
 
 struct Bounds {
@@ -58,34 +58,33 @@ struct Bounds {
   double radius() const { return (high - low).length() * 0.5; }
 };
 Bounds bounds(const Mesh& mesh);
-// By its extension, in small letters or capitals.
+// Decides by the file extension; case is ignored.
 bool is_mesh_file(const std::filesystem::path& path);
 
-// Limits of an import, checked before memory is spent on it.
+// Import limits, checked before memory is allocated.
 inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t kMaxTriangles = 4'000'000;
 
 // Reads .obj (with its .mtl and textures), .gltf or .glb (all nodes of the default scene with their
-// transforms; embedded and external textures). Polygons become triangles, also concave ones; what
-// is left out is noted. Where a triangle has no texture coordinates it gets a box projection: (s,
-// t) are the two coordinates across the largest component of its face normal, one repeat to a
-// quarter of the mesh's longest side. Where it has no normals it gets its face normal. OBJ's v axis
+// transforms; embedded and external textures). Polygons, also concave ones, become triangles.
+// Omitted content is noted. Triangles without texture coordinates get a box projection: (s, t) are
+// the two coordinates perpendicular to the largest component of the face normal, one repeat per
+// quarter of the mesh's longest side. Triangles without normals get the face normal. OBJ's v axis
 // is flipped to t = 1 - v. Throws FileError that names the file and what to do: missing, empty,
 // truncated, malformed, a number that is not finite, an index out of range, no triangles, too
 // large, texture missing or unreadable.
 struct ImportOptions {
-  bool textures = true;  // false: leave the file's textures unread (someone else's replaces them)
+  bool textures = true;  // false: do not read the file's textures, because they will be replaced
 };
 Mesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// Every file that import_mesh() opens: the mesh, then all that it names (materials, textures,
-// buffers), each once. A name that no file has is listed too: when there is one, the mesh is
-// another one. It is the first half of import_mesh() itself that finds them, so that they are the
-// same; where that fails, what it had come to.
+// Every file that import_mesh() opens: the mesh, then all files that it names (materials, textures,
+// buffers), each once. Missing files are listed as well, because creating one changes the mesh.
+// Runs the first step of import_mesh() itself; if that fails, the files found until then.
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
                                               const ImportOptions& options = {});
 
-// The same, found once for each mesh.
+// mesh_files() with a cache per mesh.
 class MeshFiles {
  public:
   const std::vector<std::filesystem::path>& of(const std::filesystem::path& path,
@@ -95,12 +94,12 @@ class MeshFiles {
   std::map<std::pair<std::filesystem::path, bool>, std::vector<std::filesystem::path>> known_;
 };
 
-// Appends a file unless it is there. "./a" is "a", but "b/../a" may be another one.
+// Appends a file unless it is listed. "./a" equals "a", but "b/../a" may be a different file.
 void add_once(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);
 
-// Makes every material textured, for an engine that only knows textures. If none is and there is a
-// `fallback`, all get that. Else the colours of the plain ones become cells of one palette texture,
-// and their triangles' coordinates the centre of the cell, which gives exactly that colour.
+// Gives every material a texture, for engines that only support textured materials. If none has one
+// and there is a `fallback`, all get that. Otherwise the plain colours become cells of one palette
+// texture, with texture coordinates at the cell centres, which gives exactly the same colours.
 void texture_everything(Mesh& mesh, const Texture* fallback);
 
 }  // namespace deburr::tb

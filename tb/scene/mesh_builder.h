@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What OBJ and glTF import have in common: collects triangles, fills in what the file does not say,
-// shares equal vertices, rejects what cannot be drawn. Internal to tb/scene.
+// Common part of OBJ and glTF import: collects triangles, fills in missing attributes, merges equal
+// vertices, rejects meshes that cannot be drawn. Internal to tb/scene.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace deburr::tb {
 // "cannot read the mesh 'file': reason"
 [[noreturn]] void fail_mesh(const std::filesystem::path& path, const std::string& reason);
 
-// What a file says goes to terminals: without characters that steer one, a name with at most 64.
+// Makes a file's text safe for terminals: no control characters, names of at most 64.
 std::string printable(std::string text);
 std::string shown_name(std::string_view name);
 
@@ -34,13 +34,12 @@ class MeshBuilder {
   void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
   void note(const std::string& text) { mesh_.notes.push_back(printable(text)); }
 
-  // Reads a texture file once, however many materials name it, for each way to wrap it. Throws
-  // FileError.
+  // Reads a texture file once per wrap mode, however many materials use it. Throws FileError.
   int texture_from_file(const std::filesystem::path& file, spec::texture::Wrap wrap);
   int add_texture(Texture texture);
   void add_material(Material material) { mesh_.materials.push_back(std::move(material)); }
 
-  Mesh finish();  // throws FileError: no triangles
+  Mesh finish();  // throws FileError if there are no triangles
 
  private:
   struct Hash {
@@ -57,7 +56,8 @@ class MeshBuilder {
   Mesh mesh_;
   std::unordered_map<Vertex, std::uint32_t, Hash, Equal> indices_;
   std::map<std::pair<std::filesystem::path, spec::texture::Wrap>, int> texture_files_;
-  std::vector<std::array<Corner, 3>> unmapped_;  // triangles that wait for the mesh's size
+  std::vector<std::array<Corner, 3>>
+      unmapped_;  // triangles without uv: projected once the size of the mesh is known
   std::vector<std::uint32_t> unmapped_triangle_;
   std::uint64_t without_normals_ = 0;
 };

@@ -19,13 +19,13 @@ constexpr double kSmoothCosine = 0.766;  // 40 degrees
 
 struct ModelSurface {
   std::vector<V3d> points;
-  std::vector<V2d> uv;  // of each point, or empty
+  std::vector<V2d> uv;  // per point, or empty
   std::vector<Face> faces;
 };
 
-// Adds a surface; corners at a point whose faces are smooth there share a normal.
+// Adds a surface; corners at a point share a normal if their faces are smooth there.
 void add_surface(Mesh& mesh, const ModelSurface& surface, std::uint32_t material) {
-  std::vector<V3d> normals;  // by face, as long as twice its area
+  std::vector<V3d> normals;  // per face; length is twice its area
   std::vector<std::vector<std::uint32_t>> around(surface.points.size());
   for (const Face& face : surface.faces) {
     const V3d &a = surface.points[face[0]], &b = surface.points[face[1]],
@@ -64,11 +64,10 @@ void add_surface(Mesh& mesh, const ModelSurface& surface, std::uint32_t material
   }
 }
 
-// Rings of points that run counter-clockwise about the way from the first to the last; ends may
-// close in a point.
+// Rings of points, counter-clockwise about the direction of the loft; ends may close in a point.
 struct Loft {
   std::vector<std::vector<V3d>> rings;
-  bool closed = true;  // each ring
+  bool closed = true;  // applies to each ring
   std::optional<V3d> first, last;
 };
 
@@ -103,14 +102,14 @@ ModelSurface skin_of(const Loft& loft) {
   return surface;
 }
 
-// Upper and lower side of a NACA 2412 section at the share x of its chord, in chords.
+// Upper and lower side of a NACA 2412 section at fraction x of its chord, in chords.
 struct Section {
   double upper, lower;
 };
 Section naca_2412(double x) {
   const double thickness =
       0.6 * (0.2969 * std::sqrt(x) +
-             x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * -0.1036))));  // closed behind
+             x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * -0.1036))));  // closed trailing edge
   const double camber =
       x < 0.4 ? 0.02 / 0.16 * (0.8 * x - x * x) : 0.02 / 0.36 * (0.2 + 0.8 * x - x * x);
   return {camber + thickness, camber - thickness};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Meshes by formula, made for engines that draw edges: the four models of paper 002, a sphere and a
+// Procedural meshes for engines that draw edges: the four models of paper 002, a sphere and a
 // terrain.
 //
-// Counter-clockwise seen from outside, welded (a place has one position, bit for bit), with vertex
-// normals that are smooth where faces meet at less than 40 degrees and split where they do not.
-// Materials are the caller's. Internal to tb/scene.
+// Counter-clockwise seen from outside and welded (equal positions are bit-identical). Vertex
+// normals are smooth where faces meet at less than 40 degrees and split elsewhere. Materials are
+// the caller's. Internal to tb/scene.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras that move: the sequences of pictures on which flicker is seen.
+// Camera motions for sequences in which flicker is measured.
 #pragma once
 
 #include <array>
@@ -11,22 +11,22 @@
 namespace deburr::tb {
 
 enum class Motion : std::uint8_t {
-  kZoom,  // the field of view shrinks by 1 % a frame
-  kRoll,  // 3 degrees a frame about the view direction: 30 frames show every direction once
-  kPan    // sideways by 1/400 of the field of view a frame
+  kZoom,  // the field of view shrinks by 1 % per frame
+  kRoll,  // 3 degrees per frame about the view direction: 30 frames cover every direction once
+  kPan    // sideways by 1/400 of the field of view per frame
 };
 inline constexpr std::array<std::string_view, 3> kMotionNames = {"zoom", "roll", "pan"};
 
-// Which frame of which motion of the camera.
+// A frame of a camera motion.
 struct CameraMove {
   Motion motion = Motion::kRoll;
   int frame = 0;
 };
 
-// Turned clockwise about the view direction; 0 gives the camera itself, to the bit.
+// Rotated clockwise about the view direction; 0 returns the camera unchanged, bit for bit.
 Camera rolled(const Camera& camera, double degrees);
 
-// The camera at frame 0, 1, 2, ... of a motion; frame 0 is the camera itself, to the bit.
+// The camera at frame 0, 1, 2, ... of a motion; frame 0 is the camera unchanged, bit for bit.
 Camera moved(const Camera& camera, Motion motion, int frame);
 
 }  // namespace deburr::tb

@@ -30,8 +30,8 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-// tinyobjloader takes a carriage return for the end of a line, whatever comes behind it. Nothing is
-// left of `text` after the last line; `ended` says whether that has an end.
+// tinyobjloader ends a line at a carriage return, whatever follows it. `text` is empty after the
+// last line; `ended` tells whether that line has an end.
 std::string_view next_line(std::string_view& text, bool& ended) {
   const std::size_t end = text.find_first_of("\r\n");
   const std::string_view line = text.substr(0, end);
@@ -61,7 +61,7 @@ bool is_one_of(const std::array<std::string_view, N>& words, std::string_view wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// As a note shows it: what is not a word of any format may hold anything.
+// A keyword as shown in a note: an unknown keyword can contain any bytes.
 std::string shown(std::string_view keyword) {
   const bool is_word =
       keyword.size() <= 16 &&
@@ -74,7 +74,7 @@ constexpr std::array<std::string_view, 20> kObjStatements = {
     "o",        "s",        "mg",         "lod",       "usemtl", "mtllib", "bevel",
     "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",  "stech"};
 
-// Lights and reflections: the scenes have their own.
+// Lights and reflections are ignored: the scenes have their own.
 constexpr std::array<std::string_view, 18> kMaterialStatements = {
     "Ka",      "Ks", "Ns", "Ni", "Tf", "Kt",  "Km",    "illum",  "sharpness",
     "map_aat", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "newmtl"};
@@ -96,7 +96,7 @@ std::string with_whole_lines(std::string text, Statements statements) {
       text.find(" #") == std::string::npos && text.find("\t#") == std::string::npos)
     return text;
   std::string whole, owed;
-  bool goes_on = false;  // it is a line that may
+  bool goes_on = false;  // this line may be continued
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = std::string_view(text).substr(at, end - at);
@@ -177,7 +177,7 @@ void ObjChecker::check_line(std::string_view line) {
     not_read_.add(shown(keyword), line_);
 }
 
-// How many there are.
+// Returns the number of values found.
 int ObjChecker::check_numbers(std::string_view line, std::size_t kind, int needed,
                               const char* what) {
   int found = 0;
@@ -240,10 +240,10 @@ void ObjChecker::check_highest(const Highest& highest, std::int64_t count, const
 
 namespace {
 
-// The same as where no material is named.
+// The same grey as for faces without a material.
 constexpr double kGrey = 0.8;
 
-// A number of the line, or nothing is taken of it.
+// Takes a number from the line; on failure the line is unchanged.
 bool take_number(std::string_view& line, double& value) {
   std::string_view rest = line;
   if (!is_number(next_word(rest), value)) return false;
@@ -338,7 +338,7 @@ class MaterialParser {
     if (material_.map.empty()) not_read("'map_Kd' without a file");
   }
 
-  // Takes the values of an option of map_Kd; false if it is none, but the file's name.
+  // Takes the values of an option of map_Kd; false if it is the file name instead.
   bool option(std::string_view name, std::string_view& line) {
     double value = 0.0;
     const auto is_on = [&] {
@@ -374,7 +374,7 @@ class MaterialParser {
   ObjMaterials result_;
   ObjMaterial material_;
   bool has_colour_ = false;
-  std::uint64_t line_ = 0, first_line_ = 0;  // first: of the material
+  std::uint64_t line_ = 0, first_line_ = 0;  // first_line_: of the material
 };
 
 }  // namespace

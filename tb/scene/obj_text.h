@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts of an OBJ and of its materials, before tinyobjloader reads the OBJ. Internal to
+// Checks the text of an OBJ and its materials before tinyobjloader reads the OBJ. Internal to
 // tb/scene.
 #pragma once
 
@@ -14,18 +14,18 @@
 
 namespace deburr::tb {
 
-// By its byte order mark, or by its first character.
+// Detected by the byte order mark or the first character.
 bool is_utf16(std::string_view text);
-// Without that of UTF-8.
+// Removes the UTF-8 byte order mark.
 std::string without_byte_order_mark(std::string text);
 
-// A line of numbers that ends with a backslash goes on in the next one, and one of a face may end
-// with a comment: tinyobjloader knows neither. Of materials every statement may go on, and a hash
-// may be part of a name. Lines keep their numbers.
+// Joins continued lines and strips comments that tinyobjloader does not support: numbers ending
+// with a backslash continue on the next line, and a face may end with a comment. In materials every
+// statement may be continued, and a hash may be part of a name. Line numbers are kept.
 enum class Statements { kObj, kMaterials };
 std::string with_whole_lines(std::string text, Statements statements);
 
-// What a file has and nobody reads, each with the line that it is first in.
+// Ignored statements, each with the line of its first use.
 class NotRead {
  public:
   void add(std::string_view what, std::uint64_t line);
@@ -42,9 +42,9 @@ class NotRead {
   std::uint64_t more_ = 0;
 };
 
-// tinyobjloader reads "nan", "1e999" and "12x" as some number without a word, does not check face
-// indices, and drops what it does not know. This pass over the text finds them first, with the line
-// to look at, and the lines that name materials.
+// tinyobjloader silently reads "nan", "1e999" and "12x" as numbers, does not check face indices,
+// and drops unknown statements. This pass finds them first and reports the line. It also collects
+// the lines that name materials.
 class ObjChecker {
  public:
   struct Face {
@@ -82,11 +82,11 @@ class ObjChecker {
   std::string material_lines_;
 };
 
-// What a material says that is used. `scale` and `offset` are map_Kd's -s and -o.
+// The properties used of a material. `scale` and `offset` are map_Kd's -s and -o.
 struct ObjMaterial {
   std::string name;
   Imath::V3d colour{0, 0, 0};
-  std::string map;  // empty: none
+  std::string map;  // empty: no texture
   Imath::V2d scale{1, 1}, offset{0, 0};
   bool clamp = false;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module libdeburr_images.so: the only part of the program that is linked with OpenImageIO.
+// The module libdeburr_images.so: the only part of the program linked with OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -20,7 +20,7 @@ std::string on_one_line(std::string text) {
 
 using Io = OIIO::Filesystem::IOProxy;
 
-// Bytes of the file, for what OpenImageIO does not tell; zeros after its end.
+// Bytes of the file, for properties that OpenImageIO does not report; zeros after its end.
 std::string bytes_at(Io& io, std::uint64_t at, std::size_t size) {
   std::string bytes(size, '\0');
   if (at < io.size()) io.pread(bytes.data(), size, static_cast<std::int64_t>(at));
@@ -35,7 +35,7 @@ std::uint64_t number_of(std::string_view bytes, bool little_endian) {
   return number;
 }
 
-// Whether a TIFF has a tag ExtraSamples. Without one nothing says what its alpha is.
+// Whether a TIFF has a tag ExtraSamples. Without it the meaning of alpha is unspecified.
 bool has_extra_samples(Io& io) {
   const bool little = bytes_at(io, 0, 1) == "I";
   const auto number = [&](std::uint64_t at, std::size_t size) {
@@ -50,14 +50,14 @@ bool has_extra_samples(Io& io) {
   return false;
 }
 
-// DXT2, DXT4, or the alpha mode "premultiplied" of a header of DirectX 10.
+// DXT2, DXT4, or alpha mode "premultiplied" in a DirectX 10 header.
 bool is_premultiplied_dds(Io& io) {
   const std::string code = bytes_at(io, 84, 4);
   return code == "DXT2" || code == "DXT4" ||
          (code == "DX10" && (number_of(bytes_at(io, 144, 4), true) & 7) == 2);
 }
 
-// A channel of the kind "premultiplied opacity" in the box of channel definitions of a JPEG 2000.
+// Whether the channel definition box of a JPEG 2000 has a channel of kind "premultiplied opacity".
 bool is_premultiplied_jpeg2000(Io& io) {
   const std::string head = bytes_at(io, 0, std::min<std::size_t>(io.size(), 1 << 16));
   const std::size_t box = head.substr(0, head.find("jp2c")).find("cdef");
@@ -68,8 +68,8 @@ bool is_premultiplied_jpeg2000(Io& io) {
   return false;
 }
 
-// OpenImageIO is asked for colours as they are stored. What multiplies them by alpha says so, or is
-// of a format that always does; formats that say nothing are taken as not multiplied.
+// Colours are requested as stored. They are premultiplied if the file says so or if its format
+// implies it; without information they are taken as straight.
 bool is_associated(const OIIO::ImageSpec& spec, const std::string& format, Io& io) {
   if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) return false;
   constexpr int kTargaPremultiplied = 4;
@@ -81,7 +81,7 @@ bool is_associated(const OIIO::ImageSpec& spec, const std::string& format, Io& i
   return false;
 }
 
-// Channels of the first layer of an EXR, which stand together; of other formats all.
+// Channels of the first layer of an EXR, which are contiguous; all channels for other formats.
 int channels_of_first_layer(const OIIO::ImageSpec& spec, const std::string& format) {
   if (format != "openexr") return spec.nchannels;
   const auto layer = [&](int channel) {
@@ -98,8 +98,8 @@ std::string last_part(const std::string& channel) {
   return OIIO::Strutil::lower(channel.substr(channel.rfind('.') + 1));
 }
 
-// The one channel of an EXR that is a depth by its name; -1 where there is none or several. A Z
-// beside an X is a part of a vector.
+// The only channel of an EXR with the name of a depth; -1 if there are none or several. A Z in a
+// layer with an X is part of a vector.
 int depth_channel(const OIIO::ImageSpec& spec) {
   std::vector<std::string> lower;
   for (const std::string& name : spec.channelnames) lower.push_back(OIIO::Strutil::lower(name));
@@ -116,7 +116,7 @@ int depth_channel(const OIIO::ImageSpec& spec) {
   return found;
 }
 
-// The channels of an EXR's first layer that would become colours, where they have other names.
+// The channels of an EXR's first layer that would be read as colours but have other names.
 std::string odd_channels(const ImageDecoder::Header& header) {
   std::string letters, names;
   for (int c = 0; c < header.channels && letters.size() < 3; ++c) {
@@ -132,7 +132,7 @@ std::string odd_channels(const ImageDecoder::Header& header) {
   return alone || letters == "rgb" ? "" : names;
 }
 
-// Whether the first picture of a WebP is of the chunk of lossy compression.
+// Whether the first image of a WebP uses the lossy chunk type.
 bool is_lossy_webp(Io& io) {
   for (std::uint64_t at = 12; at < io.size();) {
     const std::string chunk = bytes_at(io, at, 4);
@@ -144,7 +144,7 @@ bool is_lossy_webp(Io& io) {
 }
 
 bool is_lossy(const OIIO::ImageSpec& spec, const std::string& format, Io& io) {
-  constexpr std::uint64_t kCompressed = 4;  // a flag of the pixel format of a DDS
+  constexpr std::uint64_t kCompressed = 4;  // flag in the pixel format of a DDS
   if (format == "webp") return is_lossy_webp(io);
   if (format == "dds") return (number_of(bytes_at(io, 80, 4), true) & kCompressed) != 0;
   if (format == "tiff") return spec.get_string_attribute("compression") == "jpeg";
@@ -160,13 +160,13 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   header.height = header.full_height = spec.height;
   header.channels = channels_of_first_layer(spec, format);
   header.other_layers = spec.nchannels - header.channels;
-  // In other formats OpenImageIO's windows mean something else, or are wrong.
+  // For other formats OpenImageIO's windows are wrong or have another meaning.
   if (format == "openexr" || format == "tiff" || format == "dpx" || format == "rla" ||
       format == "iff") {
     header.full_width = spec.full_width;
     header.full_height = spec.full_height;
     const auto difference = [](std::int64_t a, std::int64_t b) {
-      constexpr std::int64_t kFar = 1 << 30;  // from every picture
+      constexpr std::int64_t kFar = 1 << 30;  // outside any image
       return static_cast<int>(std::clamp(a - b, -kFar, kFar));
     };
     header.x = difference(spec.x, spec.full_x);
@@ -185,7 +185,7 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const std::string colours = spec.get_string_attribute("tiff:ColorSpace");
   for (const char* const name : {"CIELAB", "ICCLAB", "ITULAB", "LOGL", "LOGLUV", "color separated"})
     if (colours == name) header.other_colours = colours;
-  // OpenImageIO turns these round in 8 bits alone, and alpha with them.
+  // OpenImageIO inverts these in 8 bits only, and inverts alpha with them.
   if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0 &&
       (spec.format != OIIO::TypeUInt8 || spec.nchannels > 1))
     header.other_colours = "grey whose white is 0, of more than 8 bits or with alpha";
@@ -200,25 +200,25 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   header.colour_space = spec.get_string_attribute("oiio:ColorSpace");
   header.orientation = spec.get_int_attribute("Orientation", 1);
   header.several = input.seek_subimage(1, 0);
-  input.geterror();  // that there is none is no error
+  input.geterror();  // clears the error: the name does not have to exist
   input.seek_subimage(0, 0);
   return header;
 }
 
 OIIO::ImageSpec read_hints(Io* io = nullptr) {
   OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+  hints.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not premultiplied
   if (io != nullptr) hints.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &io);
   return hints;
 }
 
-// Opened once: ImageInput::open() opens it twice, and some readers go on where they were.
+// Opens once: ImageInput::open() opens the file twice, and some readers resume where they stopped.
 std::unique_ptr<OIIO::ImageInput> open_bytes(const std::string& name, Io& bytes) {
   const OIIO::ImageSpec hints = read_hints(&bytes);
   return OIIO::ImageInput::create(name, true, &hints, &bytes);
 }
 
-// A file in memory that was changed so that OpenImageIO gives colours as they are stored.
+// A modified copy in memory, so that OpenImageIO returns colours as stored.
 class ChangedFile {
  public:
   ChangedFile(std::string bytes, const std::string& name)
@@ -235,8 +235,8 @@ class ChangedFile {
   std::unique_ptr<OIIO::ImageInput> input_;
 };
 
-// OpenImageIO multiplies the colours of a WebP by alpha, whatever it is asked for. Of the same file
-// without its mark of alpha it reads colours alone.
+// OpenImageIO always premultiplies the colours of a WebP. With the alpha flag cleared it returns
+// the stored colours.
 std::string without_alpha(std::string webp) {
   constexpr std::size_t kFlags = 20, kLossless = 24;
   const std::string chunk = webp.substr(12, 4);
@@ -245,14 +245,14 @@ std::string without_alpha(std::string webp) {
   return webp;
 }
 
-// It divides the colours of DXT2 and DXT4 by alpha in bytes that overflow, and by 0. Blocks of DXT3
-// and DXT5 are the same but for what they mean.
+// OpenImageIO unpremultiplies DXT2 and DXT4 in bytes that overflow, and divides by 0. DXT3 and DXT5
+// have the same blocks with straight alpha.
 std::string as_straight(std::string dds) {
   dds[87] = static_cast<char>(dds[87] + 1);
   return dds;
 }
 
-// Of an animated WebP whose first frame is smaller than the picture OpenImageIO makes up the rest.
+// If the first frame of an animated WebP is smaller than the image, OpenImageIO invents the rest.
 bool is_partial_webp(Io& io) {
   const auto number = [&](std::uint64_t at) { return number_of(bytes_at(io, at, 3), true); };
   if (bytes_at(io, 12, 4) != "VP8X") return false;
@@ -296,7 +296,7 @@ class Decoder final : public ImageDecoder {
     if (!changed_) return input_->read_image(0, 0, 0, channels, type, values) && !lost_an_error();
     OIIO::ImageInput* const changed = changed_->input();
     if (changed == nullptr) return false;
-    // Colours over those that were multiplied by alpha.
+    // Replaces premultiplied colours by the stored ones.
     const int colours = std::min(channels, changed->spec().nchannels);
     return (colours == channels || input_->read_image(0, 0, 0, channels, type, values)) &&
            changed->read_image(
@@ -305,7 +305,7 @@ class Decoder final : public ImageDecoder {
            !lost_an_error();
   }
 
-  // These readers give zeros for what a truncated file lacks, and say that all went well.
+  // These readers return zeros for the missing part of a truncated file and report success.
   bool lost_an_error() const {
     const OIIO::ImageInput& input = changed_ ? *changed_->input() : *input_;
     return (header_.file_format == "dds" || header_.file_format == "iff") && input.has_error();
@@ -314,7 +314,7 @@ class Decoder final : public ImageDecoder {
   std::unique_ptr<Io> io_;
   std::unique_ptr<OIIO::ImageInput> input_;
   Header header_;
-  std::unique_ptr<ChangedFile> changed_;  // null: `input_` gives colours as they are stored
+  std::unique_ptr<ChangedFile> changed_;  // null: `input_` returns colours as stored
 };
 
 ImageCodec::Source source(std::unique_ptr<OIIO::ImageInput> input, std::unique_ptr<Io> io) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG files of 8 bits a channel, written without OpenImageIO: nearly every run writes some, and for
-// most runs they are all that it has to do with image files.
+// Writes 8-bit PNG files without OpenImageIO, because most runs need image files only for this.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace deburr::tb {
 
-// The bytes of a file with three channels, or four if a pixel is not opaque. The picture has at
-// least one pixel.
+// The bytes of a file with three channels, or four if any pixel is not opaque. The image must have
+// at least one pixel.
 std::string encode_png(const Image& image);
 
 }  // namespace deburr::tb

@@ -21,7 +21,7 @@ namespace {
 using Corner = MeshBuilder::Corner;
 
 constexpr std::size_t kAlwaysSimpleEnough = 128;  // corners
-constexpr double kFlat = 1e-4;                    // height over the longest side
+constexpr double kFlat = 1e-4;                    // height divided by the longest side
 
 // ---- limits -------------------------------------------------------------------------------------
 
@@ -59,9 +59,9 @@ std::size_t longest_side(const PolygonPart& t) {
   return longest;
 }
 
-// The tessellator leaves triangles without area, or nearly so, between corners on one line. Their
-// sides would be edges of faces that do not have them, so such a triangle trades its longest side,
-// which is inside the polygon, for the other diagonal of the two triangles there.
+// The tessellator leaves triangles of zero or near-zero area between collinear corners. Their sides
+// would be drawn as edges that the faces do not have. Each is removed by flipping its longest side,
+// which is inside the polygon, to the other diagonal of the two adjacent triangles.
 class FlatTriangles {
  public:
   FlatTriangles(std::vector<PolygonPart>& triangles, const V3d& along)
@@ -77,7 +77,7 @@ class FlatTriangles {
     while (!open.empty()) {
       const std::size_t t = open.back();
       const std::size_t other = across_longest(t);
-      // That of a flat neighbour with a longer side has to go first.
+      // A flat neighbour with a longer side must be flipped first.
       if (!seen[t] && other != kNone && !seen[other] && flatness(triangles_[other]) < kFlat &&
           longest(other) > longest(t)) {
         seen[t] = true;
@@ -176,12 +176,12 @@ struct PolygonSplitter::State {
     void operator()(GLUtesselator* one) const { gluDeleteTess(one); }
   };
   std::unique_ptr<GLUtesselator, Delete> tessellator{gluNewTess()};
-  std::deque<Corner> made;  // at crossings
+  std::deque<Corner> made;  // corners made at crossings
   std::vector<const Corner*> corners;
   std::vector<PolygonPart> triangles;
   bool crosses = false, failed = false;
 
-  // No exception passes the tessellator, which is written in C.
+  // The tessellator is written in C: exceptions must not pass through it.
   static void vertex(void* corner, void* state) {
     auto& self = *static_cast<State*>(state);
     try {
@@ -190,7 +190,7 @@ struct PolygonSplitter::State {
       self.failed = true;
     }
   }
-  // Two corners at one place, as at a bridge, are one; else edges meet between their corners.
+  // Coincident corners, as at a bridge, are merged; otherwise edges cross between their corners.
   static void combine(const GLdouble* position, void* const* parts, const GLfloat* weights,
                       void** result, void* state) {
     auto& self = *static_cast<State*>(state);
@@ -212,7 +212,7 @@ struct PolygonSplitter::State {
       self.failed = true;
     }
   }
-  // A tessellator that is told of edges makes no strips and fans.
+  // With an edge callback the tessellator emits only triangles, no strips or fans.
   static void edge(GLboolean) {}
   static void error(GLenum, void* state) { static_cast<State*>(state)->failed = true; }
 
@@ -242,7 +242,8 @@ const std::vector<PolygonPart>& PolygonSplitter::split(const PolygonCorners& pol
   state.triangles.clear();
   state.crosses = state.failed = false;
   V3d along = area_vector(polygon);
-  along = along.length() > 0.0 ? along.normalized() : V3d(0, 0, 0);  // zero: the tessellator's own
+  along =
+      along.length() > 0.0 ? along.normalized() : V3d(0, 0, 0);  // zero: the tessellator chooses
   GLUtesselator* const tessellator = state.tessellator.get();
   gluTessNormal(tessellator, along.x, along.y, along.z);
   gluTessBeginPolygon(tessellator, &state);

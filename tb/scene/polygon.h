@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Polygons become triangles with the tessellator of GLU. Internal to tb/scene.
+// Triangulates polygons with the GLU tessellator. Internal to tb/scene.
 #pragma once
 
 #include <array>
@@ -17,13 +17,14 @@ using PolygonCorners = std::vector<MeshBuilder::Corner>;
 // Twice the area of a polygon along each axis, positive where it is counter-clockwise (Newell).
 Imath::V3d area_vector(const PolygonCorners& polygon);
 
-// Every corner turns the same way: none is on a line with its neighbours.
+// Every corner turns the same way; collinear corners are not allowed.
 bool is_strictly_convex(const PolygonCorners& polygon);
 
-// The tessellator's time grows with the square of corners, and with crossings times corners.
+// The tessellator's time grows with the square of the corners, and with crossings times corners.
 inline constexpr std::size_t kMaxPolygonCorners = 1 << 15;
-inline constexpr std::size_t kMaxPolygonCrossings = 1 << 12;  // of more than 128 corners
-// Why the tessellator would take too long; empty if it would not.
+inline constexpr std::size_t kMaxPolygonCrossings = 1
+                                                    << 12;  // for polygons of more than 128 corners
+// Reason why tessellation would take too long; empty if it would not.
 std::string too_complex(const PolygonCorners& polygon);
 
 // A triangle.
@@ -36,12 +37,12 @@ class PolygonSplitter {
   PolygonSplitter(const PolygonSplitter&) = delete;
   PolygonSplitter& operator=(const PolygonSplitter&) = delete;
 
-  // Triangles that pass the polygon's direction, none if it has no area; valid until the next call
-  // or a change of the polygon. A hole is a part of the outline that a bridge leads to and back
-  // from. Whatever an outline that crosses itself winds around is filled; where it does, corners
-  // are made. Throws bad_alloc.
+  // Triangles in the polygon's direction, none if its area is zero; valid until the next call or a
+  // change of the polygon. A hole is part of the outline, entered and left by a bridge. Every
+  // region that a self-crossing outline winds around is filled, with new corners at the crossings.
+  // Throws bad_alloc.
   const std::vector<PolygonPart>& split(const PolygonCorners& polygon);
-  // The last one did.
+  // Whether the polygon of the last split() crosses itself.
   bool crosses_itself() const;
 
  private:

@@ -33,7 +33,7 @@ int largest_difference(const Rgba8& a, const Rgba8& b) {
   return largest;
 }
 
-// Ordered by distance from the background, which is 0: NaN and infinity join it.
+// Maps NaN and infinity to the background, 0; others are ordered by distance from it.
 float surface(float depth) { return std::isfinite(depth) && depth > 0.0f ? depth : 0.0f; }
 
 bool is_step(float a, float b, double relative_step) {

@@ -17,15 +17,15 @@ namespace {
 
 constexpr int kTile = 8;
 
-// A mesh triangle's texture coordinates at its corners, moved by whole repeats towards zero so that
-// S7.24 keeps its precision wherever on an endless floor the triangle lies.
+// Texture coordinates at a triangle's corners, moved by whole repeats towards zero so that S7.24
+// keeps its precision anywhere on an endless floor.
 struct Mapping {
   Imath::V3d s, t;
   std::uint8_t texture = 0;
   bool repeats_s = false, repeats_t = false;
 };
 
-// An even number of repeats, where the texture is mirrored every other one.
+// Whole repeats of a coordinate; even for mirrored wrap, where every other repeat is mirrored.
 double whole_repeats(double coordinate, spec::texture::Wrap wrap) {
   if (wrap == spec::texture::Wrap::kClampToEdge || !std::isfinite(coordinate)) return 0.0;
   return wrap == spec::texture::Wrap::kRepeat ? std::floor(coordinate)
@@ -55,8 +55,8 @@ Mapping map_triangle(const Mesh& mesh, const Triangle& triangle) {
   return mapping;
 }
 
-// A triangle that spans more repeats than S7.24 holds: move the whole quad, so that differences
-// stay.
+// For a triangle that spans more repeats than S7.24 holds: moves the whole quad, so that
+// differences are preserved.
 void move_into_range(std::array<double, 4>& values, std::uint8_t coverage) {
   const double reference = values[static_cast<std::size_t>(std::countr_zero(coverage))];
   if (std::abs(reference) < 64.0 || !std::isfinite(reference)) return;
@@ -64,8 +64,8 @@ void move_into_range(std::array<double, 4>& values, std::uint8_t coverage) {
   for (double& value : values) value -= shift;
 }
 
-// numerator / inverse_w, where a helper lane may lie beyond the horizon of the triangle's plane
-// (inverse_w <= 0): there the coordinate has passed through infinity.
+// numerator / inverse_w. A helper lane can lie beyond the horizon of the triangle's plane
+// (inverse_w <= 0), where the coordinate has passed through infinity.
 double divide(double numerator, double inverse_w) {
   if (inverse_w > 0.0) return numerator / inverse_w;
   return numerator == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), numerator);
@@ -106,7 +106,7 @@ class QuadMaker {
   const Mapping& mapping_;
 };
 
-// Calls visit(x, y) for the even corners of the quads that touch the primitive's rectangle.
+// Calls visit(x, y) for the even corner of every quad that touches the primitive's bounding box.
 template <class Visit>
 void for_each_quad(const Primitive& p, Traversal traversal, Visit&& visit) {
   const int left = p.left & ~1, top = p.top & ~1;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Turns a scene into the texture unit's input: 2 x 2 quads of fragments with snapped coordinates.
+// Converts a scene to the texture unit's input: 2 x 2 quads of fragments with rounded coordinates.
 //
-// Sits before TextureUnit (docs/reference/scenes.md). Formats: vertices 24.8, edge functions exact
-// 64-bit integers with the top-left rule, coordinates S7.24. Perspective correct: (s, t) at a pixel
-// centre come from the edge functions in double with + - * / only and without contraction, so that
-// the same scene gives the same bits on every machine.
+// Position  Before TextureUnit (docs/reference/scenes.md).
+// Formats   Vertices 24.8, edge functions exact 64-bit integers with the top-left rule, coordinates
+//           S7.24, perspective correct.
+// Note      (s, t) at a pixel centre are computed from the edge functions in double with + - * /
+//           and without contraction, so that a scene gives the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -17,15 +18,15 @@
 
 namespace deburr::tb {
 
-// Order of the quads of one triangle; triangles come in the order of the mesh.
+// Order of the quads of one triangle; triangles keep the mesh's order.
 enum class Traversal : std::uint8_t {
   kRaster,   // rows of quads, top to bottom
   kTiles8x8  // 8 x 8 pixel tiles in rows, quads in rows inside a tile
 };
 
 enum class Visibility : std::uint8_t {
-  kVisible,  // as after a depth pre-pass: every pixel gets at most one fragment, the nearest
-  kOverdraw  // every fragment of every triangle, hidden ones too
+  kVisible,  // as after a depth pre-pass: at most one fragment per pixel, the nearest
+  kOverdraw  // every fragment of every triangle, including hidden ones
 };
 
 struct RasterOptions {
@@ -36,9 +37,9 @@ struct RasterOptions {
 
 struct RasterCounts {
   std::uint64_t triangles = 0;   // of the mesh
-  std::uint64_t outside = 0;     // wholly outside the picture or behind the near plane
+  std::uint64_t outside = 0;     // entirely outside the picture or nearer than the near plane
   std::uint64_t clipped = 0;     // cut by the near plane or the guard band
-  std::uint64_t degenerate = 0;  // no area after snapping, or a vertex that is not finite
+  std::uint64_t degenerate = 0;  // zero area after snapping, or a vertex that is not finite
   std::uint64_t quads = 0;
   std::uint64_t fragments = 0;      // covered lanes
   std::uint64_t clamped_lanes = 0;  // lanes with a NaN, infinite or saturated coordinate
@@ -48,9 +49,9 @@ struct RasterCounts {
 struct FragmentStream {
   int width = 0, height = 0;
   std::vector<spec::texture::Quad> quads;
-  // Lanes whose colour is the one to be seen: equal to coverage in kVisible, less in kOverdraw.
+  // Lanes whose colour is visible: equal to coverage in kVisible, fewer in kOverdraw.
   std::vector<std::uint8_t> visible;
-  DepthImage depth;  // near/w of the nearest surface at pixel centres, 0 where there is none
+  DepthImage depth;  // near/w of the nearest surface at pixel centres, 0 for background
   RasterCounts counts;
 
   struct Pixel {
@@ -61,18 +62,18 @@ struct FragmentStream {
   }
 };
 
-// Throws ConfigError for a size outside 1..8192 or a camera that cannot look.
+// Throws ConfigError for a size outside 1..8192 or an invalid camera.
 FragmentStream rasterise(const Scene& scene, const RasterOptions& options);
 
-// Snaps one coordinate to S7.24, rounding half up. NaN -> 0, beyond the range -> the nearest limit;
-// both return true in `clamped`, which is left alone otherwise.
+// Rounds a coordinate to S7.24, half up. NaN becomes 0, values out of range saturate; both set
+// `clamped`, which is otherwise unchanged.
 std::int32_t snap_coordinate(double coordinate, bool& clamped);
 
-// Puts colours back where they belong. The background is the scene's sky.
+// Assembles a frame from colours by tag and lane. The background is the scene's sky.
 class FrameAssembler {
  public:
   FrameAssembler(const FragmentStream& stream, const Scene& scene);
-  // Throws CheckFailed for an unknown tag, a lane that is not covered or a second colour for it.
+  // Throws CheckFailed for an unknown tag, an uncovered lane or a second colour for a lane.
   void put(const spec::texture::Colour& colour);
   std::uint64_t missing() const { return missing_; }  // covered lanes without a colour so far
   const Image& frame() const { return frame_; }
@@ -80,11 +81,11 @@ class FrameAssembler {
  private:
   const FragmentStream& stream_;
   Image frame_;
-  std::vector<std::uint8_t> pending_;  // lanes of each quad still without a colour
+  std::vector<std::uint8_t> pending_;  // per quad: lanes still without a colour
   std::uint64_t missing_ = 0;
 };
 
-// The colour of the sky behind pixel row y (may be fractional) of a picture `height` pixels high.
+// The sky's colour at pixel row y (may be fractional) of a picture `height` pixels high.
 Rgba8 sky(const Scene& scene, double y, int height);
 
 }  // namespace deburr::tb

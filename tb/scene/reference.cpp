@@ -25,7 +25,7 @@ using Imath::V3d;
 constexpr int kMaxSamples = 32;
 constexpr double kGamma = 2.2;
 
-// What stored bytes mean while samples are averaged.
+// Transfer function of stored bytes during averaging.
 enum class Transfer : std::uint8_t { kStored, kSrgb, kGamma22 };
 
 class Transport {
@@ -43,14 +43,14 @@ class Transport {
     for (std::size_t v = 0; v < 255; ++v)
       next_[v] = decoded((static_cast<double>(v) + 0.5) / 255.0);
   }
-  // The nearest byte; a half is the next one.
+  // The nearest byte; halves are rounded up.
   std::uint8_t encode(double value) const {
     return static_cast<std::uint8_t>(std::upper_bound(next_.begin(), next_.end(), value) -
                                      next_.begin());
   }
 
  private:
-  std::array<double, 255> next_{};  // where byte v + 1 begins
+  std::array<double, 255> next_{};  // lower bound of byte v + 1
 };
 
 using Colour = std::array<float, 4>;
@@ -90,7 +90,7 @@ class TextureReader {
                          [&](const Rgba8& texel) { return texel == first; });
     });
   }
-  // All texels are equal: every filter gives them.
+  // All texels are equal, so every filter returns them.
   bool plain() const { return plain_; }
   int width() const { return levels_[0].width; }
   int height() const { return levels_[0].height; }
@@ -141,7 +141,7 @@ class TextureReader {
   bool plain_ = false;
 };
 
-// Everything about a mesh triangle that its samples share.
+// Per-triangle data for shading its samples.
 struct ShadedSurface {
   V3d s, t;                   // at the corners
   V3d light;                  // at the corners, relative to white
@@ -167,12 +167,12 @@ ShadedSurface make_surface(const Scene& scene, const Triangle& triangle) {
   surface.colour = mesh.materials[triangle.material].colour;
   surface.texture = mesh.materials[triangle.material].texture;
   V3d face = (v[1]->position - v[0]->position).cross(v[2]->position - v[0]->position).normalized();
-  // Both sides are lit: normals turn towards the eye, a whole triangle at a time.
+  // Surfaces are lit from both sides: normals face the eye, decided once per triangle.
   const double side = face.dot(scene.camera.eye - v[0]->position) < 0.0 ? -1.0 : 1.0;
   for (int i = 0; i < 3; ++i) {
     const V3d& normal = v[static_cast<std::size_t>(i)]->normal;
     const bool smooth = scene.lighting.smooth && normal.length2() > 0.0;
-    // A vertex normal points to the side of the face that the modeller meant as the outside.
+    // A vertex normal faces the side that the modeller meant as the outside.
     const double outside = smooth && normal.dot(face) < 0.0 ? -side : side;
     const V3d turned = smooth ? normal * outside : face * side;
     surface.light[i] = light_on(scene.lighting, turned);
@@ -182,7 +182,7 @@ ShadedSurface make_surface(const Scene& scene, const Triangle& triangle) {
   return surface;
 }
 
-// Colours of the samples in a piece of a tile's row, by channel.
+// Colours of the samples in a section of a tile row, by channel.
 using ColourRow = std::array<std::array<float, kMaxTile>, 4>;
 
 using NormalRow = std::array<std::array<float, 3>, kMaxTile>;
@@ -191,16 +191,16 @@ Colour colour_at(const ColourRow& row, std::size_t k) {
   return {row[0][k], row[1][k], row[2][k], row[3][k]};
 }
 
-// Phong's model: diffuse, ambient and specular light of two directional lights, without shadows.
-// Deferred and direct lighting share it. Its exponent is a power of two, so that it takes
-// multiplications alone and gives the same bits everywhere.
+// Phong's model: diffuse, ambient and specular light of two directional lights, without shadows,
+// used for deferred and direct lighting. The exponent is a power of two, so multiplications suffice
+// and give the same bits everywhere.
 class Phong {
  public:
   explicit Phong(const Scene& scene) : lighting_(scene.lighting) {
     key_ = lighting_.key_direction.normalized();
     fill_ = lighting_.fill_direction.normalized();
   }
-  // Albedo in, light towards the eye out. `normal` as a G-buffer holds it; `ray` from the eye.
+  // In: albedo; out: light towards the eye. `normal` as in a G-buffer; `ray` from the eye.
   void shade(const std::array<float, 3>& normal, const V3d& ray, float& r, float& g,
              float& b) const {
     const V3d n(static_cast<double>(normal[0]), static_cast<double>(normal[1]),
@@ -229,9 +229,8 @@ class Phong {
   V3d key_, fill_;
 };
 
-// Colours of one primitive, in the transport's space. Samples are shaded a run at a time and in
-// loops without branches, which a compiler turns into vectors; each sample's own operations and
-// their order are the same in every run.
+// Shades one primitive, in the transfer function's space. Samples are shaded in runs by branch-free
+// loops that vectorise; each sample's operations and their order do not depend on the run.
 class Shader {
  public:
   Shader(const Scene& scene, const std::vector<Primitive>& primitives, const View& view,
@@ -244,9 +243,9 @@ class Shader {
       readers_.emplace_back(texture, transport, lit);
   }
 
-  // The centres of `count` cells from (x, y) to the right go to row[.][first] and on; `cells` is
-  // the number of cells a pixel is wide.
-  // With `normals` (kPhong) colours stay without light, and normals go there.
+  // Shades the centres of `count` cells from (x, y) to the right into row[.][first] onwards;
+  // `cells` is the pixel width in cells. With `normals` (kPhong) colours are unlit and normals are
+  // written there.
   void shade(std::int32_t owner, int x, int y, int cells, int count, ColourRow& row,
              std::size_t first = 0, NormalRow* normals = nullptr) const {
     const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
@@ -294,7 +293,7 @@ class Shader {
     }
     CellRow light;
     at.interpolate(surface.light, samples, light);
-    // A multi-sampled pixel's centre may lie outside the triangle, where light extrapolates.
+    // The centre of a multi-sampled pixel can be outside the triangle, where light is extrapolated.
     for (std::size_t c = 0; c < 3; ++c) {
       const double colour = surface.colour[static_cast<int>(c)];
       float* const channel = &row[c][first];
@@ -308,7 +307,7 @@ class Shader {
     for (std::size_t c = 0; c < 4; ++c) row[c][k] = colour[c];
   }
 
-  // Weights of the triangle's corners, each over w, and w.
+  // Weights of the triangle's corners, each divided by w, and w.
   struct Samples {
     CellRow x, y, z, w;
     void interpolate(const V3d& corners, std::size_t count, CellRow& value) const {
@@ -345,8 +344,8 @@ class Shader {
     return at;
   }
 
-  // A whole pixel's footprint in a texture, so that frames with one and with many samples a pixel
-  // filter their textures alike and differ at edges only.
+  // Texture footprint of a whole pixel, so that frames with one or many samples per pixel filter
+  // textures alike and differ at edges only.
   class Footprint {
    public:
     Footprint(const Primitive& p, const ShadedSurface& surface, const TextureReader& reader,
@@ -361,7 +360,7 @@ class Shader {
       x_ = {dx.dot(surface.s), dx.dot(surface.t), dx.x + dx.y + dx.z};
       y_ = {dy.dot(surface.s), dy.dot(surface.t), dy.x + dy.y + dy.z};
     }
-    // Base-2 logarithm of its longer side.
+    // Base-2 logarithm of the longer side.
     double level(double s, double t, double w) const {
       const double sx = (x_.s - s * x_.sum) * w * width_, tx = (x_.t - t * x_.sum) * w * height_;
       const double sy = (y_.s - s * y_.sum) * w * width_, ty = (y_.t - t * y_.sum) * w * height_;
@@ -371,7 +370,7 @@ class Shader {
 
    private:
     struct Step {
-      double s, t, sum;  // of the numerators, and of the weights
+      double s, t, sum;  // numerators, and sum of the weights
     };
     double width_, height_;
     Step x_, y_;
@@ -422,7 +421,7 @@ Image render(const Scene& scene, const RenderOptions& options) {
   const View view(scene.camera, options.width, options.height, n);
   const std::vector<Primitive> primitives = set_up(scene.mesh, view);
   const Transport transport = transport_of(options.shading, options.averaging);
-  // Lit colours are made in linear light; averaging them as stored means encoding each sample.
+  // Lit colours are in linear light; averaging as stored means encoding each sample first.
   const bool encode_samples =
       options.shading != Shading::kTexture && options.averaging == Averaging::kStored;
   const Transport stored(Transfer::kStored);
@@ -493,7 +492,7 @@ Image render(const Scene& scene, const RenderOptions& options) {
 
 namespace {
 
-// In 1/256 of a pixel, from its centre.
+// Offset from the pixel centre in 1/256 of a pixel.
 struct SampleOffset {
   int x, y;
 };

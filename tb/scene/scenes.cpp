@@ -37,7 +37,7 @@ constexpr std::array<SceneName, 12> kSceneNames{{
 
 // ---- surfaces -----------------------------------------------------------------------------------
 
-// Where a closed curve starts again: its last point is its first one, to the bit.
+// Closes a curve: its last point equals its first, bit for bit.
 double around_again(double share) { return share == 1.0 ? 0.0 : share; }
 
 // Adds a grid of (columns x rows) cells; position, normal and uv come from `at(i / columns, j /
@@ -91,17 +91,17 @@ void add_cylinder(Mesh& mesh, const V3d& bottom, const V3d& top, double radius, 
 
 // ---- the scenes ---------------------------------------------------------------------------------
 
-// No name of a scene or of a texture does.
+// Names of scenes and textures never look like files.
 bool looks_like_file(std::string_view name) {
   return name.find_first_of("./") != std::string_view::npos;
 }
 
-// The wanted one replaces those of the file, which are not read then.
+// If a texture is requested, the file's textures are not read.
 ImportOptions import_options(const SceneOptions& options) {
   return {.textures = options.texture.empty()};
 }
 
-// A texture by name or from a file; `size` is the side of one made by formula.
+// A texture by name or from a file; `size` is the side of a procedural one.
 Texture choose_texture(const std::string& wanted, std::string_view otherwise,
                        const SceneOptions& options, Mesh& mesh) {
   Texture texture;
@@ -125,7 +125,7 @@ Texture choose_texture(const std::string& wanted, std::string_view otherwise,
   return texture;
 }
 
-// One material with the chosen texture.
+// One material with the selected texture.
 void add_texture(Scene& scene, const std::string& wanted, std::string_view otherwise,
                  const SceneOptions& options) {
   scene.mesh.materials.push_back(
@@ -135,8 +135,8 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
 
 void make_plane(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
-  // Three repeats in ten units; 160 units are more than the picture shows, since the horizon lies
-  // two degrees above its top edge.
+  // Three repeats per ten units. 160 units exceed what is visible, since the horizon lies two
+  // degrees above the picture's top edge.
   constexpr double kSide = 160.0, kRepeats = 0.3 * kSide;
   add_parallelogram(scene.mesh, V3d(-0.5 * kSide, 0, 4), V3d(kSide, 0, 0), V3d(0, 0, -kSide),
                     V2d(kRepeats, kRepeats), 0);
@@ -162,7 +162,7 @@ void make_tunnel(Scene& scene, const SceneOptions& options) {
 
 void make_object(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "brick", options);
-  // A tube around the (2, 3) torus knot; the frame follows the curve and a fixed point on the axis.
+  // A tube around the (2, 3) torus knot; its frame follows the curve and a fixed point on the axis.
   auto curve = [](double u) {
     const SinCos p = sin_cos(4.0 * kPi * u), q = sin_cos(6.0 * kPi * u);
     const double r = 1.0 + 0.4 * q.cos;
@@ -193,7 +193,7 @@ void make_road(Scene& scene, const SceneOptions& options) {
 }
 
 void make_cylinders(Scene& scene, const SceneOptions&) {
-  // Slopes between a near-vertical edge and the diagonal; none is 1 / n exactly (papers-errata.md).
+  // Slopes between a near-vertical edge and the diagonal; none is exactly 1 / n (papers-errata.md).
   constexpr std::array<double, 5> kDegrees{3.1, 8.3, 16.7, 27.9, 41.3};
   const std::array<V3d, 5> colours{V3d(0.75, 0.15, 0.12), V3d(0.85, 0.55, 0.08),
                                    V3d(0.18, 0.5, 0.2), V3d(0.12, 0.3, 0.7), V3d(0.45, 0.2, 0.55)};
@@ -206,7 +206,8 @@ void make_cylinders(Scene& scene, const SceneOptions&) {
   scene.camera = {V3d(0, 0.3, 7.4), V3d(0, 0, 0), V3d(0, 1, 0), 0.62, 0.1};
 }
 
-// From above front right, as near as lets every vertex into a square picture.
+// Camera above, in front and to the right, at the least distance that keeps every vertex in a
+// square picture.
 void frame_whole_mesh(Scene& scene) {
   const Bounds box = bounds(scene.mesh);
   const V3d centre = box.centre(), direction = V3d(0.55, 0.45, 0.9).normalized();
@@ -226,7 +227,7 @@ void frame_whole_mesh(Scene& scene) {
   scene.camera.near_plane = std::max(0.01 * distance, 0.5 * (distance - radius));
 }
 
-// A white model, framed as an imported mesh is.
+// A white model, framed like an imported mesh.
 void make_model(Scene& scene, void (*add)(Mesh&, std::uint32_t)) {
   scene.mesh.materials.push_back({scene.name, V3d(1, 1, 1), -1});
   add(scene.mesh, 0);

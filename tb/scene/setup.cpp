@@ -19,12 +19,12 @@ using Imath::V3d;
 
 struct ClipVertex {
   V3d position;  // x, y, w
-  V3d weights;   // of the mesh triangle's corners, sum 1
+  V3d weights;   // barycentric weights of the mesh triangle's corners, sum 1
 };
 using Polygon = std::vector<ClipVertex>;
 
-// Keeps the side where distance >= 0. The crossing is always computed from the inner towards the
-// outer end, so that the two triangles of an edge get the same point and stay watertight.
+// Clips to the side where distance >= 0. The crossing is always computed from the inner to the
+// outer end, so that triangles that share an edge get the same point and stay watertight.
 template <class Distance>
 void clip(Polygon& polygon, Polygon& scratch, Distance&& distance) {
   scratch.clear();
@@ -57,8 +57,7 @@ struct ClipSpace {
   }
 };
 
-// All three corners on the outer side of one plane of the picture: nothing of the triangle can be
-// seen.
+// All three corners are outside the same plane of the picture: the triangle is invisible.
 bool outside_picture(const std::array<V3d, 3>& p, const View& view) {
   auto all = [&](auto&& test) { return test(p[0]) && test(p[1]) && test(p[2]); };
   return all([&](const V3d& v) { return v.z < view.near_plane(); }) ||
@@ -77,7 +76,7 @@ Snapped snap(const V3d& position) {
           static_cast<std::int64_t>(std::floor(position.y / position.z * kSubpixelOne + 0.5))};
 }
 
-// First and last cell of which a sample, up to half a cell from its centre, can lie in [low, high].
+// First and last cell that can have a sample, up to half a cell from its centre, in [low, high].
 int first_cell(std::int64_t low) {
   return static_cast<int>(std::max<std::int64_t>(0, (low - 128) >> 8));
 }
@@ -85,7 +84,7 @@ int last_cell(std::int64_t high, int cells) {
   return static_cast<int>(std::min<std::int64_t>(cells - 1, (high - 128 + 255) >> 8));
 }
 
-// Empty when the corners are on one line after snapping.
+// Empty if the corners are collinear after snapping.
 std::optional<Primitive> make_primitive(std::array<const ClipVertex*, 3> corner, const View& view) {
   std::array<Snapped, 3> p{snap(corner[0]->position), snap(corner[1]->position),
                            snap(corner[2]->position)};
@@ -121,11 +120,11 @@ std::optional<Primitive> make_primitive(std::array<const ClipVertex*, 3> corner,
 }
 
 struct Span {
-  int first, last;  // steps of one cell; empty when first > last
+  int first, last;  // steps of one cell; empty if first > last
 };
 
-// Which of the steps 0..last from the sample with edge values `e` are covered: a triangle is
-// convex, so it is one run, and each edge cuts it at one end.
+// The covered steps among 0..last, starting at the sample with edge values `e`. A triangle is
+// convex, so they are one interval, and each edge limits one end.
 Span covered_span(const Primitive& p, const std::array<std::int64_t, 3>& e, int last) {
   std::int64_t low = 0, high = last;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -143,7 +142,7 @@ Span covered_span(const Primitive& p, const std::array<std::int64_t, 3>& e, int 
 }  // namespace
 
 void Primitive::edges_of_row(const std::array<std::int64_t, 3>& e, int count, EdgeRow& row) const {
-  // Integers of up to 53 bits are exact in a double, and then so is every term here.
+  // Integers of up to 53 bits are exact in a double, so every term here is exact.
   constexpr std::int64_t kExact = std::int64_t{1} << 52;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t step = a[i] * kSubpixelOne, last = e[i] + step * (count - 1);

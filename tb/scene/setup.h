@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From a mesh and a camera to clipped, snapped screen triangles, and who is in front. Internal to
-// tb/scene: the rasteriser and the reference renderer share it.
+// Transforms a mesh with a camera into clipped, snapped screen triangles and resolves visibility.
+// Shared by the rasteriser and the reference renderer; internal to tb/scene.
 //
 // Formats: screen positions 24.8 (1/256 of a sample cell), edge functions exact in 64 bits. A
 // position lies within +-kGuardBand cells, so a coordinate has 27 bits, a difference 28 and an edge
@@ -23,7 +23,7 @@ namespace deburr::tb {
 inline constexpr int kSubpixelOne = 256;
 inline constexpr int kGuardBand = 1 << 18;  // cells from the origin
 
-// Whether no coordinate is infinite or not a number.
+// Whether all coordinates are finite.
 inline bool finite(const Imath::V3d& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -35,7 +35,7 @@ class View {
 
   // (x, y, w): w is the distance along the view direction, x / w and y / w are cells.
   Imath::V3d transform(const Imath::V3d& point) const;
-  // From the eye through the cell position (x, y), one unit along the view direction long.
+  // Vector from the eye through cell position (x, y), one unit long along the view direction.
   Imath::V3d ray(double x, double y) const {
     return forward_ + right_ * ((x - centre_x_) / focal_) + down_ * ((y - centre_y_) / focal_);
   }
@@ -55,18 +55,19 @@ constexpr std::int64_t cell_centre(int cell) { return std::int64_t{cell} * kSubp
 
 inline constexpr int kMaxTile = 64;  // cells
 
-// A value at each of the cells of a piece of a tile's row.
+// One value per cell in a section of a tile row.
 using CellRow = std::array<double, kMaxTile>;
 using EdgeRow = std::array<CellRow, 3>;
 
 // One triangle after clipping.
 struct Primitive {
   std::uint32_t triangle = 0;                    // index into Mesh::triangles
-  int left = 0, top = 0, right = 0, bottom = 0;  // cells that may be covered, inclusive
+  int left = 0, top = 0, right = 0, bottom = 0;  // bounding box in cells, inclusive
   std::array<std::int64_t, 3> a{}, b{}, c{};     // edge i is a x + b y + c, positive inside
-  std::array<std::int64_t, 3> bias{};            // 0 on top and left edges, else -1
-  std::array<double, 3> inverse_w{};             // 1 / w at each corner, over twice the area
-  std::array<Imath::V3d, 3> weight{};  // of the mesh triangle's corners, over w and twice the area
+  std::array<std::int64_t, 3> bias{};            // 0 on top and left edges, otherwise -1
+  std::array<double, 3> inverse_w{};             // 1 / w at each corner, divided by twice the area
+  std::array<Imath::V3d, 3>
+      weight{};  // of the mesh triangle's corners, divided by w and twice the area
 
   std::array<std::int64_t, 3> edges(std::int64_t x, std::int64_t y) const {
     return {a[0] * x + b[0] * y + c[0], a[1] * x + b[1] * y + c[1], a[2] * x + b[2] * y + c[2]};
@@ -77,10 +78,10 @@ struct Primitive {
   double depth(double e0, double e1, double e2) const {  // 1 / w
     return e0 * inverse_w[0] + e1 * inverse_w[1] + e2 * inverse_w[2];
   }
-  // The edges at `count` cells from the one whose edges are `e` to the right.
+  // Edge values at `count` cells to the right of the one with edge values `e`.
   void edges_of_row(const std::array<std::int64_t, 3>& e, int count, EdgeRow& row) const;
-  // Weights of the mesh triangle's corners, each over w; their sum is 1 / w. Inside the triangle no
-  // term is negative, so nothing cancels, however thin it is.
+  // Weights of the mesh triangle's corners, each divided by w; their sum is 1 / w. Inside the
+  // triangle no term is negative, so there is no cancellation even in thin triangles.
   Imath::V3d corner_weights(const std::array<std::int64_t, 3>& e) const {
     return weight[0] * static_cast<double>(e[0]) + weight[1] * static_cast<double>(e[1]) +
            weight[2] * static_cast<double>(e[2]);
@@ -92,7 +93,7 @@ std::vector<Primitive> set_up(const Mesh& mesh, const View& view, RasterCounts* 
 
 inline constexpr std::int32_t kNobody = -1;
 
-// Which primitive is nearest at each sample of a rectangle of cells.
+// Finds the nearest primitive at each sample of a rectangle of cells.
 class Occlusion {
  public:
   // `tile` is at most kMaxTile.
@@ -100,14 +101,14 @@ class Occlusion {
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   int tile() const { return tile_; }
-  // False where no primitive comes near the tile.
+  // False if no primitive's bounding box touches the tile.
   bool occupied(int column, int row) const {
     return first_[bin(column, row)] < first_[bin(column, row) + 1];
   }
 
   // For tile (column, row): owner and 1 / w of the sample at each cell centre + (offset_x,
-  // offset_y) / 256. Row-major with tile() cells a row. Among equal depths the first primitive
-  // wins. Reuses the memory.
+  // offset_y) / 256. Row-major with tile() cells per row. Among equal depths the first primitive
+  // wins. Reuses the vectors' memory.
   void resolve(int column, int row, int offset_x, int offset_y, std::vector<std::int32_t>& owners,
                std::vector<double>& depths) const;
 
@@ -121,7 +122,7 @@ class Occlusion {
   std::vector<std::uint32_t> first_, members_;  // members of bin i: first_[i] .. first_[i + 1]
 };
 
-// Calls visit(x, y, owner, inverse_w) for every cell where something is seen at its centre.
+// Calls visit(x, y, owner, inverse_w) for every cell with a visible surface at its centre.
 template <class Visit>
 void for_each_resolved_pixel(const std::vector<Primitive>& primitives, const View& view,
                              Visit&& visit) {

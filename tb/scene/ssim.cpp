@@ -29,7 +29,7 @@ Kernel<double> ssim_window() {
   return gaussian;
 }
 
-// Rows from..from + rows - 1 of a picture, and `rows` of means in windows about the middle ones.
+// Rows from..from + rows - 1 of an image, and `rows` rows of window means.
 struct Moments {
   LumaPlane luma, mean, square;
 };

@@ -15,7 +15,7 @@
 namespace deburr::tb {
 namespace {
 
-// A bijective mix of 32 bits in which every input bit changes every output bit about half the time.
+// A bijective 32-bit mixer: every input bit changes every output bit about half the time.
 constexpr std::uint32_t mix(std::uint32_t v) {
   v = (v ^ (v >> 16)) * 0x7FEB352Du;
   v = (v ^ (v >> 15)) * 0x846CA68Bu;
@@ -34,7 +34,7 @@ constexpr int hash_range(int x, int y, std::uint32_t seed, int low, int high) {
 
 std::uint8_t to_byte(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
 
-// Noise that varies over `cell` texels and repeats with the texture, in -amplitude..amplitude.
+// Noise with features of `cell` texels that tiles with the texture, in -amplitude..amplitude.
 int smooth_noise(int x, int y, int width, int height, int cell, int amplitude, std::uint32_t seed) {
   const int columns = std::max(1, width / cell), rows = std::max(1, height / cell);
   const int cx = x / cell, cy = y / cell, fx = x % cell, fy = y % cell;
@@ -59,9 +59,9 @@ constexpr std::array<std::string_view, 7> kTextureNames = {
 
 // ---- mip levels ---------------------------------------------------------------------------------
 
-// One axis of the box filter. Source texel j covers [j, j+1) * target, target texel i covers
-// [i, i+1) * source, both in units of 1 / (source * target) of the side: the weights are whole
-// numbers and sum to `source` for every target texel.
+// One axis of the box filter. Source texel j covers [j, j+1) * target, target texel i covers [i,
+// i+1) * source, both in units of 1 / (source * target) of the side: the weights are integers and
+// sum to `source` for every target texel.
 struct Taps {
   int first = 0, count = 0;
   std::array<int, 3> weight{};
@@ -105,7 +105,7 @@ class TransferTables {
                                     boundary_.begin());
   }
 
-  // The byte whose linear light is nearest.
+  // The byte with the nearest linear light.
   std::uint8_t byte_of(std::int64_t light) const {
     std::uint8_t value = first_[static_cast<std::size_t>(light >> kStepBits)];
     while (boundary_[value] <= light) ++value;
@@ -113,10 +113,11 @@ class TransferTables {
   }
 
  private:
-  // No two bytes begin within one step, so that a search from its first byte ends after one.
+  // At most one byte boundary per step, so one comparison from the step's first byte suffices.
   static constexpr int kStepBits = 12;
   std::array<std::int64_t, 256> boundary_{};  // least linear light that rounds to i + 1
-  std::array<std::uint8_t, (kLinearOne >> kStepBits) + 1> first_{};  // byte at the step's begin
+  std::array<std::uint8_t, (kLinearOne >> kStepBits) + 1>
+      first_{};  // byte at the start of the step
 };
 
 Image half_size(const Image& source, MipSpace space) {
@@ -125,14 +126,14 @@ Image half_size(const Image& source, MipSpace space) {
   const std::vector<Taps> across = box_taps(source.width, width);
   const std::vector<Taps> down = box_taps(source.height, height);
   const std::int64_t total = std::int64_t{source.width} * source.height;
-  // Most textures have sides of powers of two; a division a channel is what such levels cost.
+  // Most textures have power-of-two sides; others cost one division per channel.
   const auto bits = static_cast<std::uint64_t>(2 * total);
   const int shift = std::has_single_bit(bits) ? std::countr_zero(bits) : 0;
   auto rounded_mean = [total, shift](std::int64_t sum) {
     return shift != 0 ? (2 * sum + total) >> shift : (2 * sum + total) / (2 * total);
   };
 
-  // Where both sides are even, all four weights are alike and the mean needs none.
+  // If both sides are even, the four weights are equal and can be omitted.
   if (space == MipSpace::kStored && source.width % 2 == 0 && source.height % 2 == 0)
     return fill(width, height, [&](int x, int y) {
       const Rgba8* const upper = &source.at(2 * x, 2 * y);
@@ -195,7 +196,7 @@ Image road(int width, int height, std::uint32_t seed) {
       return {to_byte(225 + grain / 3), to_byte(225 + grain / 3), to_byte(218 + grain / 3), 255};
     if (dash)
       return {to_byte(232 + grain / 3), to_byte(190 + grain / 3), to_byte(60 + grain / 3), 255};
-    // Two darker tracks where the wheels run.
+    // Two darker wheel tracks.
     const bool wheel = (across >= 190 && across < 330) || (across >= 670 && across < 810);
     const int level = (wheel ? 62 : 76) + grain;
     return {to_byte(level), to_byte(level), to_byte(level + 4), 255};
@@ -218,7 +219,7 @@ Image brick(int width, int height, std::uint32_t seed) {
 }
 
 Image stones(int width, int height, std::uint32_t seed) {
-  constexpr int kCell = 32;  // a stone each, its middle anywhere in the cell
+  constexpr int kCell = 32;  // one stone per cell, centred anywhere in the cell
   const int columns = std::max(1, width / kCell), rows = std::max(1, height / kCell);
   return fill(width, height, [&](int x, int y) -> Rgba8 {
     int nearest = std::numeric_limits<int>::max(), second = nearest, tone = 0;
@@ -237,7 +238,8 @@ Image stones(int width, int height, std::uint32_t seed) {
         }
       }
     }
-    // The difference of squared distances is 2 x the distance to the border x that of the middles.
+    // The difference of squared distances is twice the distance to the border times that between
+    // the centres.
     constexpr int kGap = 360;
     const int gap = -60 * std::max(0, kGap - (second - nearest)) / kGap;
     int shade = hash_range(x, y, seed + 4, -3, 3);
@@ -253,7 +255,7 @@ Image zone_plate(int width, int height) {
   const std::int64_t size = std::max(width, height);
   return fill(width, height, [&](int x, int y) -> Rgba8 {
     const std::int64_t dx = 2 * x - (width - 1), dy = 2 * y - (height - 1);
-    // pi r^2 / size with r^2 = (dx^2 + dy^2) / 4, reduced to one turn in whole numbers.
+    // pi r^2 / size with r^2 = (dx^2 + dy^2) / 4, reduced to one turn in integers.
     const std::int64_t phase = (dx * dx + dy * dy) % (8 * size);
     const double wave =
         sin_cos(kPi * static_cast<double>(phase) / static_cast<double>(4 * size)).cos;
@@ -300,7 +302,7 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
 
 std::vector<Image> mip_chain(const Image& base, MipSpace space) {
   std::vector<Image> levels;
-  levels.push_back(base);  // and no list of one, which would be copied again
+  levels.push_back(base);  // not an initialiser list, which would copy the image again
   while (levels.back().width > 1 || levels.back().height > 1)
     levels.push_back(half_size(levels.back(), space));
   return levels;

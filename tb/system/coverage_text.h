@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coverage that comes from another process: "bin hits" a line.
+// Coverage reported by another process, one "bin hits" per line.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ inline std::string text_of(const Coverage& coverage) {
   return text.str();
 }
 
-// Throws CheckFailed for a bin that was not declared.
+// Throws CheckFailed for an undeclared bin.
 inline void add_text(Coverage& coverage, const std::string& text) {
   std::istringstream lines(text);
   std::string bin;

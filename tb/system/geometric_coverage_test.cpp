@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the geometric engine over frames that run through the hardware model:
-// golden's bins (golden/geometric/edge_coverage.h), and those that the hardware alone can tell:
-// look-ups, blocks, refusals, errors of memory, stalls. Every bin must be hit, with every frame
+// golden's bins (golden/geometric/edge_coverage.h), and bins that only the hardware can hit:
+// lookups, blocks, rejected starts, memory errors, stalls. Every bin must be hit, with every frame
 // identical to golden.
 #include "tb/engines/geometric/geometric_coverage.h"
 
@@ -41,8 +41,8 @@ std::string run(const std::vector<Frame>& frames, const GeometricRunOptions& opt
   });
 }
 
-// Vertical lines through the sixteenth column, which have their neighbours in another line of
-// memory: none, some or all of the four pixels of a group; and lines that fill a block.
+// Vertical lines through the sixteenth column, whose neighbours are in another memory line, with
+// none, some or all of the four pixels of a group; and lines that fill a block.
 Frame columns() {
   Frame frame = random_frame(70, 50, 3, 1);
   ScreenEdges& screen = frame.screen;
@@ -58,18 +58,18 @@ Frame columns() {
   for (int across = 0; across <= 4; ++across)  // of the rows of block 3
     for (int rows = across; rows <= 4; ++rows) {
       const int y = 256 * 12, middle = 16 * 256 + 128, slant = 20;
-      // The line is left of the pixels' centres in the first `across` rows.
+      // The line is to the left of the pixels' centres in the first `across` rows.
       line(middle - slant * across, y, middle + slant * (rows - across), y + 256 * rows);
     }
-  // A block at the start of a line of memory that is blended to the left, above and below.
+  // A block at the start of a memory line, blended with its left, upper and lower neighbours.
   line(16 * 256 + 64, 2048, 16 * 256 + 64, 3072);
   line(17 * 256, 8 * 256 + 64, 20 * 256, 8 * 256 + 64);
   line(17 * 256, 11 * 256 + 192, 20 * 256, 11 * 256 + 192);
   return frame;
 }
 
-// Lines along and across the sides of tiles, of which every other one is farther: hidden by their
-// bounds, and just not.
+// Lines along and across tile borders. Every other tile is farther, so that some lines are hidden
+// by their bounds and others just miss being hidden.
 Frame tiles() {
   Frame frame = random_frame(70, 50, 4, 1);
   ScreenEdges& screen = frame.screen;
@@ -94,8 +94,8 @@ Frame tiles() {
   return frame;
 }
 
-// Short lines far from each other, each of which asks for another line of coarse depth; depth
-// itself has been read when they come again.
+// Short lines far apart, each of which needs another line of coarse depth; depth itself has been
+// read when they recur.
 Frame leaps() {
   Frame frame = random_frame(1024, 40, 5, 1);
   ScreenEdges& screen = frame.screen;
@@ -137,20 +137,20 @@ void run_frames(Coverage& coverage) {
         p.select = select;
         p.crease = crease;
         p.layout = static_cast<Layout>(seed % 2);
-        // Each rule off and on, in several company.
+        // Each option off and on, in several combinations.
         p.combine = static_cast<spec::geometric::Combine>(seed % 3);
         p.coverage = static_cast<spec::geometric::CoverageRule>(seed >> 1 & 1);
         p.cull = static_cast<spec::geometric::Cull>(seed >> 2 & 1);
         p.crease_depth = seed % 4 == 3 ? 0 : 4;
         p.depth_lines = p.weight_blocks = p.vertex_lines = CacheLines::k16;
         p.frame_copy = seed % 5 == 1;
-        // Little of everything, so that every unit waits now and then.
+        // Minimal sizes, so that every unit stalls sometimes.
         p.fills = spec::geometric::kMinFills;
         p.resolve_lines = 16;
         p.line_fifo = 2;
         p.edge_lines = 4;
         p.pipelined = number % 4 == 0;
-        // What leaves out lines of memory, in several company, too.
+        // Options that skip memory lines, in several combinations.
         p.records = static_cast<spec::geometric::RecordsLayout>(seed >> 1 & 1);
         p.colour_lines = seed % 3 == 0 ? 0 : seed % 3 == 1 ? 2 : 32;
         p.write_buffer = seed % 4 == 0 ? 0 : seed % 4 == 1 ? 2 : 128;
@@ -173,12 +173,12 @@ void run_errors(Coverage& coverage) {
                GeometricRunOptions options;
                options.geometric.weight_blocks = CacheLines::k16;
                options.geometric.frame_copy = static_cast<Region>(region) == Region::kCopy;
-               // Flags that read as zeros shift the numbers of pairs.
+               // Flags read as zeros shift the numbering of pairs.
                if (static_cast<Region>(region) == Region::kPairs ||
                    static_cast<Region>(region) == Region::kEdges)
                  options.geometric.records = spec::geometric::RecordsLayout::kSplit;
                if (static_cast<Region>(region) == Region::kEdges)
-                 options.geometric.select = Select::kAll;  // they are kept all the same
+                 options.geometric.select = Select::kAll;  // kept in spite of the error
                if (static_cast<Region>(region) == Region::kCoarse)
                  options.geometric.coarse_lines = spec::geometric::CoarseLines::k4;
                const std::vector<Frame> frames = {random_frame(90, 50, 20)};
@@ -194,7 +194,7 @@ void run_errors(Coverage& coverage) {
              }));
 }
 
-// A start with one value that the engine does not take.
+// Starts with one invalid value each.
 void run_rejections(Coverage& coverage) {
   struct Row {
     std::uint32_t offset, value;
@@ -232,8 +232,8 @@ TEST(GeometricCoverage, EveryBinIsHit) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-// A frame alone, in tiles: what it cannot show is listed by name.
-TEST(GeometricCoverage, HolesAreListed) {
+// A single tiled frame: the bins it cannot hit are listed by name.
+TEST(GeometricCoverage, MissedBinsAreListed) {
   Coverage coverage = declared();
   add_text(coverage, run({columns()}, {}));
   const std::vector<std::string> holes = coverage.holes();

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 BENCH = "geometric_rtl_bench"
-BEGIN = 540  # cycles, of a word of touched bits each
+BEGIN = 540  # cycles that read one word of touched bits each
 PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "docs/reference/geometric/hardware.md"
 
 

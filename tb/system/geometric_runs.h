@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Short forms for whole runs of the geometric engine against its golden model, and the frames that
-// they are given.
+// Helpers that simulate the geometric engine against its golden model, and test frames.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +23,8 @@ using spec::geometric::Preset;
 
 inline constexpr Preset kPresets[] = {Preset::kGpaa, Preset::kGpaaOptimised, Preset::kDeburr};
 
-// What is seen of a mesh that was crumpled: edges of all lengths and directions, often along one
-// another, whose ends lie on pixels' centres and beyond every border of the frame.
+// The visible edges of a crumpled mesh: edges of all lengths and directions, many nearly collinear,
+// with ends on pixel centres and beyond every border of the frame.
 inline Frame random_frame(int width, int height, std::uint64_t seed, int edges = 400) {
   Random random(seed, "geometric frame");
   Frame frame;
@@ -37,7 +36,8 @@ inline Frame random_frame(int width, int height, std::uint64_t seed, int edges =
   }
   constexpr std::uint32_t kDepths[] = {0, 4'000'000, 4'001'000, 8'000'000};
   for (std::size_t i = 0; i < frame.image.pixels.size(); ++i)
-    frame.depths.push_back(kDepths[random.below(4)] | random.word() << 24);  // that counts nowhere
+    frame.depths.push_back(kDepths[random.below(4)] | random.word()
+                                                          << 24);  // the top byte must be ignored
   ScreenEdges& screen = frame.screen;
   screen.faces = 1 + random.below(1500);
   screen.facing.resize((screen.faces + 7) / 8);
@@ -58,7 +58,7 @@ inline Frame random_frame(int width, int height, std::uint64_t seed, int edges =
     const auto v = static_cast<std::uint32_t>(screen.vertices.size());
     screen.vertices.push_back(p);
     screen.vertices.push_back(q);
-    // Mostly its own vertices, now and then those of others, or some that are not there.
+    // Mostly the edge's own vertices, sometimes those of others or missing ones.
     const auto vertex = [&](std::uint32_t own) {
       return random.chance(5) ? own + 1'000'000 : random.chance(100) ? random.below(own + 1) : own;
     };
@@ -75,14 +75,14 @@ inline Frame scene_frame(const std::string& scene, int width, int height) {
 
 inline Parameters preset(Preset which) { return golden::geometric::preset_parameters(which); }
 
-// What a run leaves behind that is worth comparing with another run.
+// Results of a run for comparison with another run.
 struct GeometricOutcome {
   std::uint64_t cycles = 0, edge_cycles = 0, resolve_cycles = 0, hash = 0, activations = 0;
   std::uint64_t lines = 0, candidates = 0, blended = 0, spilled = 0;
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
 };
 
-// Of the simulation and of the engine in it.
+// Options of the simulation and the engine.
 struct GeometricRunOptions : SimulationOptions, GeometricSetup {
   GeometricRunOptions() {
     clock_mhz = 250;
@@ -110,7 +110,7 @@ inline GeometricOutcome outcome_of(Simulation& simulation, GeometricEnvironment&
           result.traffic_mismatches};
 }
 
-// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws as Simulation::run() does, and Mismatch.
 inline GeometricOutcome simulate(const std::vector<Frame>& frames,
                                  const GeometricRunOptions& options) {
   Simulation simulation(options);

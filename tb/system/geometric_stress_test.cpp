@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What must not change a pixel, a candidate or a line of memory of a rendered frame: stalls on
-// every link, memory that answers late and in any order, the order in which units are evaluated,
-// the fast path, noise in what nobody wrote; and a reset in it. (The state after a reset in any
-// clock: by the kit, tb/unit/rtl/geometric/kit.h.)
+// Conditions that must not change any pixel, candidate or memory line of a rendered frame: stalls
+// on every link, late and out-of-order memory responses, the order in which units are evaluated,
+// the fast path, noise in unwritten memory, and a reset in mid-frame. (State after a reset in any
+// cycle: tb/unit/rtl/geometric/kit.h.)
 #include <gtest/gtest.h>
 
 #include <string>
@@ -24,14 +24,14 @@ class GeometricStress : public testing::TestWithParam<Preset> {
     return options;
   }
   static GeometricOutcome run(const GeometricRunOptions& options) {
-    // Drawn before the first run, so that no process draws them again.
+    // Drawn before the first run, so that child processes do not draw them again.
     static const std::vector<Frame> kFrames = {scene_frame("object", 120, 90),
                                                random_frame(77, 50, 4)};
     return forked<GeometricOutcome>([&] { return simulate(kFrames, options); });
   }
 };
 
-TEST_P(GeometricStress, NothingOutsideChangesThePicture) {
+TEST_P(GeometricStress, ConditionsDoNotChangeThePicture) {
   const GeometricOutcome quiet = run(calm());
   EXPECT_GT(quiet.spilled, 100u);
   const auto expect_same = [&](const char* what, auto&& change) {
@@ -81,7 +81,7 @@ TEST_P(GeometricStress, NothingOutsideChangesThePicture) {
   });
 }
 
-TEST_P(GeometricStress, SameSeedGivesTheSameClocks) {
+TEST_P(GeometricStress, SameSeedGivesTheSameCycles) {
   GeometricRunOptions options = calm();
   options.stall_permille = 150;
   options.memory.latency_max = 80;
@@ -92,7 +92,7 @@ TEST_P(GeometricStress, SameSeedGivesTheSameClocks) {
   EXPECT_NE(run(options).cycles, first.cycles);
 }
 
-TEST_P(GeometricStress, ARunThatIsResetBeginsAgain) {
+TEST_P(GeometricStress, ResetRestartsTheRun) {
   const GeometricOutcome quiet = run(calm());
   for (const rtl::Cycle at : {3u, 40u, 150u, 900u, 4001u}) {
     GeometricRunOptions options = calm();
@@ -106,8 +106,8 @@ TEST_P(GeometricStress, ARunThatIsResetBeginsAgain) {
   }
 }
 
-// A narrow bus still carries writes of before the reset when their latency is long over.
-TEST_P(GeometricStress, NothingThatWasWrittenBeforeAResetSpoilsTheFrame) {
+// A narrow bus still carries writes issued before the reset after their latency has passed.
+TEST_P(GeometricStress, WritesBeforeAResetDoNotCorruptTheFrame) {
   GeometricRunOptions options = calm();
   options.memory.bytes_per_cycle = 4;
   options.memory.outstanding = 96;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whole frames through the hardware model of the geometric engine: every line, candidate, block,
-// pixel, counter and memory line equal to the golden model, for every preset and build; and what
-// must not change the picture.
+// pixel, counter and memory line equal to the golden model, for every preset and build; and
+// conditions that must not change the picture.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using Frames = std::vector<Frame>;
 
-// Everything came and was compared: each pixel, and more than that.
+// Everything was delivered and compared, including each pixel.
 GeometricOutcome expect_identical(const Frames& frames, const GeometricRunOptions& options) {
   const GeometricOutcome outcome = simulate(frames, options);
   EXPECT_EQ(outcome.mismatches, 0u);
@@ -49,7 +49,7 @@ std::string name_of(const testing::TestParamInfo<Tuple>& info) {
 using Variant = std::tuple<Preset, Layout, Lanes, Lanes>;
 class EveryVariant : public testing::TestWithParam<Variant> {};
 
-TEST_P(EveryVariant, FramesInARowAreIdenticalToGolden) {
+TEST_P(EveryVariant, ConsecutiveFramesAreIdenticalToGolden) {
   const auto [which, layout, walkers, edge_lanes] = GetParam();
   GeometricRunOptions options;
   options.geometric = preset(which);
@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Geometric, EveryVariant,
 
 class EveryMix : public testing::TestWithParam<int> {};
 
-// Each rule and each size drawn for itself.
-TEST_P(EveryMix, IsIdenticalToGolden) {
+// Each option and each size is drawn at random.
+TEST_P(EveryMix, FramesMatchGolden) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   Random random(seed, "mix");
   const auto below = [&](int n) {
@@ -128,7 +128,7 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
   const auto frame = [&](int most_width, int most_lines, auto frame_seed) {
     const int lines = 1 + below(most_lines), height = 1 + below(60);
     Frame drawn = random_frame(1 + below(most_width), height, frame_seed, lines);
-    // Every other tile is near, so that a bound of its depth hides lines.
+    // Every other tile is near, so that its depth bound hides lines.
     for (std::size_t i = 0; i < drawn.depths.size(); ++i) {
       const int x = static_cast<int>(i) % drawn.image.width,
                 y = static_cast<int>(i) / drawn.image.width;
@@ -143,12 +143,12 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
 
 INSTANTIATE_TEST_SUITE_P(Geometric, EveryMix, testing::Range(0, 80));
 
-// ---- scenes, and meshes that others made --------------------------------------------------------
+// ---- scenes, and external meshes ---------------------------------------------------------------
 
 using Named = std::tuple<Preset, const char*>;
 class RenderedFrame : public testing::TestWithParam<Named> {};
 
-TEST_P(RenderedFrame, IsIdenticalToGolden) {
+TEST_P(RenderedFrame, FramesMatchGolden) {
   const auto [which, scene] = GetParam();
   GeometricRunOptions options;
   options.geometric = preset(which);
@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Geometric, RenderedFrame,
                                                           "sphere", "terrain", "object")),
                          name_of<Named>);
 
-// Each of the rules that a preset combines by itself, and all of them, in any order of edges.
+// Each option that a preset combines, alone and all together, with any order of edges.
 struct Rule {
   const char* name;
   void (*set)(Parameters&);
@@ -182,7 +182,7 @@ constexpr Rule kConfiguration[] = {
      }}};
 class RuledFrame : public testing::TestWithParam<std::tuple<std::size_t, const char*>> {};
 
-TEST_P(RuledFrame, IsIdenticalToGoldenInAnyOrderOfEdges) {
+TEST_P(RuledFrame, FramesMatchGoldenInAnyOrderOfEdges) {
   const auto& [rule, scene] = GetParam();
   std::vector<std::uint64_t> hashes;
   for (const std::uint64_t shuffle : {0u, 7u}) {
@@ -219,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(Geometric, RuledFrame,
 
 class DataMesh : public testing::TestWithParam<Named> {};
 
-TEST_P(DataMesh, IsIdenticalToGolden) {
+TEST_P(DataMesh, FramesMatchGolden) {
   const auto [which, name] = GetParam();
   const std::filesystem::path file = data_folder() / "meshes" / name;
   if (!std::filesystem::exists(file))
@@ -245,11 +245,11 @@ INSTANTIATE_TEST_SUITE_P(Geometric, DataMesh,
                                          std::tuple{Preset::kDeburr, "kenney_truck.obj"}),
                          name_of<Named>);
 
-// ---- what must not change the picture -----------------------------------------------------------
+// ---- conditions that must not change the picture -----------------------------------------------
 
 class SamePicture : public testing::TestWithParam<Preset> {};
 
-TEST_P(SamePicture, WhateverTheBuildAndButForLastTheOrderOfEdges) {
+TEST_P(SamePicture, BuildAndOrderOfEdgesDoNotMatter) {
   const Preset which = GetParam();
   const auto run = [&](auto&& change, std::uint64_t shuffle = 0) {
     return forked<GeometricOutcome>([&] {
@@ -289,12 +289,12 @@ TEST_P(SamePicture, WhateverTheBuildAndButForLastTheOrderOfEdges) {
 INSTANTIATE_TEST_SUITE_P(Geometric, SamePicture, testing::ValuesIn(kPresets),
                          [](const auto& row) { return fmt::format("{}", row.index); });
 
-// ---- memory that answers with errors ------------------------------------------------------------
+// ---- memory errors -----------------------------------------------------------------------------
 
 using Broken = std::tuple<Preset, std::size_t>;
 class BrokenMemory : public testing::TestWithParam<Broken> {};
 
-// The golden model predicts what is read as zeros, and counts the answers.
+// The golden model predicts the data read as zeros, and counts the error responses.
 TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   const auto [which, region] = GetParam();
   GeometricRunOptions options;

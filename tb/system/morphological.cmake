@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Of the presets two have full frames of 1080 lines every time, all of them those of 720.
+# Two presets always run full frames of 1080 lines; all presets run those of 720.
 set(LONG_system "Morphological/RenderedFrame[.].*/(mlaa_1|mlaa_slope_3|smaa_dynamic_7|deburr_line_9)")
 foreach(suite system stress coverage records weights)
   if(suite STREQUAL stress)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Functional coverage of the morphological engine over frames that run through the hardware model:
-// shapes x orientation x length, predictions by side, outcome and length, what ended them, ends of
-// long runs, frame borders, decisions of the blender; and of SMAA's blocks: shapes x distances,
-// limits, table entries, diagonals, thresholds; and of what marks do. Every bin must be hit, with
-// every frame identical to golden, runs and lines included.
+// shapes x orientation x length, predictions by side, outcome, length and end, ends of long runs,
+// frame borders, decisions of the blender; SMAA's units: shapes x distances, limits, table entries,
+// diagonals, thresholds; and bypass marks. Every bin must be hit, with every frame identical to
+// golden, including runs and lines.
 #include "tb/engines/morphological/morphological_coverage.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ MorphologicalInput transposed(const MorphologicalInput& f) {
   return draw(f.image.height, f.image.width, [&](int x, int y) { return f.image.at(y, x); });
 }
 
-// Greys that are sometimes too near for an edge, so that crossings go missing.
+// Greys that are sometimes too similar for an edge, so that crossings are missing.
 MorphologicalInput rectangles(Random& random) {
   const auto below = [&](int n) {
     return static_cast<int>(random.below(static_cast<std::uint32_t>(n)));
@@ -82,7 +82,7 @@ spec::morphological::Parameters narrow() {
   return p;
 }
 
-// The bins of some groups; all of these together have every bin (EveryBinIsInOneOfTheParts).
+// The bins of some groups; together the groups cover every bin (EveryBinBelongsToOneGroup).
 using Groups = std::span<const std::string_view>;
 constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction",
                                       "prediction-end", "border",   "decision"};
@@ -106,7 +106,7 @@ Coverage part_of(const Coverage& all, Groups groups) {
 
 Coverage declared() { return morphological_coverage(MorphologicalGolden({})); }
 
-// Does golden meet a bin in this frame that nobody met before?
+// Whether golden hits a new bin in this frame.
 bool tells(MorphologicalGolden& golden, Groups groups, const MorphologicalInput& frame,
            std::set<std::string>& met) {
   golden.clear_coverage();
@@ -118,7 +118,7 @@ bool tells(MorphologicalGolden& golden, Groups groups, const MorphologicalInput&
   return news;
 }
 
-// Frames are added, golden alone, until no bin is empty; those that hit something new are kept.
+// Adds frames, with golden only, until no bin is empty; keeps those that hit a new bin.
 std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parameters& parameters) {
   Random random(7);
   MorphologicalGolden golden(parameters);
@@ -135,7 +135,7 @@ std::vector<MorphologicalInput> telling_frames(const spec::morphological::Parame
   return kept;
 }
 
-// What frames met, each of them identical to golden in the hardware model.
+// Coverage of the frames in the hardware model, each identical to golden.
 void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
          const std::vector<MorphologicalInput>& frames) {
   add_text(coverage, forked_text([&] {
@@ -151,7 +151,7 @@ void run(Coverage& coverage, const spec::morphological::Parameters& parameters,
            }));
 }
 
-TEST(MorphologicalCoverage, EveryBinIsInOneOfTheParts) {
+TEST(MorphologicalCoverage, EveryBinBelongsToOneGroup) {
   std::size_t bins = 0;
   for (const Groups groups :
        {Groups(kRuns), Groups(kSmaa), Groups(kBypass), Groups(kWeights), Groups(kText)})
@@ -168,16 +168,16 @@ TEST(MorphologicalCoverage, EveryBinIsHit) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-TEST(MorphologicalCoverage, AHoleIsReported) {
+TEST(MorphologicalCoverage, MissedBinIsReported) {
   Coverage coverage = declared();
   run(coverage, wide(), {flat(8, 8, 3)});
   EXPECT_EQ(coverage.size() - coverage.holes().size(), 1u);  // decision/none
   EXPECT_THROW(coverage.hit("morphological/shape/diagonal"), spec::CheckFailed);
 }
 
-// ---- SMAA's blocks ------------------------------------------------------------------------------
+// ---- SMAA's units ------------------------------------------------------------------------------
 
-// A stair of one pixel over the frame, either way.
+// A stair of one-pixel steps across the frame, in either direction.
 MorphologicalInput stair(int size, bool rises) {
   return draw(size, size,
               [&](int x, int y) { return grey((rises ? x + y >= size : y > x) ? 230 : 20); });
@@ -211,7 +211,7 @@ std::vector<SmaaCase> smaa_cases() {
     p.dynamic_luma = luma;
     add_case("dynamic", p);
   }
-  // Far enough for the last entries of the table.
+  // Long enough for the last entries of the table.
   spec::morphological::Parameters far = preset(Preset::kSmaa);
   far.search_steps = 112;
   far.search_columns = 1000;
@@ -221,7 +221,7 @@ std::vector<SmaaCase> smaa_cases() {
 
 std::vector<MorphologicalInput> smaa_frames(Random& random, int round) {
   if (round == 0) {
-    // First runs of which the middle is far from both ends.
+    // Starts with runs whose middle is far from both ends.
     return {{stimuli::long_step(420), {}},
             {stimuli::long_bar(420), {}},
             stair(60, true),
@@ -237,7 +237,7 @@ std::vector<MorphologicalInput> smaa_frames(Random& random, int round) {
   return frames;
 }
 
-// Of each case the frames that tell what none before has told, golden alone.
+// For each case, the frames that hit new bins, with golden only.
 std::vector<std::vector<MorphologicalInput>> telling_smaa_frames(
     const std::vector<SmaaCase>& cases) {
   const std::size_t bins = part_of(declared(), kSmaa).size();
@@ -262,16 +262,16 @@ TEST(SmaaCoverage, EveryBinIsHit) {
     run(all, cases[i].parameters, frames[i]);
   }
   const Coverage coverage = part_of(all, kSmaa);
-  // Shapes x distances of both axes, limits, borders, corners, table entries, diagonals both ways,
-  // thresholds.
+  // Shapes x distances of both axes, limits, borders, corners, table entries, both directions of
+  // diagonals, thresholds.
   EXPECT_EQ(coverage.size(),
             2u * 16 * 5 + 2 * 2 * 2 + 2 * (4 + 4) + 2 * 2 + 2 * (16 + 4 + 3 + 1) + 1 + 4 * 2);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-// ---- marks --------------------------------------------------------------------------------------
+// ---- bypass marks ------------------------------------------------------------------------------
 
-// Marks at random, of pixels at the borders too. Lines have the smallest weights.
+// Random marks, also of border pixels. Lines have the smallest weights.
 std::vector<MorphologicalInput> marked_frames() {
   Random random(13);
   std::vector<MorphologicalInput> frames;
@@ -299,7 +299,7 @@ TEST(BypassCoverage, EveryBinIsHit) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-TEST(BypassCoverage, WithoutTheRuleNothingIsHit) {
+TEST(BypassCoverage, DisabledBypassHitsNothing) {
   Coverage all = declared();
   run(all, narrow(), marked_frames());
   const Coverage coverage = part_of(all, kBypass);
@@ -308,7 +308,7 @@ TEST(BypassCoverage, WithoutTheRuleNothingIsHit) {
 
 // ---- the text guard -----------------------------------------------------------------------------
 
-// Marked at random as well, since a pixel may be left for both reasons.
+// With random marks as well, since a pixel can be bypassed for both reasons.
 TEST(TextCoverage, EveryBinIsHit) {
   Random random(19);
   std::vector<MorphologicalInput> frames = {
@@ -337,7 +337,7 @@ TEST(TextCoverage, EveryBinIsHit) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-TEST(TextCoverage, WithoutTheGuardNothingIsHit) {
+TEST(TextCoverage, DisabledTextGuardHitsNothing) {
   Coverage all = declared();
   run(all, preset(Preset::kDeburr), {{stimuli::text_image(), {}}});
   const Coverage coverage = part_of(all, kText);
@@ -347,7 +347,7 @@ TEST(TextCoverage, WithoutTheGuardNothingIsHit) {
 // ---- learned weights
 // -----------------------------------------------------------------------------
 
-TEST(WeightsCoverage, EveryClassIsMet) {
+TEST(WeightsCoverage, EveryClassIsHit) {
   Coverage all = declared();
   Random random(17);
   std::vector<MorphologicalInput> frames;
@@ -364,9 +364,8 @@ TEST(WeightsCoverage, EveryClassIsMet) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-// What no frame meets is listed by name: with a flat frame everything, with one stair all but its
-// own few bins.
-TEST(SmaaCoverage, HolesAreListed) {
+// Missed bins are listed by name: all bins for a flat frame, all but a few for one stair.
+TEST(SmaaCoverage, MissedBinsAreListed) {
   Coverage flat_alone = declared();
   run(flat_alone, smaa_cases()[0].parameters, {flat(9, 9, 3)});
   flat_alone = part_of(flat_alone, kSmaa);
@@ -389,7 +388,7 @@ TEST(SmaaCoverage, HolesAreListed) {
   EXPECT_EQ(std::count(holes.begin(), holes.end(), "morphological/diagonal/falling/0-0"), 1);
 }
 
-TEST(SmaaCoverage, NoBinIsHitThatWasNotDeclared) {
+TEST(SmaaCoverage, HitBinsAreDeclared) {
   Coverage coverage = declared();
   EXPECT_EQ(coverage.holes().size(), coverage.size());
   EXPECT_THROW(add_text(coverage, "morphological/diagonal/level/0-0 1"), spec::CheckFailed);

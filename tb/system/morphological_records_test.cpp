@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scoreboards of runs and lines inside the engine can fail: each by itself where only it can
-// see the fault, and where it compares nothing.
+// The scoreboards of runs and lines inside the engine can fail: each one alone for faults that only
+// it can detect, and if nothing was compared.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 struct Checked {
-  std::set<std::string> checks;  // with a mismatch
+  std::set<std::string> checks;  // checks with a mismatch
   std::uint64_t mismatches;
-  std::string complaint;  // of the first scoreboard that failed
+  std::string complaint;  // message of the first scoreboard that failed
 };
 
 Checked checked(const std::string& fault) {
@@ -47,35 +47,35 @@ Checked checked(const std::string& fault) {
   return j;
 }
 
-TEST(Records, WithoutAFaultPass) {
+TEST(Records, FaultFreeRunPasses) {
   const Checked j = checked("");
   EXPECT_EQ(j.complaint, "");
   EXPECT_EQ(j.mismatches, 0u);
 }
 
-// Steps that were kept move no weight: pixels stay perfect.
-TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALine) {
+// A wrong stored step changes no weight: pixels are unaffected.
+TEST(Records, LineScoreboardAloneDetectsWrongStep) {
   const Checked j = checked("flip:morphological.lines_h0:5:line.left_steps.0");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
   EXPECT_THAT(j.complaint, HasSubstr("lines: 1 mismatches"));
 }
-TEST(Records, OnlyTheLineScoreboardFindsTheStepsOfALineUpright) {
+TEST(Records, LineScoreboardAloneDetectsWrongVerticalStep) {
   const Checked j = checked("flip:morphological.lines_v0:5:line.right_steps.1");
   EXPECT_THAT(j.checks, ElementsAre("lines"));
   EXPECT_EQ(j.mismatches, 1u);
 }
 
-TEST(Records, TheRunScoreboardFindsAWrongEdge) {
+TEST(Records, RunScoreboardDetectsWrongEdge) {
   EXPECT_THAT(checked("wrong-edge").checks, Contains("runs"));
 }
 
-TEST(Records, RunsThatAreNotComparedAreNoPass) {
+TEST(Records, UncomparedRunsFail) {
   const Checked j = checked("blind-runs");
   EXPECT_EQ(j.mismatches, 0u);
   EXPECT_THAT(j.complaint, HasSubstr("runs: 0 mismatches in 0 comparisons, only 0 comparisons"));
 }
-TEST(Records, LinesThatAreNotComparedAreNoPass) {
+TEST(Records, UncomparedLinesFail) {
   const Checked j = checked("blind-lines");
   EXPECT_EQ(j.mismatches, 0u);
   EXPECT_THAT(j.complaint, HasSubstr("lines: 0 mismatches in 0 comparisons, only 0 comparisons"));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Short forms for whole runs of the morphological engine against its golden model, and the frames
-// that they are given.
+// Helpers that simulate the morphological engine against its golden model, and test frames.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +48,8 @@ inline MorphologicalInput flat(int width, int height, int code) {
   return draw(width, height, [&](int, int) { return grey(code); });
 }
 
-// Tiles with a straight edge each: slopes 1 / (n + u), n = 1..20, and their reciprocals, both
-// signs, either side bright: every octant. u is never 0, so that steps of two lengths alternate.
+// Tiles with one straight edge each: slopes 1 / (n + u), n = 1..20, and their reciprocals, both
+// signs, either side bright, so every octant. u is never 0, so that steps of two lengths alternate.
 inline MorphologicalInput fans(int tile, std::uint64_t seed = 1) {
   constexpr int kColumns = 16, kRows = 10;  // 20 slopes x 8 octants
   struct Edge {
@@ -76,7 +75,7 @@ inline MorphologicalInput fans(int tile, std::uint64_t seed = 1) {
   });
 }
 
-// Rectangles, colours and depth at random: all shapes, crossings that go missing, edges of depth.
+// Random rectangles, colours and depths: all shapes, missing crossings, depth edges.
 inline MorphologicalInput blocks(int width, int height, std::uint64_t seed = 1) {
   Random random(seed);
   MorphologicalInput frame{
@@ -104,14 +103,14 @@ inline MorphologicalInput blocks(int width, int height, std::uint64_t seed = 1) 
   return frame;
 }
 
-// A fifth of the pixels of every row on edges, but for the borders: a column of one pixel in ten,
-// which moves by one pixel every three rows.
+// A fifth of each row's pixels lie on edges, except at the borders: every tenth column is a
+// one-pixel line that moves by one pixel every three rows.
 inline MorphologicalInput a_fifth(int width, int height) {
   return draw(width, height, [](int x, int y) { return grey((x + y / 3) % 10 == 0 ? 200 : 40); });
 }
 
-// A fifth as well, side by side: diagonals of one pixel, a run of each axis in every other pixel,
-// from column `first` on over two fifths of the row.
+// Also a fifth, but clustered: one-pixel diagonals, with a run of each axis in every other pixel,
+// in two fifths of the row from column `first`.
 inline MorphologicalInput clustered(int width, int height, int first, int columns) {
   return draw(width, height, [&](int x, int y) {
     return grey(x >= first && x < first + columns && (x + y) / 2 % 2 != 0 ? 255 : 0);
@@ -138,7 +137,7 @@ inline Parameters preset(Preset which,
   return p;
 }
 
-// What a run leaves behind that is worth comparing with another run.
+// Results of a run for comparison with another run.
 struct MorphologicalOutcome {
   std::uint64_t cycles = 0, frame_cycles = 0, input_cycles = 0, hash = 0, pixels = 0,
                 activations = 0;
@@ -146,12 +145,12 @@ struct MorphologicalOutcome {
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
 };
 
-// Of the simulation and of the engine in it.
+// Options of the simulation and the engine.
 struct MorphologicalRunOptions : SimulationOptions, MorphologicalSetup {
   MorphologicalRunOptions() { clock_mhz = 148.5; }
 };
 
-// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws as Simulation::run() does, and Mismatch.
 inline MorphologicalOutcome simulate(const std::vector<MorphologicalInput>& frames,
                                      const MorphologicalRunOptions& options) {
   Simulation simulation(options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The same data whatever the weather: random stalls on every link, random memory latency, reset in
-// mid-frame, fast path on and off. What must not change is compared between processes. (Checkers,
-// order of evaluation and seeds: by the kit, tb/unit/rtl/morphological/kit.h.)
+// Data must not depend on timing: random stalls on every link, random memory latency, reset in
+// mid-frame, fast path on and off. Invariant results are compared between processes. (Checkers,
+// order of evaluation and seeds: tb/unit/rtl/morphological/kit.h.)
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST_P(MorphologicalStress, FastPathIsInvisible) {
   EXPECT_LT(a.activations, b.activations) << "the fast path was never taken";
 }
 
-TEST_P(MorphologicalStress, RandomStallsCostTimeAndNothingElse) {
+TEST_P(MorphologicalStress, RandomStallsChangeOnlyTiming) {
   const MorphologicalOutcome quiet = run(calm());
   for (const std::uint32_t permille : {50u, 500u}) {
     MorphologicalRunOptions stalled = calm();
@@ -72,9 +72,9 @@ TEST_P(MorphologicalStress, RandomStallsCostTimeAndNothingElse) {
   }
 }
 
-TEST_P(MorphologicalStress, ResetInMidFrameBeginsAgain) {
+TEST_P(MorphologicalStress, ResetInMidFrameRestarts) {
   const MorphologicalOutcome quiet = run(calm());
-  // While rows fill, in the first flush rows, and at a cycle of no meaning; with stalls as well.
+  // While rows fill, in the first flush rows, and in arbitrary cycles; also with stalls.
   for (const rtl::Cycle at : {40u, 3001u, 9000u, 12345u}) {
     MorphologicalRunOptions options = calm();
     options.reset_after = at;
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
           spec::morphological::kStorageNames[static_cast<std::size_t>(std::get<1>(p.param))]);
     });
 
-TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
+TEST(MorphologicalMemory, MemoryTimingChangesNoData) {
   for (const Lanes lanes : {Lanes::kOne, Lanes::kFour}) {
     const MorphologicalOutcome quiet = run(options_of(lanes, Storage::kMemory));
     MorphologicalRunOptions options = options_of(lanes, Storage::kMemory);
@@ -129,7 +129,7 @@ TEST(MorphologicalMemory, RandomLatencyBanksAndNarrowBusChangeNoData) {
   }
 }
 
-// Both kinds of storage and all lanes deliver the same pixels, preset by preset.
+// Both kinds of storage and all lane counts deliver the same pixels, for every preset.
 TEST(MorphologicalMemory, StorageAndLanesChangeNoPixel) {
   for (const Preset which : kBuilt) {
     const MorphologicalOutcome one = run(options_of(Lanes::kOne, Storage::kLineBuffers, which));
@@ -147,15 +147,15 @@ struct Broken {
 void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
 class BrokenMemory : public testing::TestWithParam<Broken> {};
 
-// The golden model predicts the black pixels and counts the lines that were read with an error; the
-// register counts each of them once more, for its write.
+// The golden model predicts the black pixels and counts the lines read with an error; the register
+// also counts each line's write.
 TEST_P(BrokenMemory, ErrorResponsesReadAsZeroAndAreReported) {
   namespace reg = spec::morphological::reg;
   MorphologicalRunOptions options = options_of(GetParam().lanes, Storage::kMemory);
   options.memory.latency_max = 90;
   options.memory.error_address = GetParam().address;
   options.memory.error_bytes = GetParam().bytes;
-  const std::vector<MorphologicalInput> frames = {blocks(150, 40)};  // 10 lines a row
+  const std::vector<MorphologicalInput> frames = {blocks(150, 40)};  // 10 lines per row
   Simulation simulation(options);
   MorphologicalEnvironment environment(simulation, frames, options);
   simulation.elaborate(environment);

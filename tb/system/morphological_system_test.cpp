@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whole frames through the hardware model of the morphological engine: every pixel, tap, run, line,
-// counter and memory line equal to the golden model, for every preset, and the cycles that
-// docs/reference/morphological/hardware.md promises.
+// Whole frames through the hardware model of the morphological engine: every pixel, probe, run,
+// line, counter and memory line equal to the golden model, for every preset, and the cycles
+// documented in docs/reference/morphological/hardware.md.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::uint64_t pixels_of(const Frames& frames) {
   return pixels;
 }
 
-// Everything came and was compared: pixel and tap of every pixel.
+// Everything was delivered and compared: the pixel and the probe of every pixel.
 MorphologicalOutcome expect_identical(const Frames& frames,
                                       const MorphologicalRunOptions& options) {
   const MorphologicalOutcome outcome = simulate(frames, options);
@@ -57,14 +57,14 @@ std::string name_of(const testing::TestParamInfo<Tuple>& info) {
 using Size = std::tuple<Preset, std::pair<int, int>>;
 class RenderedFrame : public testing::TestWithParam<Size> {};
 
-TEST_P(RenderedFrame, IsIdenticalToGolden) {
+TEST_P(RenderedFrame, FramesMatchGolden) {
   const auto [which, size] = GetParam();
   MorphologicalRunOptions options;
   options.morphological = preset(which);
-  options.check_links = false;  // smaller frames have them; here they would double the time
+  options.check_links = false;  // covered by smaller frames; here they would double the run time
   const Frames frames = {rendered("road", size.first, size.second)};
   const MorphologicalOutcome outcome = expect_identical(frames, options);
-  // Not one stall: the frame takes what the formula says, and every pixel the same time.
+  // No stalls: the frame takes the cycles of the formula, and every pixel the same time.
   EXPECT_EQ(outcome.frame_cycles,
             frame_cycles_by_formula(options.morphological, size.first, size.second));
   EXPECT_EQ(outcome.latency_min, latency_by_formula(options.morphological, size.first));
@@ -78,9 +78,9 @@ INSTANTIATE_TEST_SUITE_P(Morphological, RenderedFrame,
                                                           std::pair{1920, 1080})),
                          name_of<Size>);
 
-// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
-// here alone.
-TEST(Morphological, TheHashIsOfEveryChannelAndTapOfEveryPixel) {
+// Hashes are compared with those of the same model on other machines, so only this test detects a
+// channel that the hash omits.
+TEST(Morphological, HashCoversEveryChannelAndProbeOfEveryPixel) {
   const Frames frames = {blocks(40, 30)};
   MorphologicalRunOptions options;
   options.morphological = preset(Preset::kDeburr);
@@ -111,12 +111,12 @@ TEST(Morphological, FullHdAt60FramesFitsIn148MHz) {
   EXPECT_LT(60e-6 * static_cast<double>(frame_cycles_by_formula(four, 3840, 2160)), 148.5);
 }
 
-// ---- frames that others rendered ----------------------------------------------------------------
+// ---- external frames ---------------------------------------------------------------------------
 
 using Named = std::tuple<Preset, const char*>;
 class DataFrame : public testing::TestWithParam<Named> {};
 
-TEST_P(DataFrame, IsIdenticalToGolden) {
+TEST_P(DataFrame, FramesMatchGolden) {
   const auto [which, name] = GetParam();
   const std::filesystem::path file = data_folder() / "frames" / name;
   if (!std::filesystem::exists(file))
@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(
 using Stored = std::tuple<Preset, spec::morphological::Storage>;
 class Widest : public testing::TestWithParam<Stored> {};
 
-TEST_P(Widest, IsIdenticalToGolden) {
+TEST_P(Widest, FramesMatchGolden) {
   const auto [which, storage] = GetParam();
   MorphologicalRunOptions options;
   options.morphological = preset(which, spec::morphological::Lanes::kFour);
@@ -201,19 +201,19 @@ INSTANTIATE_TEST_SUITE_P(
                                      spec::morphological::Storage::kMemory)),
     name_of<Stored>);
 
-TEST(Morphological, TheHighestFrameIsIdenticalToGolden) {
+TEST(Morphological, HighestFrameIsIdenticalToGolden) {
   MorphologicalRunOptions options;
   options.morphological.line_pixels = 64;
   options.descriptors = true;
   expect_identical({noise(2, 8192), blocks(11, 8192, 2)}, options);
 }
 
-// ---- every rule of edges, predictor and light ---------------------------------------------------
+// ---- every option of edges, predictor and light -------------------------------------------------
 
 using Rule = std::tuple<int, int>;
 class EveryRule : public testing::TestWithParam<Rule> {};
 
-TEST_P(EveryRule, IsIdenticalToGolden) {
+TEST_P(EveryRule, FramesMatchGolden) {
   const auto [edges, line] = GetParam();
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
@@ -246,13 +246,13 @@ TEST_P(EveryRule, IsIdenticalToGolden) {
 INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
                          testing::Combine(testing::Range(0, 6), testing::Range(0, 6)));
 
-// ---- SMAA: qualities, and its blocks mixed with those of other presets
-// ---------------------------
+// ---- SMAA: qualities, and its units mixed with those of other presets
+// ----------------------------
 
 using Qualities = std::tuple<Preset, spec::morphological::Quality, spec::morphological::Lanes>;
 class EveryQuality : public testing::TestWithParam<Qualities> {};
 
-TEST_P(EveryQuality, IsIdenticalToGolden) {
+TEST_P(EveryQuality, FramesMatchGolden) {
   const auto [which, how, lanes] = GetParam();
   MorphologicalRunOptions options;
   options.morphological = quality(which, how);
@@ -275,8 +275,8 @@ INSTANTIATE_TEST_SUITE_P(Morphological, EveryQuality,
 
 class EveryMix : public testing::TestWithParam<int> {};
 
-// Each rule drawn for itself.
-TEST_P(EveryMix, IsIdenticalToGolden) {
+// Each option is drawn at random.
+TEST_P(EveryMix, FramesMatchGolden) {
   Random random(static_cast<std::uint64_t>(GetParam()) + 11);
   const auto below = [&](int n) {
     return static_cast<int>(random.below(static_cast<std::uint32_t>(n)));
@@ -325,12 +325,12 @@ TEST_P(EveryMix, IsIdenticalToGolden) {
 
 INSTANTIATE_TEST_SUITE_P(Morphological, EveryMix, testing::Range(0, 60));
 
-// ---- pixels that another engine marked ----------------------------------------------------------
+// ---- pixels marked by another engine -----------------------------------------------------------
 
 using Marks = std::tuple<Preset, spec::morphological::Lanes, spec::morphological::Bypass>;
 class MarkedFrames : public testing::TestWithParam<Marks> {};
 
-// Marks at random, as lines of them, and at the borders.
+// Random marks, in lines, and at the borders.
 MorphologicalInput marked(MorphologicalInput frame, std::uint64_t seed) {
   Random random(seed, "marks");
   const int width = frame.image.width, height = frame.image.height;
@@ -344,7 +344,7 @@ MorphologicalInput marked(MorphologicalInput frame, std::uint64_t seed) {
   return frame;
 }
 
-TEST_P(MarkedFrames, AreIdenticalToGolden) {
+TEST_P(MarkedFrames, FramesMatchGolden) {
   const auto [which, lanes, bypass] = GetParam();
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
@@ -388,10 +388,10 @@ struct Late {
 void PrintTo(const Late& late, std::ostream* out) { *out << late.name; }
 class LateRecords : public testing::TestWithParam<Late> {};
 
-// Records of a slot row are still extended while the next one writes the window: a row of its own
-// is kept for that. N = R - 1, one slow predictor, room for all records, steps of one pixel with a
-// flaw here and there, and more rows than the window has.
-TEST_P(LateRecords, SeeTheRowsThatTheyWereFoundIn) {
+// Run descriptors of a slot row are still extended while the next one writes the window; an
+// additional row is kept for that. Conditions: N = R - 1, one slow predictor, room for all
+// descriptors, one-pixel steps with a few flaws, and more rows than the window has.
+TEST_P(LateRecords, LateDescriptorsUseTheRowsTheyWereFoundIn) {
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
   p = preset(GetParam().preset, GetParam().lanes);
@@ -427,8 +427,8 @@ INSTANTIATE_TEST_SUITE_P(
 using Laned = std::tuple<Preset, spec::morphological::Lanes>;
 class Throughput : public testing::TestWithParam<Laned> {};
 
-// 1.00 x lanes pixels a clock while a fifth of all pixels lie on edges.
-TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
+// 1.00 x lanes pixels per cycle while a fifth of all pixels lie on edges.
+TEST_P(Throughput, SustainedWithAFifthOfPixelsOnEdges) {
   const auto [which, lanes] = GetParam();
   MorphologicalRunOptions options;
   options.morphological = preset(which, lanes);
@@ -445,8 +445,8 @@ TEST_P(Throughput, IsSustainedWithAFifthOfThePixelsOnEdges) {
   EXPECT_EQ(outcome.descriptor_stalls, 0u);
 }
 
-// All pixels on edges: it takes longer, says so, and drops nothing.
-TEST_P(Throughput, PressesBackWithEveryPixelOnEdges) {
+// With all pixels on edges a frame takes longer, reports it, and drops nothing.
+TEST_P(Throughput, StallsWithEveryPixelOnEdges) {
   const auto [which, lanes] = GetParam();
   MorphologicalRunOptions options;
   options.morphological = preset(which, lanes);
@@ -467,10 +467,10 @@ INSTANTIATE_TEST_SUITE_P(Morphological, Throughput,
 
 class Clustered : public testing::TestWithParam<spec::morphological::Lanes> {};
 
-// Diagonals of one pixel side by side, at either border and in the middle, as many as the bound of
-// docs/reference/morphological/hardware.md allows: no queue is too short. With a fifth of every
-// row on them the slots wait, and nothing else changes.
-TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
+// One-pixel diagonals next to each other, at either border and in the middle, up to the number
+// allowed by docs/reference/morphological/hardware.md: no queue is too short. With a fifth of every
+// row on them the slots stall, and nothing else changes.
+TEST_P(Clustered, DiagonalsStallOnlyBeyondTheBound) {
   MorphologicalRunOptions options;
   options.morphological = preset(Preset::kDeburr, GetParam());
   options.check_links = false;
@@ -480,7 +480,7 @@ TEST_P(Clustered, DiagonalsWithinTheBoundAreSustainedAFifthOfARowWaits) {
   };
   const std::uint64_t formula = frame_cycles_by_formula(options.morphological, 1920, 16);
   for (const int first : {0, 601, 1920 * 3 / 5}) {
-    const MorphologicalOutcome within = run(first, 200);  // 100 records an axis and row
+    const MorphologicalOutcome within = run(first, 200);  // 100 descriptors per axis and row
     EXPECT_EQ(within.mismatches, 0u);
     EXPECT_EQ(within.descriptor_stalls, 0u);
     EXPECT_EQ(within.frame_cycles, formula);
@@ -500,18 +500,17 @@ INSTANTIATE_TEST_SUITE_P(
                          spec::morphological::kLanesNames[static_cast<std::size_t>(lanes.param)]);
     });
 
-// ---- what is rejected
-// ----------------------------------------------------------------------------
+// ---- memory sizing ------------------------------------------------------------------------------
 
-// The sizing rule of docs/reference/morphological/hardware.md: so many lines in flight each way
-// keep up with a memory of 100 cycles, one less does not.
+// The sizing rule of docs/reference/morphological/hardware.md: the given number of lines in flight
+// per direction keeps up with a memory of 100 cycles, one fewer does not.
 struct Sizing {
   spec::morphological::Lanes lanes;
   int lines;
 };
 class FrameMemory : public testing::TestWithParam<Sizing> {
  protected:
-  // Cycles above the formula.
+  // Cycles in excess of the formula.
   static std::uint64_t lost(spec::morphological::Lanes lanes, int lines) {
     const Frames frames = {flat(1280, 48, 90)};
     MorphologicalRunOptions options;
@@ -523,13 +522,11 @@ class FrameMemory : public testing::TestWithParam<Sizing> {
   }
 };
 
-TEST_P(FrameMemory, KeepsUpWithTheLinesOfTheSizingRule) {
-  EXPECT_EQ(lost(GetParam().lanes, GetParam().lines), 0u);
-}
-TEST_P(FrameMemory, FallsBackWithALineLess) {
+TEST_P(FrameMemory, SizingRuleKeepsUp) { EXPECT_EQ(lost(GetParam().lanes, GetParam().lines), 0u); }
+TEST_P(FrameMemory, OneLineFewerFallsBehind) {
   EXPECT_GT(lost(GetParam().lanes, GetParam().lines - 1), 100u);
 }
-TEST_P(FrameMemory, KeepsUpByDefault) { EXPECT_EQ(lost(GetParam().lanes, 0), 0u); }
+TEST_P(FrameMemory, DefaultKeepsUp) { EXPECT_EQ(lost(GetParam().lanes, 0), 0u); }
 
 INSTANTIATE_TEST_SUITE_P(
     Morphological, FrameMemory,

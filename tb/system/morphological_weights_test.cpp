@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Learned weights in the hardware model, as whole runs against golden: mirrored frames, tables that
-// were loaded, and coverage: classes of crossings by axis, end and side; parts of runs; and the
-// words of the three tables, of which every one that can be asked for is, or is listed.
+// Learned weights in the hardware model, in whole runs against golden: mirrored frames, loaded
+// tables, and coverage: classes of crossings by axis, end and side; parts of runs; and words of the
+// three tables, each of which must be read or listed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ MorphologicalInput mirrored(const MorphologicalInput& frame, bool sideways, bool
   });
 }
 
-// What the hardware makes of a frame, mirrored back.
+// The engine's result for a frame, mirrored back.
 Picture smoothed(const MorphologicalInput& frame, Lanes lanes, bool sideways, bool upright) {
   return forked<Picture>([&] {
     MorphologicalRunOptions options;
@@ -62,7 +62,7 @@ Picture smoothed(const MorphologicalInput& frame, Lanes lanes, bool sideways, bo
 
 class Mirrors : public testing::TestWithParam<Lanes> {};
 
-TEST_P(Mirrors, OfAFrameGiveItsMirror) {
+TEST_P(Mirrors, MirroredFrameGivesMirroredResult) {
   for (const MorphologicalInput& frame :
        {blocks(kWidth, kHeight, 3), noise(kWidth, kHeight, 4),
         draw(kWidth, kHeight, [](int x, int y) { return grey((x / 3 + y) % 9 < 4 ? 200 : 30); })}) {
@@ -78,8 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Mirrors, testing::Values(Lanes::kOne, Lanes::kTwo
 
 constexpr std::array<std::size_t, 3> kWords = {1024, 640, 640};
 
-// What the tables were asked for, and the records that came: plain numbers, as they come from
-// another process.
+// Table reads and run descriptors, as plain numbers because they come from another process.
 struct Seen {
   std::array<std::array<std::uint64_t, 1024>, 3> words{};
   std::array<std::uint64_t, 2 * 2 * 2 * 9> classes{};  // axis, end, code - 1, class
@@ -125,7 +124,7 @@ Seen seen(const spec::morphological::Parameters& parameters,
   });
 }
 
-// Least and greatest d of a class of distances; greatest 99: any.
+// Smallest and largest d of a class of distances; largest 99: unbounded.
 std::pair<int, int> distances(int d_class) {
   constexpr std::array<std::pair<int, int>, 8> kDistances = {
       {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 5}, {6, 8}, {9, 15}, {16, 99}}};
@@ -136,9 +135,9 @@ std::pair<int, int> lengths(int length_class) {
   return kLengths[static_cast<std::size_t>(length_class)];
 }
 
-// By counting: is there a run of such a length with a pixel at such a distance of its nearer end,
-// or of its farther one? Heads and tails have a nearer end at any distance, and none in sight is
-// farther than all.
+// By enumeration: whether a run of that length has a pixel at that distance from its nearer end, or
+// from its farther one. Heads and tails have a nearer end at any distance; an invisible end counts
+// as farther than all.
 bool can_be_near(int e, int d_class, int length_class) {
   if (length_class == 3 && (e != 0 || d_class == 7)) return true;
   for (int length = lengths(length_class).first; length <= lengths(length_class).second; ++length)
@@ -176,7 +175,7 @@ void add(Coverage& coverage, const Seen& s) {
   count("gap", s.gaps);
 }
 
-TEST(WeightsCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
+TEST(WeightsCoverage, EveryClassAndReachableWordIsRead) {
   spec::morphological::Parameters p = preset(Preset::kDeburr);
   p.local_contrast = spec::morphological::LocalContrast::kOff;
   p.line_pixels = 512;
@@ -186,7 +185,7 @@ TEST(WeightsCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
   for (int round = 0; round < 4; ++round) {
     std::vector<MorphologicalInput> frames;
     for (int i = 0; i < 6; ++i) {
-      // Edges that are seldom, some, many; blocks whose sides are long; and runs beyond the reach.
+      // Sparse to dense edges; blocks with long sides; and runs longer than the search range.
       const std::uint32_t dark =
           std::array<std::uint32_t, 6>{20, 60, 150, 300, 500, 0}[static_cast<std::size_t>(i)];
       frames.push_back(
@@ -214,8 +213,8 @@ TEST(WeightsCoverage, EveryClassAndEveryWordThatCanBeAskedFor) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
   EXPECT_EQ(coverage.size(), 72u + 8 + 16 + 1);
 
-  // No word is asked for that cannot be; of those that can be named, by the page, most are. The
-  // rest is listed, with some that only look possible here.
+  // Unreachable words are never read. Of the words that the page allows, most are read; the rest is
+  // listed, including some that only seem reachable here.
   constexpr std::array<std::size_t, 3> kNamed = {532, 300, 220};
   std::string rest;
   for (std::size_t table = 0; table < 3; ++table)

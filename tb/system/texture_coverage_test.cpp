@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage of the texture unit over a set of directed runs on the hardware model: each
-// mode with each wrap and layout, each N with each major axis, magnification by each filter, and
-// what can happen to a request in the cache. Every bin must be hit.
+// Functional coverage of the texture unit over directed runs of the hardware model: each mode with
+// each wrap and layout, each N with each major axis, magnification by each filter, and the outcomes
+// of a request in the cache. Every bin must be hit.
 #include "tb/engines/texture/texture_coverage.h"
 
 #include <gtest/gtest.h>
@@ -43,11 +43,11 @@ TEST(TextureCoverage, EveryBinIsHit) {
         sampler.magnification = static_cast<spec::texture::MagFilter>(number & 1);
         TextureRunOptions options;
         options.texture.cache_bytes = 2048;
-        options.texture.cache_outstanding = 4;  // so that the miss queue runs full
+        options.texture.cache_outstanding = 4;  // so that the miss queue becomes full
         options.texture.axes = static_cast<spec::texture::Axes>(number % 3);
         options.texture.kernel = static_cast<spec::texture::Kernel>(number / 3 % 2);
         options.texture.srgb_output = static_cast<spec::texture::SrgbOutput>(number / 5 % 2);
-        // The tunnel's walls have their long axis across on two sides and upright on the others.
+        // The long axis is horizontal on two of the tunnel's walls and vertical on the others.
         run(coverage, picture(number % 4 ? "tunnel" : "plane", 48), sampler, options);
         if (mode > 0) continue;
         SceneParameters near = picture("quad", 48);
@@ -60,7 +60,7 @@ TEST(TextureCoverage, EveryBinIsHit) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }
 
-TEST(TextureCoverage, AHoleIsReported) {
+TEST(TextureCoverage, MissedBinIsReported) {
   Coverage coverage = TextureCoverage::declared();
   SamplerParameters sampler;
   sampler.wrap = WrapChoice::kRepeat;

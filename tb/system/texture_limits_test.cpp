@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where the rules for direction, level and count meet their limits: candidates of equal length,
-// axes of no length, derivatives and lengths that saturate, levels of detail at their clamps,
-// counts at N_max. Directed quads, hardware model against golden; each limit is a bin that must be
-// hit, for each number of directions.
+// Limits of direction, level and count: candidates of equal length, axes of zero length,
+// derivatives and lengths that saturate, levels of detail at their clamps, counts at N_max.
+// Directed quads, hardware model against golden; each limit is a bin that must be hit, for each
+// number of directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,14 +37,14 @@ using spec::texture::Log2Rule;
 using spec::texture::Parameters;
 
 enum Bin : std::size_t {
-  kTieOfTwo,             // candidates of equal measure, longer than the rest: the smallest k
-  kTieOfMore,            // of four and more, all of no length too
-  kSquare,               // both axes equally long, as far as logarithms tell: one sample
+  kTieOfTwo,             // candidates of equal measure, longer than the rest: the smallest k wins
+  kTieOfMore,            // four or more, also all of zero length
+  kSquare,               // both axes equally long to the precision of the logarithms: one sample
   kMinorLonger,          // the logarithms say that the minor axis is longer: L = 0
-  kLine,                 // no minor axis: L as large as it gets
+  kLine,                 // no minor axis: L has its maximum
   kNothing,              // no axis at all
   kDerivativeSaturated,  // a derivative in texels
-  kAxisSaturated,        // a candidate of derivatives that are not
+  kAxisSaturated,        // a candidate whose derivatives do not saturate
   kWithinTexel,          // a long footprint within a texel takes one sample
   kCountAtLimit1,        // L above lb N_max
   kCountAtLimit2,
@@ -79,7 +79,7 @@ constexpr std::array<std::string_view, kBins> kBinNames = {
 };
 using Bins = std::array<std::uint64_t, kBins>;
 
-// A row and a column of a pixel in texels.
+// Row and column vectors of a pixel, in texels.
 struct Shape {
   double row_s, row_t, column_s, column_t;
 };
@@ -90,7 +90,7 @@ std::vector<Shape> shapes() {
       {0, 0, 0, 4},        {4, 0, 4, 0},      {3, 2, -3, -2},    {4, 0, 0, 2},     {8, 0, 0, 1},
       {0, 1, 16, 0},       {40, 0, 0, 1},     {6, 0, 0, 1},      {1.5, 0, 0, 0.1}, {0.5, 0, 0, 0.1},
       {0.1, 0.02, 0, 0.7}, {300, 0, 0, 0.25}, {300, 0, 300, 0.5}};
-  // Circles and ellipses of many sizes, turned: what the logarithms make of equal axes.
+  // Rotated circles and ellipses of many sizes: tests logarithms of equal axes.
   for (int i = 0; i < 60; ++i) {
     const double length = 2 + 0.1 * i, ratio = i % 3 == 0 ? 1 : 1 + 0.2 * i;
     const double angle = std::numbers::pi * i / 16;
@@ -147,7 +147,7 @@ QuadInput directed() {
   const auto wide = static_cast<std::uint8_t>(input.textures.size() - 1);
   for (std::uint8_t texture = 0; texture < wide; ++texture)
     for (const Shape& shape : shapes()) send(texture, shape);
-  send(wide, {24'576, 0, 24'576, 0});  // along both 33 900 texels and more, of 32 768
+  send(wide, {24'576, 0, 24'576, 0});  // both 33 900 texels or more, above 32 768
   send(wide, {40'000, 0, 0, 1});
   send(wide, {3, 1, -40'000, 0});
   return input;
@@ -206,15 +206,15 @@ Bins met(const QuadInput& input, const Parameters& p) {
   return bins;
 }
 
-// Bins that a rule cannot meet.
+// Bins that a configuration cannot hit.
 bool possible(Bin bin, Axes axes) {
-  // Two axes are P_x and P_y themselves, and their logarithms have one order with their lengths.
+  // With two axes, these are P_x and P_y, and their logarithms have the order of their lengths.
   return axes != Axes::kTwo || (bin != kAxisSaturated && bin != kMinorLonger);
 }
 
 class TextureLimits : public testing::TestWithParam<int> {};
 
-TEST_P(TextureLimits, AreIdenticalToGoldenAndAllMet) {
+TEST_P(TextureLimits, QuadsMatchGoldenAndHitEveryLimit) {
   const auto axes = static_cast<Axes>(GetParam());
   const QuadInput input = directed();
   Bins all{};

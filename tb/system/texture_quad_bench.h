@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The texture unit on quads and descriptors that need not come from a picture, against its golden
-// model: colours, line fills and status registers. TextureEnvironment is for pictures; this one
-// takes any input the links and registers can carry, and can be reset in mid-run.
+// Runs the texture unit on arbitrary quads and descriptors against its golden model: colours, line
+// fills and status registers. In contrast to TextureEnvironment, input need not come from a
+// picture, and the unit can be reset in mid-run.
 #pragma once
 
 #include <algorithm>
@@ -35,10 +35,10 @@ struct QuadInput {
   std::vector<spec::texture::Quad> quads;
 };
 
-// What one run left behind.
+// Results of a run.
 struct QuadOutcome {
   std::vector<spec::texture::Colour> colours;
-  std::vector<std::uint64_t> fills;     // addresses, as the memory saw them
+  std::vector<std::uint64_t> fills;     // addresses in the order seen by memory
   std::vector<std::uint64_t> counters;  // of every block
   rtl::Cycle cycles = 0;
   friend bool operator==(const QuadOutcome&, const QuadOutcome&) = default;
@@ -46,7 +46,7 @@ struct QuadOutcome {
 
 class QuadBench {
  public:
-  // One a process. `input` is what the hardware gets and must outlive the bench.
+  // One instance per process. `input` goes to the hardware and must outlive the bench.
   QuadBench(const QuadInput& input, const spec::texture::Parameters& parameters,
             platform::MemoryModelParameters memory = {}, const BenchOptions& options = {},
             const rtl::texture::TextureUnit::StandIns& stand_ins = {})
@@ -65,8 +65,8 @@ class QuadBench {
     driver_.send(input.quads);
   }
 
-  // Resets for `cycles` and writes the descriptors. Nothing of an earlier run is left but answers
-  // of the memory that are under way, which the unit must ignore.
+  // Resets for `cycles` and writes the descriptors. Only memory responses in flight remain from an
+  // earlier run; the unit must ignore them.
   void reset(rtl::Cycle cycles = 4) {
     clock_.set_reset_n(false);
     clock_.run(cycles);
@@ -77,14 +77,14 @@ class QuadBench {
            platform::descriptor_registers(static_cast<int>(h), input_.textures[h]))
         host_.write(offset, value);
   }
-  // Sends the same quads once more, without a reset.
+  // Sends the same quads again, without a reset.
   void repeat() { driver_.send(input_.quads); }
-  // The first `cycles` cycles of a run.
+  // Runs the first `cycles` cycles.
   void run_for(rtl::Cycle cycles) { clock_.run(cycles); }
-  // From now on expects other parameters than were built.
+  // Sets the expected parameters, which may differ from those built.
   void order(const spec::texture::Parameters& parameters) { parameters_ = parameters; }
   std::uint64_t received() const { return sink_.received(); }
-  // To the end. DeadlockError, or what broke on a link.
+  // Runs to the end. Throws DeadlockError, or the protocol error of a link.
   QuadOutcome run(rtl::Cycle limit = 50'000'000) {
     QuadOutcome outcome;
     outcome.cycles = bench_->run(
@@ -97,8 +97,8 @@ class QuadBench {
     return outcome;
   }
 
-  // Checks the run that has just ended by a golden model that is given `reference`; returns one
-  // line for each kind of difference, empty: all equal. Also tells what work it was.
+  // Checks the last run with a golden model whose input is `reference`. Returns one line per kind
+  // of difference; empty if all is equal. Also returns the amount of work.
   std::string check(const QuadInput& reference, const QuadOutcome& outcome,
                     golden::texture::TextureWork* work = nullptr) {
     golden::texture::TextureGolden golden(parameters_, reference.memory);
@@ -106,7 +106,7 @@ class QuadBench {
       golden.set_texture(static_cast<int>(h), reference.textures[h]);
     std::vector<std::uint64_t> fills;
     const std::uint64_t line_bytes = golden.cache().line_bytes();
-    golden.set_fill_sink([&](std::uint32_t line) {  // memory notes 64 bytes at a time
+    golden.set_fill_sink([&](std::uint32_t line) {  // memory records 64 bytes at a time
       for (std::uint64_t at = 0; at < line_bytes; at += 64) fills.push_back(line * line_bytes + at);
     });
     std::string differences;

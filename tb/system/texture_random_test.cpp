@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The whole texture unit on input that no scene makes: descriptors at random, a few of them
-// invalid, over random bytes; quads of every slope with any coverage; rules, cache, memory and
-// weather at random too. Every colour, every line fill and every status register is compared.
+// The whole texture unit on random input that no scene produces: random descriptors, some of them
+// invalid, over random bytes; quads of every slope with any coverage; random configuration, cache,
+// memory and stalls. Every colour, line fill and status register is compared.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,8 +30,7 @@ QuadInput random_input(Random& random) {
     input.textures.push_back(stimuli::random_texture(random, kMemoryBytes));
     if (handle % 5 == 3) stimuli::spoil(random, input.textures.back());
   }
-  // A texture for a few quads in a row, or another one each time; now and then a handle that does
-  // not exist.
+  // One texture for several quads, or another one each time; sometimes an invalid handle.
   std::uint8_t handle = 0;
   for (std::uint32_t tag = 0; tag < kQuads; ++tag) {
     if (tag / 100 % 2 || random.chance(200)) handle = static_cast<std::uint8_t>(random.below(16));
@@ -76,7 +75,7 @@ BenchOptions random_weather(Random& random) {
 
 class RandomQuads : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(RandomQuads, AreIdenticalToGolden) {
+TEST_P(RandomQuads, QuadsMatchGolden) {
   Random random(GetParam(), "random quads");
   const QuadInput input = random_input(random);
   const spec::texture::Parameters parameters = random_parameters(random);
@@ -86,7 +85,7 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
   const QuadOutcome outcome = bench.run();
   golden::texture::TextureWork work;
   EXPECT_EQ(bench.check(input, outcome, &work), "");
-  // The seed met what it is for.
+  // The seed exercised the intended cases.
   EXPECT_GT(work.fragments, kQuads);
   EXPECT_GT(work.invalid_fragments, 0u);
   EXPECT_GT(work.clamped, 0u);
@@ -98,11 +97,11 @@ TEST_P(RandomQuads, AreIdenticalToGolden) {
 
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 37));
 
-// Injected: what the golden model is told differs from what the hardware gets.
+// Injected: the golden model's input differs from the hardware's.
 enum class Wrong { kNothing, kByte, kBias, kWrap, kBase, kInvalid, kCoverage };
 constexpr std::array kWrongNames = {"nothing", "byte",    "bias",    "wrap",
                                     "base",    "invalid", "coverage"};
-// What else is built than is ordered.
+// Built parameters that differ from the expected ones.
 struct WrongBuild {
   const char* name;
   void (*change)(spec::texture::Parameters&);
@@ -116,7 +115,7 @@ constexpr std::array kWrongBuilds = {
 
 class RandomQuadsNoticeBuild : public testing::TestWithParam<int> {};
 
-TEST_P(RandomQuadsNoticeBuild, WhatIsNotAsOrdered) {
+TEST_P(RandomQuadsNoticeBuild, WrongBuildIsDetected) {
   const auto& wrong = kWrongBuilds[static_cast<std::size_t>(GetParam())];
   Random random(1, "random quads");
   const QuadInput input = random_input(random);
@@ -133,14 +132,14 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeBuild, testing::Range(0, 5), 
   return std::string(kWrongBuilds[static_cast<std::size_t>(p.param)].name);
 });
 
-// One wrong word in a table.
+// A wrong word in a table.
 struct WrongWord {
   const char* table;
   std::uint64_t address;
 };
 class RandomQuadsNoticeTable : public testing::TestWithParam<WrongWord> {};
 
-TEST_P(RandomQuadsNoticeTable, AWrongWord) {
+TEST_P(RandomQuadsNoticeTable, WrongWordIsDetected) {
   const WrongWord& wrong = GetParam();
   Random random(1, "random quads");
   const QuadInput input = random_input(random);
@@ -166,10 +165,10 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeTable,
                                          WrongWord{"srgb", 128}),
                          [](const auto& p) { return std::string(p.param.table); });
 
-// The weight of the first of N samples.
+// A wrong weight of the first of N samples.
 class RandomQuadsNoticeWeights : public testing::TestWithParam<int> {};
 
-TEST_P(RandomQuadsNoticeWeights, OfOneCount) {
+TEST_P(RandomQuadsNoticeWeights, WrongWeightIsDetected) {
   const int n = GetParam();
   Random random(1, "random quads");
   const QuadInput input = random_input(random);
@@ -190,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeWeights, testing::Range(1, 17
 
 class RandomQuadsNotice : public testing::TestWithParam<int> {};
 
-TEST_P(RandomQuadsNotice, WhatIsWrong) {
+TEST_P(RandomQuadsNotice, WrongInputIsDetected) {
   const auto wrong = static_cast<Wrong>(GetParam());
   Random random(1, "random quads");
   const QuadInput input = random_input(random);
@@ -202,7 +201,7 @@ TEST_P(RandomQuadsNotice, WhatIsWrong) {
   switch (wrong) {
     case Wrong::kNothing:
       break;
-    case Wrong::kByte: {  // a line of memory
+    case Wrong::kByte: {  // a memory line
       const auto inside = [&](std::uint64_t address) { return address < kMemoryBytes; };
       const auto fill = std::find_if(outcome.fills.begin(), outcome.fills.end(), inside);
       ASSERT_NE(fill, outcome.fills.end());

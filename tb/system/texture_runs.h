@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Short forms for whole runs of the texture unit against its golden model.
+// Helpers that simulate the texture unit against its golden model.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace deburr::tb {
 
-// What a run leaves behind that is worth comparing with another run.
+// Results of a run for comparison with another run.
 struct TextureOutcome {
   std::uint64_t cycles = 0, colour_hash = 0, colours = 0, bilinears = 0, samples = 0, fills = 0;
   std::uint64_t activations = 0;
@@ -32,18 +32,18 @@ inline SceneParameters picture(const std::string& source, int side) {
   return scene;
 }
 
-// Of the simulation and of the texture unit in it.
+// Options of the simulation and the texture unit.
 struct TextureRunOptions : SimulationOptions, TextureSetup {};
 
-// By the paper's rules.
+// Options with the paper's configuration.
 inline TextureRunOptions paper_options() {
   TextureRunOptions options;
   options.texture = stimuli::paper_configuration();
   return options;
 }
 
-// The suites run a second time with units of hdl/ in their places, where the build has their
-// configuration (tb/hdl/suites_with_counterparts_test.cpp).
+// The suites run a second time with the RTL counterparts of hdl/ in place of SystemC units, where
+// the build has their configuration (tb/hdl/suites_with_counterparts_test.cpp).
 inline bool& counterparts_do_the_work() {
   static bool they_do = false;
   return they_do;
@@ -54,10 +54,10 @@ inline rtl::texture::TextureUnit::StandIns stand_ins_of_suite(
   if (!counterparts_do_the_work()) return {};
   return texture_counterparts_there_are(as_built(parameters, memory), seed);
 }
-// Units of the suite that runs which may stay SystemC, since the build has not all of its
+// Units that may stay SystemC in the running suite, because the build lacks some of its
 // configurations.
 inline std::vector<std::string> (*not_all_built)() = nullptr;
-// After a run: throws where a unit in SystemVerilog should have taken part and moved no beat.
+// After a run: throws if an RTL counterpart that should take part has moved no beat.
 inline void expect_counterparts_of_suite(const rtl::texture::TextureUnit& unit) {
   if (!counterparts_do_the_work()) return;
   const std::vector<std::string> may_be =
@@ -67,7 +67,7 @@ inline void expect_counterparts_of_suite(const rtl::texture::TextureUnit& unit) 
       throw std::runtime_error("the unit " + idle + " in SystemVerilog has moved no beat");
 }
 
-// Simulates and checks: throws what Simulation::run() throws, and a Mismatch.
+// Simulates and checks: throws as Simulation::run() does, and Mismatch.
 inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParameters& sampler,
                                TextureRunOptions options) {
   options.stand_ins = stand_ins_of_suite(options.texture, memory_cycles(options), options.seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The same data whatever the weather: random stalls on every link, shuffled order of evaluation,
-// random memory latency, fast path on and off. What must not change is compared between processes.
+// Data must not depend on timing: random stalls on every link, shuffled order of evaluation, random
+// memory latency, fast path on and off. Invariant results are compared between processes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,10 +27,10 @@ void expect_same_data(const TextureOutcome& a, const TextureOutcome& b) {
   EXPECT_EQ(a.mismatches + b.mismatches + a.traffic_mismatches + b.traffic_mismatches, 0u);
 }
 
-// Under stalls and a shuffled order as well: there the domain may run on just the same.
+// Also with stalls and with a shuffled order, where the fast path must behave the same.
 class FastPath : public testing::TestWithParam<std::tuple<const char*, bool>> {};
 
-TEST_P(FastPath, IsInvisible) {
+TEST_P(FastPath, FastPathIsInvisible) {
   const auto [source, storm] = GetParam();
   TextureRunOptions fast;
   if (storm) {
@@ -55,14 +55,13 @@ INSTANTIATE_TEST_SUITE_P(TextureStress, FastPath,
                                               std::get<1>(p.param) ? "storm" : "calm");
                          });
 
-// ---- every scene, mode and sample count in the worst weather
-// -------------------------------------
+// ---- every scene, mode and sample count under worst conditions ----------------------------------
 
 using Mode = std::tuple<const char*, int, int>;
 class EveryModeInAStorm : public testing::TestWithParam<Mode> {};
 
-// The bench compares with the golden model, which knows no weather.
-TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
+// The golden model has no timing.
+TEST_P(EveryModeInAStorm, FramesMatchGolden) {
   const auto [source, mode, lb_n] = GetParam();
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
@@ -76,7 +75,8 @@ TEST_P(EveryModeInAStorm, IsIdenticalToGolden) {
   options.memory.latency_max = 250;
   options.memory.banks = 2;
   options.memory.bank_busy = 5;
-  // The paper's rules and the project's own in turn, directions in time and encoded output too.
+  // Alternates the paper's and the project's configurations, also with directions computed over
+  // several cycles and encoded output.
   if ((mode + lb_n) % 2 == 0) {
     options.texture = stimuli::paper_configuration();
   } else {
@@ -107,15 +107,14 @@ INSTANTIATE_TEST_SUITE_P(
           1 << std::get<2>(p.param));
     });
 
-// ---- reset in the middle of a frame
-// ----------------------------------------------------------------
+// ---- reset in the middle of a frame -------------------------------------------------------------
 
 class FrameReset : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
-// However far the frame had come, afterwards the same frame is as if nothing had been: colours,
-// fills, status registers; and every counter and the number of cycles too, once what memory still
-// answers to the frame that was broken off is over.
-TEST_P(FrameReset, LeavesNothing) {
+// After a reset at any point, the same frame gives the same result as in a new unit: colours,
+// fills, status registers; and also every counter and the number of cycles, once the memory
+// responses to the aborted frame have passed.
+TEST_P(FrameReset, ResetLeavesNoState) {
   const auto [source, stall_permille] = GetParam();
   const TextureScene scene(picture(source, 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
@@ -163,12 +162,12 @@ INSTANTIATE_TEST_SUITE_P(TextureStress, FrameReset,
                                               std::get<1>(p.param) ? "stalled" : "calm");
                          });
 
-// Injected: no reset between two frames. The cache is warm and the counters go on, and both show.
-TEST(FrameReset, IsMissedWhenThereIsNone) {
+// Injected: no reset between two frames. The warm cache and the running counters must be detected.
+TEST(FrameReset, MissingResetIsDetected) {
   const TextureScene scene(picture("plane", 64), {}, 1);
   const QuadInput input = {scene.memory().descriptors(), scene.memory().bytes(),
                            scene.stream().quads};
-  // By rules whose lines fit into the cache.
+  // A configuration whose lines fit into the cache.
   const spec::texture::Parameters paper = stimuli::paper_configuration();
   QuadBench bench(input, paper, {}, {},
                   stand_ins_of_suite(paper, QuadBench::memory_cycles({}), BenchOptions{}.seed));
@@ -186,8 +185,7 @@ TEST(FrameReset, IsMissedWhenThereIsNone) {
   EXPECT_NE(again.counters, fresh.counters);
 }
 
-// ---- one kind of weather at a time
-// ---------------------------------------------------------------
+// ---- one disturbance at a time ------------------------------------------------------------------
 
 TEST(TextureStress, LinkCheckersAreInvisible) {
   TextureRunOptions with, without;
@@ -221,7 +219,7 @@ TEST(TextureStress, OrderOfEvaluationIsInvisibleUnderStalls) {
 
 class RandomStalls : public testing::TestWithParam<std::tuple<const char*, int>> {};
 
-TEST_P(RandomStalls, CostTimeAndNothingElse) {
+TEST_P(RandomStalls, StallsChangeOnlyTiming) {
   const auto [source, permille] = GetParam();
   const TextureOutcome calm = run({}, source, 96);
   for (const std::uint64_t seed : {1u, 7u}) {
@@ -267,13 +265,12 @@ TEST(TextureStress, SameSeedGivesTheSameCycles) {
   EXPECT_EQ(a.cycles, b.cycles);
 }
 
-// ---- throughput as documented
-// ----------------------------------------------------------------------
+// ---- documented throughput ----------------------------------------------------------------------
 
-// A latency FIFO sized to the memory hides it: at least 97 % of the rate without latency.
+// A latency FIFO sized for the memory hides its latency: at least 97 % of the rate without latency.
 class HiddenLatency : public testing::TestWithParam<const char*> {};
 
-TEST_P(HiddenLatency, HundredCyclesKeepNinetySevenPercent) {
+TEST_P(HiddenLatency, HundredCycleLatencyKeeps97Percent) {
   TextureRunOptions none, hundred;
   none.memory.latency = 1;
   none.memory.bytes_per_cycle = 0;
@@ -287,7 +284,7 @@ TEST_P(HiddenLatency, HundredCyclesKeepNinetySevenPercent) {
 
 INSTANTIATE_TEST_SUITE_P(TextureStress, HiddenLatency, testing::Values("plane", "quad", "tunnel"));
 
-TEST(TextureStress, AShortFifoDoesNotHideIt) {
+TEST(TextureStress, ShortFifoDoesNotHideLatency) {
   TextureRunOptions deep, flat;
   flat.texture.cache_fifo_depth = 4;
   const TextureOutcome a = run(deep), b = run(flat);

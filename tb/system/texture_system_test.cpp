@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole frames through the hardware model of the texture unit: every colour, every line fill and
-// every status register equal to the golden model, for every mode, sample count, format, wrap and
-// rule.
+// Whole frames through the hardware model of the texture unit: every colour, line fill and status
+// register equal to the golden model, for every mode, sample count, format, wrap and configuration.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -19,7 +18,7 @@
 namespace deburr::tb::texture_system_test {
 namespace {
 
-// Everything covered was delivered and compared.
+// Every covered fragment was delivered and compared.
 void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
   const std::uint64_t reads_a_fill = static_cast<std::uint64_t>(line_bytes + 63) / 64;
   EXPECT_EQ(outcome.mismatches, 0u);
@@ -30,9 +29,9 @@ void expect_identical(const TextureOutcome& outcome, int line_bytes = 64) {
   EXPECT_GT(outcome.fills, 0u);
 }
 
-// Hashes are compared with hashes of the same model elsewhere, so that what none looks at is seen
-// here alone.
-TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
+// Hashes are compared with those of the same model on other machines, so only this test detects a
+// channel that the hash omits.
+TEST(Texture, HashCoversEveryChannelAndPositionOfEveryColour) {
   TextureRunOptions options;
   options.stand_ins = stand_ins_of_suite(options.texture, memory_cycles(options), options.seed);
   const TextureScene scene(picture("tunnel", 32), {}, 1);
@@ -58,7 +57,7 @@ TEST(Texture, TheHashIsOfEveryChannelAndPlaceOfEveryColour) {
 using Mode = std::tuple<const char*, int, int>;
 class EveryMode : public testing::TestWithParam<Mode> {};
 
-TEST_P(EveryMode, IsIdenticalToGolden) {
+TEST_P(EveryMode, FramesMatchGolden) {
   const auto [source, mode, lb_n] = GetParam();
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
@@ -79,13 +78,13 @@ INSTANTIATE_TEST_SUITE_P(
           1 << std::get<2>(p.param));
     });
 
-// ---- formats x layouts x wraps, with a texture whose size is no power of two
-// ----------------------
+// ---- formats x layouts x wraps, with a texture whose size is not a power of two
+// ------------------
 
 using Storage = std::tuple<int, int, int>;
 class EveryFormat : public testing::TestWithParam<Storage> {};
 
-TEST_P(EveryFormat, IsIdenticalToGolden) {
+TEST_P(EveryFormat, FramesMatchGolden) {
   const auto [format, layout, wrap] = GetParam();
   SamplerParameters sampler;
   sampler.format = static_cast<spec::texture::Format>(format);
@@ -109,8 +108,8 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
 
 // ---- axes x count x kernel x footprint x log x output -------------------------------------------
 
-// Axes, count and footprint in all 45 combinations with both kernels; the logarithm, the cap, the
-// spread, the output and the cycles of the directions go round them.
+// Axes, count and footprint in all 45 combinations with both kernels; logarithm, cap, spread,
+// output and cycles of the directions vary along with them.
 using Configuration = std::tuple<int, int, int, int>;
 class EveryRule : public testing::TestWithParam<Configuration> {};
 
@@ -130,7 +129,7 @@ spec::texture::Parameters configuration_of(const Configuration& configuration) {
   return p;
 }
 
-TEST_P(EveryRule, IsIdenticalToGolden) {
+TEST_P(EveryRule, FramesMatchGolden) {
   TextureRunOptions options;
   options.texture = configuration_of(GetParam());
   SamplerParameters sampler;
@@ -161,7 +160,7 @@ struct Geometry {
 };
 class EveryCache : public testing::TestWithParam<std::tuple<Geometry, int>> {};
 
-TEST_P(EveryCache, FillsTheLinesThatGoldenPredicts) {
+TEST_P(EveryCache, FillsThePredictedLines) {
   const auto [geometry, replacement] = GetParam();
   TextureRunOptions options;
   options.texture.cache_bytes = geometry.bytes;
@@ -197,10 +196,10 @@ std::uint64_t cycles_with(TextureRunOptions options, std::int32_t fifo_depth) {
   return forked<std::uint64_t>([&] { return simulate(picture("plane", 64), {}, options).cycles; });
 }
 
-// The default is the knee: more entries save no clock, fewer cost some.
+// The default is at the knee: more entries save no cycle, fewer cost some.
 class FifoDepth : public testing::TestWithParam<std::tuple<bool, int>> {};
 
-TEST_P(FifoDepth, TheDefaultIsTheKnee) {
+TEST_P(FifoDepth, DefaultIsTheKnee) {
   const auto [paper, latency] = GetParam();
   TextureRunOptions options = paper ? paper_options() : TextureRunOptions{};
   options.memory.latency = latency;
@@ -218,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, FifoDepth,
                                               std::get<1>(p.param));
                          });
 
-TEST(FifoDepthOfAMemoryThatVaries, IsThatOfTheSlowestAnswer) {
+TEST(FifoDepthOfAMemoryThatVaries, DepthFollowsTheSlowestResponse) {
   TextureRunOptions options;
   options.memory.latency = 20;
   options.memory.latency_max = 300;
@@ -229,8 +228,8 @@ TEST(FifoDepthOfAMemoryThatVaries, IsThatOfTheSlowestAnswer) {
   EXPECT_EQ(fifo_depth(options), 33);
 }
 
-// A line that takes several cycles has no knee but a bend: what is lost is below half a percent.
-TEST(FifoDepthOfANarrowMemory, LosesLittle) {
+// With several cycles per line there is a bend instead of a knee: the loss is below half a percent.
+TEST(FifoDepthOfANarrowMemory, DefaultDepthCostsLittle) {
   TextureRunOptions options;
   options.memory.bytes_per_cycle = 16;
   const std::int32_t depth = fifo_depth(options);
@@ -240,8 +239,7 @@ TEST(FifoDepthOfANarrowMemory, LosesLittle) {
   EXPECT_GT(static_cast<double>(cycles_with(options, depth - 12)), 1.01 * most);
 }
 
-// ---- magnification, bias and clamps
-// ---------------------------------------------------------------
+// ---- magnification, bias and clamps -------------------------------------------------------------
 
 TEST(Texture, MagnificationBiasAndClampsAreIdenticalToGolden) {
   SceneParameters scene = picture("plane", 128);
@@ -254,7 +252,7 @@ TEST(Texture, MagnificationBiasAndClampsAreIdenticalToGolden) {
   expect_identical(simulate(scene, sampler, {}));
 }
 
-TEST(Texture, AChainCutShortIsIdenticalToGolden) {
+TEST(Texture, ShortenedMipChainIsIdenticalToGolden) {
   SamplerParameters sampler;
   sampler.levels = 3;
   expect_identical(simulate(picture("plane", 128), sampler, {}));
@@ -278,16 +276,16 @@ TEST(Texture, FullHdFrameIsIdenticalToGolden) {
   EXPECT_LT(usage.ru_maxrss, 1L << 20) << "KiB: the frame is to be checked as it comes, not kept";
 }
 
-// ---- what the cache saves, against an independent simulation
+// ---- cache traffic against an independent simulation -------------------------------------------
 
 struct Traffic {
   const char* source;
   double misses_per_texel, texels_per_fragment, bilinears_per_fragment;
-  std::uint64_t fills, bilinears, fragments;  // ours, on every machine
+  std::uint64_t fills, bilinears, fragments;  // our values, equal on every machine
 };
 class CacheTraffic : public testing::TestWithParam<Traffic> {};
 
-TEST_P(CacheTraffic, IsAsAnIndependentSimulationFound) {
+TEST_P(CacheTraffic, MatchesIndependentSimulation) {
   const Traffic& wanted = GetParam();
   const TextureOutcome got =
       simulate(picture(wanted.source, 512), {}, paper_options());  // 16 KB, 2 ways, 64 bytes
@@ -296,7 +294,7 @@ TEST_P(CacheTraffic, IsAsAnIndependentSimulationFound) {
              fragments = static_cast<double>(got.colours);
   const auto expect_near = [](const char* what, double value, double expected) {
     testing::Test::RecordProperty(what, fmt::format("{:.3f}", value));
-    // Its scenes were drawn by another rasteriser, and fill less of the picture.
+    // The other simulation's rasteriser covers less of the picture.
     EXPECT_NEAR(value, expected, 0.12 * expected) << what;
   };
   expect_near("misses_per_texel_percent", 100 * fills / (4 * bilinears), wanted.misses_per_texel);
@@ -314,12 +312,11 @@ INSTANTIATE_TEST_SUITE_P(Texture, CacheTraffic,
                                                  259636}),
                          [](const auto& p) { return std::string(p.param.source); });
 
-// ---- meshes and textures that others made
-// ----------------------------------------------------------
+// ---- external meshes and textures ---------------------------------------------------------------
 
 class RealInput : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-TEST_P(RealInput, IsIdenticalToGolden) {
+TEST_P(RealInput, FramesMatchGolden) {
   const std::filesystem::path data = data_folder();
   const auto [mesh, texture] = GetParam();
   if (!std::filesystem::exists(data / mesh)) {

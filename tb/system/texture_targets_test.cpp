@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A frame of the texture unit on memories that answer in every way of TLM-2.0's base protocol, and
-// on some that accept one end of a response alone: colours, line fills and registers are those of
-// the golden model, and the unit keeps to the protocol.
+// A frame of the texture unit on memories that use every variant of TLM-2.0's base protocol,
+// including some that accept only one way of ending a response: colours, line fills and registers
+// equal the golden model's, and the unit follows the protocol.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 using rtl::ResponseEnd;
 
-// "CYCLES cycles, HASH", or what went wrong. Without `end` as the engine is made.
+// "CYCLES cycles, HASH", or the error. Without `end` the engine's default is used.
 std::string frame(const ProtocolTargetParameters& parameters,
                   std::optional<ResponseEnd> end = std::nullopt) {
   return forked_text([&] {
@@ -54,14 +54,14 @@ std::string frame(const ProtocolTargetParameters& parameters,
   });
 }
 
-TEST(TextureTargets, EveryAnswerIsTaken) {
+TEST(TextureTargets, EveryProtocolVariantIsAccepted) {
   for (const Answer answer : {Answer::kFourPhases, Answer::kEndRequest, Answer::kNoEndRequest,
                               Answer::kAnnotated, Answer::kBeginResponse, Answer::kComplete})
     EXPECT_THAT(frame({.answer = answer}), testing::HasSubstr(" cycles, "))
         << static_cast<int>(answer);
 }
 
-TEST(TextureTargets, ATargetThatAcceptsOneEndNeedsThatOne) {
+TEST(TextureTargets, SingleEndTargetRequiresMatchingEnd) {
   constexpr ResponseEnd kEnds[] = {ResponseEnd::kUpdated, ResponseEnd::kCompleted,
                                    ResponseEnd::kCall};
   const std::string all = frame({});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The queues of the cache never wait for each other: in every clock in which a request is inside, a beat, a line
-// or a pass moves, or what is outside holds it up (the link to memory or the one behind is full, or memory has
-// still to answer). What tags hit and miss is up to the solver, in each clock anew; so are all data. The reason:
-// the lines that requests behind the TagStage still have to write are as many as there are on their way.
+// The queues of the cache never deadlock. In every cycle with a request inside, a beat, a line or a pass moves, or
+// the environment stalls the cache: the link to memory or the downstream link is full, or a memory response is
+// outstanding. The solver chooses hits, misses and data freely in every cycle. Reason: the number of lines that
+// requests after the TagStage still have to write equals the number of lines in flight.
 `include "tokens.svh"
 `include "tables.svh"
 module cache_moves_proof (
@@ -30,7 +30,7 @@ module cache_moves_proof (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push, .out_ready, .out_data(), .request_push, .request_ready,
     .request_data, .response_valid(answer), .response_pop, .response_data, .invalidate(1'b0), .link_push, .link_pop);
 
-  // Memory answers what it was asked for, in any order.
+  // Memory responds to its requests in any order.
   reg past = 1'b0;
   reg [3:0] owed;
   wire [3:0] asked = request_push ? 4'd1 << request_data[`MEMORY_REQUEST_TAG] : 4'd0;
@@ -66,7 +66,7 @@ module cache_moves_proof (
                \cache.entries.count == 0 && !\cache.data.valid_2 && \cache.queue.waiting == 0 && \cache.fills.held == 0;
   wire outside = (\cache.data.valid_2 && !out_ready) || (\cache.queue.waiting != 0 && !request_ready) || owed != 4'd0;
 
-  // Lines that requests still have to write, oldest first, and lines on their way.
+  // Lines that requests still have to write, oldest first, and lines in flight.
   wire [2:0] to_write_0 = \cache.requests.place[0] [`CACHE_TOKEN_FILLS];
   wire [2:0] to_write_1 = \cache.requests.place[1] [`CACHE_TOKEN_FILLS];
   wire [2:0] first = \cache.entries.first [`CACHE_TOKEN_FILLS], second = \cache.entries.second [`CACHE_TOKEN_FILLS];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// For every pair of logarithms and every valid descriptor: N, level, fraction and filter are what the page says
-// (docs/reference/texture/formats.md, "Level and count"), reckoned here with bits to spare; L, E and l keep their
-// formats; the level exists, and so does the next one where a fraction asks for it; N is 1 to N_max; magnification
-// reads level 0. The token stays at the link until it leaves, so three cycles from any state are all that there is.
+// For every pair of logarithms and every valid descriptor: N, level, fraction and filter are as specified
+// (docs/reference/texture/formats.md, "Level and count"), computed here with extra bits; L, E and l fit their
+// formats; the level exists, and so does the next one if the fraction is not zero; N is 1 to N_max; magnification
+// reads level 0. The token stays at the link until it leaves, so three cycles from any state are sufficient.
 `include "tokens.svh"
 `include "tables.svh"
 `include "descriptor.svh"
@@ -32,7 +32,7 @@ module level_bounds_proof #(
   wire [2:0] mode = words[`DESCRIPTOR_MODE_MIN_FILTER];
   wire [4:0] most = 5'd1 << words[`DESCRIPTOR_MODE_MAX_COUNT_LOG2];
 
-  // The page, in 32 bits.
+  // The specification in 32 bits.
   wire signed [17:0] token_max = token[`LOG2_TOKEN_LB_MAX], token_minor = token[`LOG2_TOKEN_LB_MINOR];
   wire signed [15:0] bias = words[`DESCRIPTOR_LOD_BIAS_BIAS];
   wire signed [31:0] lb_max = token_max, lb_minor = token_minor, bias_wide = bias;
@@ -46,7 +46,7 @@ module level_bounds_proof #(
   wire signed [31:0] cap = COUNT == `COUNT_ANY ? lb_max : ((lb_max + 4095) >>> 12) <<< 12;
   wire signed [31:0] capped = CAP == `CAP_TEXEL && limited > cap ? cap : limited;
   wire signed [31:0] page_e = lb_max <= 0 || capped < 0 ? 0 : capped;
-  // The unit's own E, which is the page's, so that what follows from it is a question of its own.
+  // The unit's own E, proved equal to the specified one, so that the properties below are separate proof goals.
   (* hierconn *) wire [14:0] \unit.e_1 ;
   wire signed [31:0] e = {17'd0, \unit.e_1 };
   localparam logic [16*`LOG2_COUNT_BITS-1:0] STEPS = `LOG2_COUNT;
@@ -74,7 +74,7 @@ module level_bounds_proof #(
   wire page_linear = magnified ? words[`DESCRIPTOR_MODE_MAG_FILTER] : mode[0];
   always @* begin
     assume (descriptor[`DESCRIPTOR_VALID]);
-    // n is -16 to 15, of an area to 30, and y + c at most 1.
+    // n is -16 to 15, for an area up to 30, and y + c at most 1.
     assume (lb_max >= -65536 && lb_max <= 65536 && lb_minor >= -65536);
     assume (lb_minor <= (AXES == `AXES_TWO ? 65536 : 126976));
   end

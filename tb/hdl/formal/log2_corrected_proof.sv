@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the rule `corrected` adds to n + y, for all y: word y / 512 of its table
+// The term that `corrected` adds to n + y, for all y: word y / 512 of its table
 // (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_corrected_proof (

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The logarithm by the rule `exact`, for all n and y and whenever the pipeline moves: what the page says, and from
-// one number to the next it does not fall (docs/reference/texture/formats.md, "Logarithm").
+// The logarithm `exact`, for all n and y and any stalls of the pipeline: equal to the specification, and monotone
+// (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_exact_proof (
   input logic clk,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// By how much a logarithm may fall from a number to the next one: by 118/4096 with `corrected`, by 4/4096
-// with `segments`, in the middle of an octave (docs/reference/texture/formats.md, "Logarithm"). For all y, the
-// end of the octave among them.
+// The largest decrease of a logarithm from a number to the next one: 118/4096 with `corrected`, 4/4096 with
+// `segments`, in the middle of an octave (docs/reference/texture/formats.md, "Logarithm"). For all y, including
+// the end of the octave.
 `include "tables.svh"
 module log2_monotone_proof #(
   parameter integer RULE = `LOG2_SEGMENTS,

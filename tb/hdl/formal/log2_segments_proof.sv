@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the rule `segments` adds to n + y, for all y (docs/reference/texture/formats.md, "Logarithm").
+// The term that `segments` adds to n + y, for all y (docs/reference/texture/formats.md, "Logarithm").
 `include "tables.svh"
 module log2_segments_proof (
   input logic [11:0] y

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For every number: n is the place of its leading one, and y the 12 bits below that, as the page says it.
+// For every number: n is the position of its leading one, and y the 12 bits below, as specified.
 module log2_value_proof #(
   parameter integer BITS = 32
 ) (
@@ -9,7 +9,7 @@ module log2_value_proof #(
   log2_value #(.BITS(BITS)) unit (.value, .mitchell);
   wire [5:0] place = mitchell[17:12] + 6'd16;
   wire [11:0] y = mitchell[11:0];
-  // {1, y} times 2^place is the number with 12 more bits, but for those that are cut off below.
+  // {1, y} times 2^place is the number with 12 more bits, except for the bits cut off below.
   wire [BITS+11:0] back = {{(BITS - 1) {1'b0}}, 1'b1, y} << place;
   wire [BITS+11:0] whole = {value, 12'd0};
   wire [BITS+11:0] one = {{(BITS + 11) {1'b0}}, 1'b1};

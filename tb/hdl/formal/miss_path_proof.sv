@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// MissQueue and FillBuffer with a memory that answers in any order, a beat a clock, after any time: the n-th
-// line that comes is the n-th request, asked once, and the n-th line that goes out, with what memory has for it.
-// One line is followed, which the solver picks among all. A beat has 16 bits here: nothing looks into them.
+// MissQueue and FillBuffer with a memory that responds in any order, one beat per cycle, after any time. The n-th
+// incoming line becomes the n-th request, is requested once, and leaves as the n-th line with the memory's data.
+// The solver chooses one line that is followed. A beat has 16 bits here, because the units do not interpret data.
 `include "tokens.svh"
 `include "tables.svh"
 module miss_path_proof #(
@@ -33,7 +33,7 @@ module miss_path_proof #(
   miss_queue #(.LINE_BYTES(LINE_BYTES), .ENTRIES(ENTRIES)) queue (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .request_push, .request_ready, .request_data, .reserve,
     .can_reserve, .reserved);
-  reg [ENTRIES-1:0] owed_first, owed_second;  // beats that memory has still to send, by place
+  reg [ENTRIES-1:0] owed_first, owed_second;  // beats still due from memory, by entry
   wire last = BEATS == 1 || !(arrive_second ? owed_first[arrive_place] : owed_second[arrive_place]);
   wire [1:0] beat = arrive_second ? 2'd2 : 2'd1;
   fill_buffer #(.LINE_BYTES(2 * BEATS), .BEAT_BYTES(2), .ENTRIES(ENTRIES)) fills (
@@ -51,7 +51,7 @@ module miss_path_proof #(
   (* hierconn *) wire [15:0] \fills.g_beat[0].lines.f_word , \fills.g_beat[1].lines.f_word ;
   wire [DATA_BITS-1:0] word;
 
-  // The place i behind another one.
+  // The entry i after another one.
   function automatic [ENTRY_BITS-1:0] behind(input [ENTRY_BITS-1:0] place, input [COUNT_BITS-1:0] i);
     logic [COUNT_BITS:0] sum;
     begin
@@ -61,7 +61,7 @@ module miss_path_proof #(
     end
   endfunction
 
-  // Lines that came, were asked for and were used since the reset, modulo 2^16.
+  // Lines received, requested and used since the reset, modulo 2^16.
   reg past = 1'b0;
   reg [15:0] came, asked, used;
   wire [2:0] count = in_data[`MISS_TOKEN_COUNT];
@@ -94,7 +94,7 @@ module miss_path_proof #(
     end
   end
 
-  // The line that is followed: one of a token's, and what memory has for it.
+  // The followed line: one line of a token, and its data in memory.
   (* anyseq *) wire pick;
   (* anyseq *) wire [1:0] which;
   (* anyconst *) wire [DATA_BITS-1:0] content;
@@ -124,7 +124,7 @@ module miss_path_proof #(
   wire [15:0] its_data = arrive_second ? content[DATA_BITS-1 -: 16] : content[15:0];
   always @* assume (!its_beat || arrive_data == its_data);
 
-  // What is claimed.
+  // Proved properties.
   always @* if (past && rst_n) begin
     a_request: assert (!its_request || (request_data[`MEMORY_REQUEST_ADDRESS] ==
                        {address, {(32 - LINE_BITS) {1'b0}}} && request_data[`MEMORY_REQUEST_LINES] == BEATS));
@@ -134,7 +134,7 @@ module miss_path_proof #(
     a_free: assert (!reserve || !(followed && sent && !done) || reserved != place);
   end
 
-  // Why: the invariants of both rings and of the followed line.
+  // Invariants for the induction: both rings and the followed line.
   wire [15:0] before_it = number - asked, in_front = number - used;
   assign \queue.f_place = behind(\queue.read_place , before_it[COUNT_BITS-1:0]);
   assign \fills.g_beat[0].lines.f_address = place;
@@ -148,7 +148,7 @@ module miss_path_proof #(
   wire [COUNT_BITS-1:0] unread = \fills.held - {{(COUNT_BITS - 1) {1'b0}}, line_valid};
   wire [COUNT_BITS-1:0] front = in_front[COUNT_BITS-1:0] - {{(COUNT_BITS - 1) {1'b0}}, line_valid};
   wire on_register = line_valid && in_front == 16'd0;
-  reg [ENTRIES-1:0] ring;  // places that are reserved and not read
+  reg [ENTRIES-1:0] ring;  // entries that are reserved and not yet read
   always @*
     for (i = 0; i < ENTRIES; i = i + 1)
       ring[i] = (i >= \fills.read_place ? i - \fills.read_place : i + ENTRIES - \fills.read_place ) < unread;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pipeline loses no token and makes none, and stands still as a whole while its last stage cannot leave.
+// A pipeline neither loses nor creates tokens, and stalls as a whole while its last stage cannot leave.
 module pipe_proof #(
   parameter integer STAGES = 5
 ) (

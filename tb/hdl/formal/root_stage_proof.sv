@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the digit recurrence of a square root keeps: the rest is at most twice the root, so that its upper
-// bits, which no register has, are zero; and with b the two new bits of the root x, the rest loses
-// (4 x + b)^2 - (4 x)^2 = b (8 x + b). So it stays what the digits that were used exceed the square of the root
-// by; at most twice the root, it makes the root the largest whose square fits.
+// Invariant of the square root's digit recurrence: the remainder is at most twice the root, so its upper bits,
+// which have no registers, are zero. With b the two new bits of the root x, the remainder decreases by (4 x + b)^2
+// - (4 x)^2 = b (8 x + b). So it remains the difference between the digits used so far and the square of the root;
+// since it is at most twice the root, the root is the largest whose square fits.
 module root_stage_proof (
-  input logic [29:0] root,  // of 32 bits the two lowest are still to come
+  input logic [29:0] root,  // the two lowest of 32 bits are not known yet
   input logic [33:0] rest,
   input logic [3:0]  digits
 );

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For all components of a candidate: d is what the rule says of a and b without an end of its bits, is below
-// 2^32, and lies between the longer component and the sum of both.
+// For all components of a candidate: d equals the specified function of a and b computed with unlimited bits, is
+// below 2^32, and lies between the longer component and the sum of both.
 `include "tables.svh"
 module side_length_proof #(
   parameter integer RULE = `FOOTPRINT_HALF

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Both texels of an axis are within the level, whatever the position is, by each wrap mode; and two texels
-// are neighbours, but where the level ends or repeats.
+// For any position and wrap mode, both texels of an axis are within the level, and the two are neighbours, except
+// where the level ends or repeats.
 `include "tables.svh"
 module texel_axis_proof (
   input logic signed [46:0] product,
@@ -14,9 +14,9 @@ module texel_axis_proof (
   wire signed [46:0] whole = $signed({10'd0, size, 24'd0});
   always @* begin
     assume (size >= 13'd1 && size <= 13'd4096);
-    // S9.24 times 4096 at most.
+    // At most S9.24 times 4096.
     assume (product >= -47'sd35184372088832 && product < 47'sd35184372088832);
-    // A coordinate that repeats or is mirrored lies within the level.
+    // A repeated or mirrored coordinate lies within the level.
     assume (wrap == `WRAP_CLAMP_TO_EDGE || (wrap <= `WRAP_LAST && product >= 0 && product < whole));
     a_first: assert ({1'b0, first} < size);
     a_second: assert ({1'b0, second} < size);

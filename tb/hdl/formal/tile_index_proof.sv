@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two tiles of a level never have the same index, and none lies beyond the tiles of the level when their
-// numbers are rounded up to powers of two; for every size of a level.
+// Two tiles of a level never have the same index, and no index exceeds the level's tiles with their numbers
+// rounded up to powers of two; for every level size.
 module tile_index_proof (
   input logic [9:0] last_x, last_y, x, y, other_x, other_y
 );
