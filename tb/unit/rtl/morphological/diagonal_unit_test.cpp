@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
-// DiagonalUnit against the golden model's function, to the bit: stairs of every length about the
-// limit of the searches, both ways, with every code at their ends, and random edges, in rows of any
-// number of beats; its cycles, its ports, and faults in what it reads.
+// DiagonalUnit against the golden model's function, to the bit: random edges and stairs, in rows of
+// any number of beats; its cycles and its ports.
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "golden/morphological/diagonals.h"
-#include "rtl_model/morphological/blend/diagonal_table.h"
 #include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
@@ -25,7 +21,6 @@ using golden::morphological::DiagonalWeights;
 using golden::morphological::EdgePlanes;
 using golden::morphological::falling_diagonal;
 using golden::morphological::rising_diagonal;
-using spec::morphological::BlendRule;
 using spec::morphological::kMaxDiagonalSteps;
 namespace reg = spec::morphological::reg;
 
@@ -62,11 +57,6 @@ struct Diagonals {
     driver.out(columns);
     unit.columns_in(columns);
     gate.in(unit.weights());
-  }
-  // Bits [high:low] of a register, of the frames from now on.
-  void tell(std::uint32_t offset, int high, int low, std::uint32_t value) {
-    const std::uint32_t mask = ((2u << (high - low)) - 1) << low;
-    registers.bus.write(offset, (registers.bus.read(offset) & ~mask) | value << low);
   }
   int beats(const EdgePlanes& edges) const { return (edges.top.width() + lanes - 1) / lanes; }
   std::size_t words(const EdgePlanes& edges) const {
@@ -121,9 +111,8 @@ struct Expected {
 };
 
 // `margin`: of a frame with so many pixels more around it, which are not part of it.
-Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest = true,
-                  int margin = 0) {
-  const int width = edges.top.width() - 2 * margin, most = strongest ? 255 : 128;
+Expected expected(const EdgePlanes& edges, int steps, int lanes, int margin = 0) {
+  const int width = edges.top.width() - 2 * margin;
   Expected all;
   for (int y = margin; y < edges.top.height() - margin; ++y)
     for (int x0 = 0; x0 < width; x0 += lanes) {
@@ -139,8 +128,8 @@ Expected expected(const EdgePlanes& edges, int steps, int lanes, bool strongest 
         ++all.taken;
         const auto i = static_cast<std::size_t>(lane);
         word.taken = static_cast<std::uint8_t>(word.taken | 1u << lane);
-        word.first[i] = static_cast<std::uint8_t>(std::min(most, weights.first));
-        word.second[i] = static_cast<std::uint8_t>(std::min(most, weights.second));
+        word.first[i] = static_cast<std::uint8_t>(std::min(255, weights.first));
+        word.second[i] = static_cast<std::uint8_t>(std::min(255, weights.second));
         word.span[i] = static_cast<std::uint8_t>(weights.span);
       }
       all.words.push_back(word);
@@ -192,34 +181,23 @@ EdgePlanes random_edges(int width, int height, std::uint64_t seed) {
   return edges;
 }
 
-// A stair of `down` and `up` good steps about (x, y), whose own edges are set.
-void rise(EdgePlanes& edges, int x, int y, int down, int up) {
-  for (int i = -down; i <= up; ++i) {
-    edges.top.set(x + i, y - i);
-    edges.left.set(x + i, y - i);
-  }
-}
-void fall(EdgePlanes& edges, int x, int y, int up, int down) {
-  for (int i = -up; i <= down; ++i) {
-    edges.top.set(x + i, y + i);
-    edges.left.set(x + i + 1, y + i);
-  }
-}
-
 // ---- to the bit ---------------------------------------------------------------------------------
 
 class DiagonalBuilds : public ::testing::TestWithParam<Build> {};
 
+// Rows of one column to 2 M + 3, of fewer beats than a diagonal takes and of more.
 TEST_P(DiagonalBuilds, RandomEdgesGiveWhatGoldenSays) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   std::uint64_t taken = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const EdgePlanes edges = random_edges(75, 50, seed);
+  const auto compare = [&](int width, int height, int seed) {
+    const EdgePlanes edges = random_edges(width, height, static_cast<std::uint64_t>(seed));
     const Expected want = expected(edges, p.diagonal_steps, bench.lanes);
-    EXPECT_EQ(differences(bench.run(edges), want), 0u) << seed;
+    EXPECT_EQ(differences(bench.run(edges), want), 0u) << width << 'x' << height << ' ' << seed;
     taken += want.taken;
-  }
+  };
+  for (int seed = 1; seed <= 6; ++seed) compare(75, 50, seed);
+  for (int width = 1; width <= 2 * p.diagonal_steps + 3; ++width) compare(width, 20, width);
   EXPECT_EQ(bench.unit.diagonal_pixels.value(), taken);
   if (p.diagonal_steps == 1) {
     EXPECT_EQ(taken, 0u) << "with one step d1 + d2 is never above 2";
@@ -228,70 +206,6 @@ TEST_P(DiagonalBuilds, RandomEdgesGiveWhatGoldenSays) {
   }
 }
 
-// Both ends of both directions a step short of the limit, at it and a step beyond it, with each
-// code at both ends and with the edge that makes one end a pixel longer.
-TEST_P(DiagonalBuilds, StairsAboutTheLimitGiveWhatGoldenSays) {
-  Parameters p = built_as(GetParam());
-  const int m = p.diagonal_steps, size = 2 * m + 9, x = m + 4, y = m + 4;
-  std::map<std::string, int> met;
-  std::vector<EdgePlanes> stairs;
-  for (const bool rises : {true, false})
-    for (int a = std::max(0, m - 1); a <= m + 1; ++a)
-      for (int b = std::max(0, m - 1); b <= m + 1; ++b)
-        for (unsigned ends = 0; ends < 32; ++ends) {
-          EdgePlanes edges = empty(size, size);
-          if (rises) {
-            rise(edges, x, y, a, b);
-            if (ends & 1) edges.top.set(x - a - 1, y + a);
-            if (ends & 2) edges.left.set(x - a, y + a + 1);
-            if (ends & 4) edges.left.set(x + b + 1, y - b - 1);
-            if (ends & 8) edges.top.set(x + b + 1, y - b);
-            if (ends & 16) edges.top.set(x - a - 1, y + a + 1);
-          } else {
-            fall(edges, x, y, a, b);
-            if (ends & 1) edges.top.set(x - a - 1, y - a);
-            if (ends & 2) edges.left.set(x - a, y - a - 1);
-            if (ends & 4) edges.left.set(x + b + 1, y + b + 1);
-            if (ends & 8) edges.top.set(x + b + 1, y + b);
-            if (ends & 16) edges.top.set(x + b + 1, y + b + 1);
-          }
-          const DiagonalEnds found =
-              rises ? rising_diagonal(edges, m, x, y) : falling_diagonal(edges, m, x, y);
-          ++met[std::string(rises ? "rising" : "falling") + (found.open1 ? " open" : " closed") +
-                (found.open2 ? " open" : " closed")];
-          stairs.push_back(std::move(edges));
-        }
-  EXPECT_EQ(met.size(), 8u);
-  // All in one frame, each with a border of its own.
-  constexpr int kAbreast = 6;
-  const int rows = (static_cast<int>(stairs.size()) + kAbreast - 1) / kAbreast;
-  EdgePlanes sheet = empty(kAbreast * size, rows * size);
-  for (std::size_t i = 0; i < stairs.size(); ++i) {
-    const int x0 = static_cast<int>(i) % kAbreast * size,
-              y0 = static_cast<int>(i) / kAbreast * size;
-    for (int v = 0; v < size; ++v)
-      for (int u = 0; u < size; ++u) {
-        if (stairs[i].left.at(u, v)) sheet.left.set(x0 + u, y0 + v);
-        if (stairs[i].top.at(u, v)) sheet.top.set(x0 + u, y0 + v);
-      }
-  }
-  p.line_pixels = kAbreast * size;
-  Diagonals bench(p);
-  const Expected want = expected(sheet, m, bench.lanes);
-  EXPECT_EQ(differences(bench.run(sheet), want), 0u);
-  EXPECT_EQ(bench.unit.diagonal_pixels.value(), want.taken);
-}
-
-// Rows of one column to 2 M + 3, of fewer beats than a diagonal takes and of more.
-TEST_P(DiagonalBuilds, RowsOfAnyLengthEndAtTheirBorders) {
-  const Parameters p = built_as(GetParam());
-  Diagonals bench(p);
-  for (int width = 1; width <= 2 * p.diagonal_steps + 3; ++width) {
-    const EdgePlanes edges = random_edges(width, 20, static_cast<std::uint64_t>(width));
-    EXPECT_EQ(differences(bench.run(edges), expected(edges, p.diagonal_steps, bench.lanes)), 0u)
-        << width;
-  }
-}
 INSTANTIATE_TEST_SUITE_P(Each, DiagonalBuilds,
                          ::testing::Values(Build{1, 0}, Build{2, 1}, Build{3, 2}, Build{8, 0},
                                            Build{8, 1}, Build{8, 2}, Build{15, 0}, Build{16, 0},
@@ -317,7 +231,7 @@ TEST_P(DiagonalBuilds, TheBorderRepeatsItsEdges) {
           if (edges.left.at(u, v)) wide.left.set(x, y);
           if (edges.top.at(u, v)) wide.top.set(x, y);
         }
-      const Expected want = expected(wide, m, bench.lanes, true, margin);
+      const Expected want = expected(wide, m, bench.lanes, margin);
       const auto got = bench.run(edges);
       EXPECT_EQ(differences(got, want), 0u) << width << 'x' << height;
       changed += differences(got, expected(edges, m, bench.lanes));
@@ -333,7 +247,7 @@ TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
   const EdgePlanes edges = random_edges(90, 60, 5);
   Diagonals bench(p);
   for (const int steps : {1, 2, 3, 7, 8, 15, 16, 31}) {
-    bench.tell(reg::kSmaa, 12, 8, static_cast<std::uint32_t>(steps));
+    bench.registers.bus.write(reg::kSmaa, static_cast<std::uint32_t>(steps) << 8);
     const auto words = bench.run(edges);
     const int used = std::min(steps, kMaxDiagonalSteps);
     EXPECT_EQ(differences(words, expected(edges, used, 1)), 0u) << steps;
@@ -342,23 +256,6 @@ TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
         EXPECT_GT(differences(words, expected(edges, other, 1)), 0u) << steps << " as " << other;
       }
   }
-}
-
-// Both directions in one pixel add up to weights of a half and more.
-TEST(DiagonalUnitBlock, LimitsSharesAsTheBlendRuleSays) {
-  const Parameters p = built_as({8, 0});
-  Diagonals bench(p);
-  std::size_t limited = 0;
-  for (const bool strongest : {true, false}) {
-    bench.tell(reg::kConfiguration, 22, 22, strongest);
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const EdgePlanes edges = random_edges(80, 40, seed);
-      const auto words = bench.run(edges);
-      EXPECT_EQ(differences(words, expected(edges, 8, 1, strongest)), 0u) << seed;
-      limited += differences(words, expected(edges, 8, 1, !strongest));
-    }
-  }
-  EXPECT_GT(limited, 50u) << "the limits differ nowhere";
 }
 
 // ---- cycles -------------------------------------------------------------------------------------
@@ -454,23 +351,6 @@ TEST(DiagonalUnitBlock, WaitsDownstreamBeyondARowAndSixteenBeats) {
     ASSERT_EQ(bench.gate.taken[i].cycle, kOpens + i);
 }
 
-// In the middle of a row: what comes after the reset is what comes after that of a new unit.
-TEST(DiagonalUnitBlock, AResetLeavesNothing) {
-  const Parameters p = built_as({8, 1});
-  Diagonals bench(p);
-  const EdgePlanes before = random_edges(60, 9, 1), after = random_edges(44, 9, 2);
-  for (Cycle cycles = 100; cycles < 130; ++cycles) {
-    bench.send(before);
-    bench.clock.run(cycles);
-    bench.clock.set_reset_n(false);
-    bench.clock.run(1);
-    bench.clock.set_reset_n(true);
-    const Cycle begins = bench.clock.cycle();
-    EXPECT_EQ(differences(bench.run(after), expected(after, 8, 2)), 0u) << cycles;
-    EXPECT_EQ(bench.gate.taken.at(0).cycle, begins + 1 + bench.delay() + kStages);
-  }
-}
-
 // ---- memories and ports -------------------------------------------------------------------------
 
 template <class Memory = rtl::MemoryBase>
@@ -517,83 +397,28 @@ TEST_P(DiagonalCycles, PortsAndAccessesAreTheContracts) {
   EXPECT_EQ(window.reads(), bench.words(edges) + bench.delay());
 }
 
+// 16 steps either way and the row between them; no engine is built with more of them.
+TEST(DiagonalTokens, ColumnsHaveABitOfEachRow) {
+  const rtl::Payload columns = rtl::Payload::of<DiagonalColumnsToken>();
+  EXPECT_EQ(columns.find("left.0")->bits, 33u);
+  EXPECT_EQ(columns.find("top.0")->bits, 33u);
+}
+
 // A stage less between address and word.
 TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
   const Parameters p = built_as({8, 0});
   Diagonals bench(p);
-  EdgePlanes edges = empty(40, 20);
-  fall(edges, 0, 0, 0, 6);
+  EdgePlanes edges = empty(40, 20);  // a falling stair
+  for (int i = 0; i <= 6; ++i) {
+    edges.top.set(i, i);
+    edges.left.set(i + 1, i);
+  }
   bench.send(edges);
   // The first pixel, popped in 1.
   const Cycle addressed = 1 + bench.delay() + 3;
   bench.clock.run(addressed + 1);
-  EXPECT_THAT(
-      of_a_stage_less(bench.unit, bench.clock),
-      ::testing::AllOf(::testing::HasSubstr("diagonal_rom"), ::testing::HasSubstr("is used")));
+  expect_used_early(bench.unit, bench.clock, "diagonal_rom");
 }
-
-// ---- injected faults
-// -----------------------------------------------------------------------------
-
-struct Injected {
-  const char* name;
-  void (*in_rom)(Rom&);
-};
-void PrintTo(const Injected& f, std::ostream* out) { *out << f.name; }
-class DiagonalFaults : public ::testing::TestWithParam<Injected> {};
-
-void for_all(Rom& rom, const std::function<std::uint16_t(int, int, int, int)>& word) {
-  std::vector<std::uint16_t> words;
-  for (int e1 = 0; e1 < 4; ++e1)
-    for (int e2 = 0; e2 < 4; ++e2)
-      for (int d1 = 0; d1 < 20; ++d1)
-        for (int d2 = 0; d2 < 20; ++d2) words.push_back(word(e1, e2, d1, d2));
-  for (std::size_t i = 0; i < words.size(); ++i) rom.backdoor(i) = words[i];
-}
-
-// What is wrong in the ROM is what a wrong decode, choice or address would read.
-TEST_P(DiagonalFaults, AreSeen) {
-  const Parameters p = built_as({8, 0});
-  Diagonals bench(p);
-  GetParam().in_rom(memory_of<Rom>(bench, "diagonal_rom"));
-  const EdgePlanes edges = random_edges(75, 60, 3);
-  EXPECT_GT(differences(bench.run(edges), expected(edges, 8, 1)), 0u);
-}
-INSTANTIATE_TEST_SUITE_P(
-    Rom, DiagonalFaults,
-    ::testing::Values(
-        Injected{"a bit of a word",
-                 [](Rom& rom) { rom.backdoor(diagonal_address(0, 0, 2, 1)) ^= 1; }},
-        Injected{"rising for falling",
-                 [](Rom& rom) {
-                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                     const std::uint16_t word = rom.backdoor(diagonal_address(e1, e2, d1, d2));
-                     return static_cast<std::uint16_t>(word << 8 | word >> 8);
-                   });
-                 }},
-        Injected{"codes of the ends exchanged",
-                 [](Rom& rom) {
-                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                     return rom.backdoor(diagonal_address(e2, e1, d1, d2));
-                   });
-                 }},
-        Injected{"bits of a code exchanged",
-                 [](Rom& rom) {
-                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                     return rom.backdoor(diagonal_address(e1 >> 1 | (e1 & 1) << 1, e2, d1, d2));
-                   });
-                 }},
-        Injected{"a pixel further from end 1",
-                 [](Rom& rom) {
-                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                     return rom.backdoor(diagonal_address(e1, e2, std::min(19, d1 + 1), d2));
-                   });
-                 }},
-        Injected{"a pixel further from end 2", [](Rom& rom) {
-                   for_all(rom, [&](int e1, int e2, int d1, int d2) {
-                     return rom.backdoor(diagonal_address(e1, e2, d1, std::min(19, d2 + 1)));
-                   });
-                 }}));
 
 // One bit of one plane of one column.
 TEST(DiagonalFault, AFlippedEdgeIsSeen) {

@@ -2,7 +2,6 @@
 // SlotSequencer, LumaUnit and EdgeDetector as they follow each other: pixels in, edge bits out.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "tb/unit/rtl/morphological/parts.h"
@@ -14,7 +13,7 @@ struct Bits {
   friend bool operator==(const Bits&, const Bits&) = default;
 };
 
-// Frame in, edge bits out; the rules change by register between frames.
+// Frame in, edge bits out; rules may be written before each.
 struct Front {
   explicit Front(const Parameters& p)
       : lanes(lanes_of(p)),
@@ -39,12 +38,9 @@ struct Front {
     clock.add(done);
   }
   // Bits of each pixel in raster order.
-  std::vector<Bits> detect(const Frame& frame,
-                           const std::map<std::uint32_t, std::uint32_t>& writes = {}) {
-    clock.set_reset_n(false);
-    clock.run(1);
-    clock.set_reset_n(true);
-    for (const auto& [offset, value] : writes) registers.bus.write(offset, value);
+  std::vector<Bits> detect(const Frame& frame, const Parameters* configuration = nullptr) {
+    reset_by(clock);
+    if (configuration != nullptr) registers.software.set_configuration(*configuration);
     registers.software.set_size(frame.width, frame.height);
     const auto all = beats_of(frame, lanes);
     driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {

@@ -66,9 +66,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
       const std::function<void(PixelBeat&)>& change,
       const std::function<void()>& each_clock = [] {},
       const std::function<void()>& written = [] {}) {
-    bench.clock.set_reset_n(false);
-    bench.clock.run(40);
-    bench.clock.set_reset_n(true);
+    reset_by(bench.clock, 40);
     const Cycle begin = bench.clock.cycle();
     auto beats = beats_of(stairs(), lanes_of(p));
     for (PixelBeat& beat : beats) change(beat);

@@ -9,8 +9,6 @@
 #include <deque>
 #include <utility>
 
-#include "tb/base/random.h"
-
 namespace deburr::tb::morphological_rtl::line_bounds_test {
 namespace {
 
@@ -112,57 +110,6 @@ TEST(LineBounds, AreThoseOfTheDefinitionInEveryShortGrowth) {
     grow({length, other}, 6, checked);
   EXPECT_GT(checked.rejected, 10'000u);
   EXPECT_GT(checked.bends, 1'000u);
-}
-
-// Long ones, near to a line of any slope: that is where they do not end at once.
-TEST(LineBounds, AreThoseOfTheDefinitionInLongGrowths) {
-  Random random(1);
-  Checked checked;
-  std::uint64_t corners = 0, full = 0;
-  for (int trial = 0; trial < 6'000; ++trial) {
-    const int length = 1 + static_cast<int>(random.below(2048));
-    Growth now(length, length > 1 && random.chance(500) ? length - 1 : length + 1);
-    // y of corner i: floor(slope i + phase), of which the step from 0 to 1 is none.
-    const std::int64_t slope = random.below(random.chance(250) ? 1u << 17 : 1u << 20);
-    const std::int64_t phase = random.below(static_cast<std::uint32_t>((1 << 20) - slope));
-    const auto other = [&](int i) {
-      return (slope * (i + 1) + phase) >> 20 != (slope * i + phase) >> 20;
-    };
-    bool right = true, left = true;
-    int first = 0, last = 1;
-    for (int step = 0; step < 16 && (right || left); ++step) {
-      check(now, checked);
-      ASSERT_FALSE(HasFatalFailure()) << trial;
-      const bool right_other = random.chance(30) ? random.chance(500) : other(last);
-      const bool left_other = random.chance(30) ? random.chance(500) : other(first - 1);
-      const Fit right_fit = now.bounds.right(right_other), left_fit = now.bounds.left(left_other);
-      right = right && right_fit != Fit::kNone && !random.chance(20);
-      left = left && left_fit != Fit::kNone && !random.chance(20);
-      if (right && left && !LineBounds::together(right_fit, left_fit)) break;
-      if (right) now.right(right_other), ++last;
-      if (left) now.left(left_other), --first;
-    }
-    corners += now.corners.size();
-    full += now.corners.size() == 34;
-  }
-  EXPECT_GT(corners, 80'000u);
-  EXPECT_GT(full, 500u);
-  EXPECT_GT(checked.rejected, 50'000u);
-  EXPECT_GT(checked.bends, 1'000u);
-}
-
-// After a step L and a step L' either end may turn the line, by the letter that does not repeat the
-// two. Then both new corners lie above it.
-TEST(LineBounds, ABendIsTwoTurnsToTheSameSide) {
-  Growth now(5, 6);
-  now.right(true);  // 5 6
-  EXPECT_EQ(now.bounds.right(true), Fit::kTurnsUp);
-  EXPECT_EQ(now.bounds.left(false), Fit::kTurnsUp);
-  EXPECT_FALSE(LineBounds::together(now.bounds.right(true), now.bounds.left(false)));
-  EXPECT_FALSE(consistent(now.with_both(true, false)));
-  EXPECT_EQ(now.bounds.right(false), Fit::kStays);
-  EXPECT_EQ(now.bounds.left(true), Fit::kStays);
-  EXPECT_TRUE(consistent(now.with_both(false, true)));
 }
 
 }  // namespace

@@ -96,6 +96,12 @@ struct WiredRegisters : RegisterFile {
 
 using unit_bench::cycles_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;
 
+// With a stage less from now on a word of this memory is used before it is there.
+inline void expect_used_early(rtl::Unit& unit, ClockDomain& clock, const char* memory) {
+  EXPECT_THAT(of_a_stage_less(unit, clock),
+              ::testing::AllOf(::testing::HasSubstr(memory), ::testing::HasSubstr("is used")));
+}
+
 // An engine small enough for single blocks: four rows of reach, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
 
@@ -105,13 +111,6 @@ inline Parameters small(int lanes_code = 0) {
   p.line_pixels = 64;
   return p;
 }
-
-inline Parameters deburr_without_trim() {
-  Parameters p = preset(spec::morphological::Preset::kDeburrLine);
-  p.trim = false;
-  return p;
-}
-inline constexpr std::uint32_t kTrimBit = 1u << 17;  // of CONFIG
 
 inline rtl::morphological::RunToken run_of(int length, int start, std::uint32_t slot = 0) {
   rtl::morphological::RunToken token{};

@@ -59,6 +59,10 @@ struct Storing {
       token.pixel[static_cast<std::size_t>(i)] = frame.at(b * lanes + i, y);
     beat_driver.add(at, token);
   }
+  void store_all() {
+    for (int y = 0; y < frame.height; ++y)
+      for (int b = 0; b < beats_a_row; ++b) store_beat(0, y, b);
+  }
   void fetch_beat(Cycle at, int y, int b) { fetch_driver.add(at, {slot(y + kLag, b)}); }
   // Place among the lines under way, line in its row, row on the chip: as a request's tag has them.
   std::uint32_t tag(std::uint32_t line, bool write) const {
@@ -91,6 +95,29 @@ struct Storing {
     }
     EXPECT_EQ(token.before, first > 0 ? frame.at(first - 1, y) : token.before);
     EXPECT_EQ(token.after, end < frame.width ? frame.at(end, y) : token.after);
+  }
+
+  struct Request {
+    bool write;
+    std::uint32_t line;
+    Cycle taken;
+  };
+  // The newest requests.
+  void expect_requests(std::size_t in_all, const std::vector<Request>& newest) const {
+    ASSERT_EQ(request_gate.taken.size(), in_all);
+    for (std::size_t i = 0; i < newest.size(); ++i) {
+      const auto& [cycle, request] = request_gate.taken[in_all - newest.size() + i];
+      EXPECT_EQ(request.write, newest[i].write) << i;
+      EXPECT_EQ(request.tag, tag(newest[i].line, newest[i].write)) << i;
+      EXPECT_EQ(cycle, newest[i].taken) << i;
+    }
+  }
+  // The first beats of the frame have come.
+  void expect_pixels(std::size_t beats_taken) const {
+    ASSERT_GE(pixel_gate.taken.size(), beats_taken);
+    for (std::size_t i = 0; i < beats_taken; ++i)
+      expect_around(pixel_gate.taken[i].token, static_cast<int>(i) / beats_a_row,
+                    static_cast<int>(i) % beats_a_row);
   }
 
   const Frame frame;
@@ -173,8 +200,7 @@ TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
   constexpr int kRows = (kReach + 7 + 3) / 4 * 4, kWidth = 5;
   constexpr Cycle kAsked = 100;
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(kWidth, kRows + 2));
-  for (int y = 0; y < kRows + 2; ++y)
-    for (int b = 0; b < kWidth; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   Cycle at = kAsked;
   for (int y = 0; y < kRows + 2; ++y)
     for (int b = 0; b < kWidth; ++b) bench.fetch_beat(at++, y, b);
@@ -189,9 +215,7 @@ TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
   bench.clock.run(1);
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth + 1));
   bench.clock.run(100);
-  for (std::size_t i = 0; i < static_cast<std::size_t>((kRows + 2) * kWidth); ++i)
-    bench.expect_around(bench.pixel_gate.taken.at(i).token, static_cast<int>(i) / kWidth,
-                        static_cast<int>(i) % kWidth);
+  bench.expect_pixels(static_cast<std::size_t>((kRows + 2) * kWidth));
   EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth);  // then the other side works
 }
 
@@ -219,8 +243,7 @@ TEST(PixelStoreBlock, WaitsDownstream) {
 TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
   const Frame frame = colours(20, 3);
   Storing bench(built(spec::morphological::Storage::kMemory, 0), frame);
-  for (int y = 0; y < 3; ++y)
-    for (int b = 0; b < 20; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   bench.clock.run(80);
   ASSERT_EQ(bench.request_gate.taken.size(), 6u);
   for (std::size_t line = 0; line < 6; ++line) {
@@ -243,46 +266,33 @@ TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
 // Line 1 is answered before line 0: neither is read before line 0 is, then one a clock.
 TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
-  for (int b = 0; b < 48; ++b) bench.store_beat(0, 0, b);
+  bench.store_all();
   bench.answer(60, 1, true);
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
   bench.clock.run(120);
-  ASSERT_EQ(bench.request_gate.taken.size(), 6u);
   // An answer is sent in c, popped in c + 1, and so is the read; taken in c + 2.
-  const Cycle taken[] = {72, 73, 82};
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_FALSE(bench.request_gate.taken[3 + i].token.write);
-    EXPECT_EQ(bench.request_gate.taken[3 + i].token.tag,
-              bench.tag(static_cast<std::uint32_t>(i), false));
-    EXPECT_EQ(bench.request_gate.taken[3 + i].cycle, taken[i]);
-  }
+  bench.expect_requests(6, {{false, 0, 72}, {false, 1, 73}, {false, 2, 82}});
 }
 
 // Four lanes, 16 pixels: a line every four cycles. Whenever an answer comes, the write of that
 // clock goes first and the read follows.
 TEST(PixelStoreMemory, WritesGoBeforeReads) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
-  for (int y = 0; y < 6; ++y)
-    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   // Line y is sent in clock 4 y + 4. The answer to line 0 is popped in 12, when line 2 is sent;
   // that to line 1 in 17, a clock after line 3.
   bench.answer(11, 0, true);
   bench.answer(16, 1, true);
   bench.clock.run(60);
-  struct Order {
-    bool write;
-    std::uint32_t line;
-    Cycle taken;
-  };
-  const Order order[] = {{true, 0, 5},  {true, 1, 9},   {true, 2, 13}, {false, 0, 14},
-                         {true, 3, 17}, {false, 1, 18}, {true, 4, 21}, {true, 5, 25}};
-  ASSERT_EQ(bench.request_gate.taken.size(), std::size(order));
-  for (std::size_t i = 0; i < std::size(order); ++i) {
-    EXPECT_EQ(bench.request_gate.taken[i].token.write, order[i].write) << i;
-    EXPECT_EQ(bench.request_gate.taken[i].token.tag, bench.tag(order[i].line, order[i].write)) << i;
-    EXPECT_EQ(bench.request_gate.taken[i].cycle, order[i].taken) << i;
-  }
+  bench.expect_requests(8, {{true, 0, 5},
+                            {true, 1, 9},
+                            {true, 2, 13},
+                            {false, 0, 14},
+                            {true, 3, 17},
+                            {false, 1, 18},
+                            {true, 4, 21},
+                            {true, 5, 25}});
   EXPECT_EQ(bench.store.lines_written.value(), 6u);
   EXPECT_EQ(bench.store.lines_read.value(), 2u);
 }
@@ -290,17 +300,13 @@ TEST(PixelStoreMemory, WritesGoBeforeReads) {
 // Rows of one beat are a line a clock: reads have to wait for the end of the writes.
 TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(4, 9));
-  for (int y = 0; y < 9; ++y) bench.store_beat(0, y, 0);
+  bench.store_all();
   bench.answer(3, 0, true);
   bench.answer(4, 1, true);
   bench.clock.run(60);
-  ASSERT_EQ(bench.request_gate.taken.size(), 11u);
-  for (std::size_t i = 0; i < 11; ++i) {
-    EXPECT_EQ(bench.request_gate.taken[i].token.write, i < 9) << i;
-    EXPECT_EQ(bench.request_gate.taken[i].token.tag,
-              bench.tag(static_cast<std::uint32_t>(i < 9 ? i : i - 9), i < 9));
-    EXPECT_EQ(bench.request_gate.taken[i].cycle, i + 2);
-  }
+  std::vector<Storing::Request> wanted;
+  for (std::uint32_t i = 0; i < 11; ++i) wanted.push_back({i < 9, i < 9 ? i : i - 9, i + 2});
+  bench.expect_requests(11, wanted);
 }
 
 // Four rows on the chip: row 4 takes the place of row 0, which is asked for last with row 1. Of a
@@ -308,29 +314,21 @@ TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
 TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 6));
   constexpr Cycle kAsked = 230;
-  for (int y = 0; y < 6; ++y)
-    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   for (std::uint32_t line = 0; line < 12; ++line) bench.answer(196 + line, line, true);
   for (std::uint32_t line = 0; line < 8; ++line) bench.answer(210, line, false, bench.line(line));
   for (int y = 0; y < 2; ++y)
     for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
   bench.clock.run(330);
-  ASSERT_EQ(bench.request_gate.taken.size(), 12u + 10u);
-  EXPECT_EQ(bench.request_gate.taken[20].token.tag, bench.tag(8, false));
-  EXPECT_EQ(bench.request_gate.taken[21].token.tag, bench.tag(9, false));
   // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
-  EXPECT_EQ(bench.request_gate.taken[20].cycle, kAsked + 49);
-  EXPECT_EQ(bench.request_gate.taken[21].cycle, kAsked + 65);
-  for (std::size_t i = 0; i < 64; ++i)
-    bench.expect_around(bench.pixel_gate.taken.at(i).token, static_cast<int>(i) / 32,
-                        static_cast<int>(i) % 32);
+  bench.expect_requests(12 + 10, {{false, 8, kAsked + 49}, {false, 9, kAsked + 65}});
+  bench.expect_pixels(64);
 }
 
 // Each beat waits for the line that its own lower neighbour is in, and for no other.
 TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 3));
-  for (int y = 0; y < 3; ++y)
-    for (int b = 0; b < 32; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   for (std::uint32_t line = 0; line < 6; ++line) bench.answer(110, line, true);
   for (std::uint32_t line = 0; line < 3; ++line) bench.answer(130, line, false, bench.line(line));
   bench.answer(200, 3, false, bench.line(3));
@@ -371,19 +369,13 @@ TEST(PixelStoreMemory, AWriteWaitsForRoom) {
   Parameters p = built(spec::morphological::Storage::kMemory, 2);
   p.memory_outstanding = 3;
   Storing bench(p, colours(16, 6));
-  for (int y = 0; y < 6; ++y)
-    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   bench.answer(50, 0, true);
   bench.clock.run(80);
   // Lines 0, 1, 2 in 4, 8, 12; three beats of line 3 until 15, the fourth waits. The answer is
   // popped in 51, behind the side that stores: line 0 is read in that clock, line 3 goes in 52; the
   // last beat of line 4 waits from 56 on.
-  ASSERT_EQ(bench.request_gate.taken.size(), 5u);
-  EXPECT_EQ(bench.request_gate.taken[2].cycle, 13u);
-  EXPECT_EQ(bench.request_gate.taken[3].token.write, false);
-  EXPECT_EQ(bench.request_gate.taken[3].cycle, 52u);
-  EXPECT_EQ(bench.request_gate.taken[4].token.tag, bench.tag(3, true));
-  EXPECT_EQ(bench.request_gate.taken[4].cycle, 53u);
+  bench.expect_requests(5, {{true, 2, 13}, {false, 0, 52}, {true, 3, 53}});
   EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
 }
 
@@ -391,7 +383,7 @@ TEST(PixelStoreMemory, AWriteWaitsForRoom) {
 // behind such an answer, a read that has waited for the link.
 TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
-  for (int b = 0; b < 48; ++b) bench.store_beat(0, 0, b);  // stored in 1 to 48
+  bench.store_all();  // stored in 1 to 48
   bench.answer(60, 1, true);
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
@@ -408,9 +400,7 @@ TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
   // The writes of lines 1 and 0 are answered in 61 and 71, the turn of line 1 is in 72; both are
   // read when the link has room, in 73 and 74; line 2 in 81, with its answer. Of what is read line
   // 1 comes in 91 and 92, line 0 in 101 and 102, the turn of line 1 is in 103; line 2 in 111, 112.
-  ASSERT_EQ(bench.request_gate.taken.size(), 6u);
-  EXPECT_EQ(bench.request_gate.taken[3].cycle, 74u);
-  EXPECT_EQ(bench.request_gate.taken[4].cycle, 75u);
+  bench.expect_requests(6, {{false, 0, 74}, {false, 1, 75}, {false, 2, 82}});
   EXPECT_EQ(bench.store.busy_cycles(), 48u + 6u + 7u);
   EXPECT_EQ(bench.store.idle_cycles(), 120u - 48u - 6u - 7u);
 }
@@ -418,8 +408,7 @@ TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
 // Rows 4 and 5 wait for the places of rows 0 and 1, of which none has been asked for: no work.
 TEST(PixelStoreMemory, IsIdleWhileReadsWaitForAPlace) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
-  for (int y = 0; y < 6; ++y)
-    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   for (std::uint32_t line = 0; line < 6; ++line) bench.answer(40, line, true);
   for (std::uint32_t line = 0; line < 4; ++line) bench.answer(60, line, false, bench.line(line));
   bench.clock.run(100);
@@ -434,16 +423,13 @@ TEST(PixelStoreMemory, AResetForgetsTheLinesThatWaitToBeRead) {
   Parameters p = built(spec::morphological::Storage::kMemory, 2);
   p.memory_outstanding = 1;
   Storing bench(p, colours(16, 3));
-  for (int y = 0; y < 3; ++y)
-    for (int b = 0; b < 4; ++b) bench.store_beat(0, y, b);
+  bench.store_all();
   bench.answer(10, 0, true);
   bench.answer(20, 1, true);
   bench.clock.run(30);
   EXPECT_EQ(bench.store.lines_written.value(), 3u);
   EXPECT_EQ(bench.store.lines_read.value(), 1u);
-  bench.clock.set_reset_n(false);
-  bench.clock.run(1);
-  bench.clock.set_reset_n(true);
+  reset_by(bench.clock);
   bench.clock.run(20);
   EXPECT_EQ(bench.store.lines_read.value(), 0u);
   EXPECT_EQ(bench.store.busy_cycles(), 0u);
@@ -509,44 +495,6 @@ TEST(Addresses, WrapAt4GiB) {
   }
 }
 
-TEST(Memory, EachLineIsWrittenOnceAndReadOnceInOrder) {
-  Parameters p = preset(Preset::kMlaa);
-  p.storage = spec::morphological::Storage::kMemory;
-  EngineBench bench(p);
-  bench.bus.write(reg::kPixelBase, 0x4000);
-  const Frame frame = noise(97, 61);
-  bench.run(frame);
-  const std::uint64_t lines = 61 * 7;  // 97 pixels are 388 bytes, 7 lines
-  EXPECT_EQ(bench.memory->writes(), lines);
-  EXPECT_EQ(bench.memory->reads(), lines);
-  EXPECT_EQ(bench.engine.pixel_store.lines_written.value(), lines);
-  EXPECT_EQ(bench.engine.pixel_store.lines_read.value(), lines);
-  EXPECT_EQ(bench.engine.memory_port->bytes_written.value(), lines * 64);
-  ASSERT_EQ(bench.memory->lines_read().size(), lines);
-  for (std::uint64_t i = 0; i < lines; ++i)
-    ASSERT_EQ(bench.memory->lines_read()[i], 0x4000 + 64 * i);
-  const auto bytes = bench.memory->dump(0x4000, lines * 64);
-  for (int y = 0; y < 61; ++y)
-    for (int x = 0; x < 112; ++x)
-      for (std::size_t c = 0; c < 4; ++c)
-        ASSERT_EQ(bytes[static_cast<std::size_t>(y * 448 + 4 * x) + c],
-                  x < 97 ? frame.at(x, y)[c] : 0)
-            << x << ' ' << y;
-}
-
-TEST(Memory, AnErrorIsCountedAndTheLineReadsAsZeros) {
-  Parameters p = preset(Preset::kMlaa);
-  p.storage = spec::morphological::Storage::kMemory;
-  EngineBench bench(p);
-  bench.memory->fail_range(64 * 3, 64 * 4);  // written and read: two errors
-  const Frame out = bench.run(draw(64, 2, [](int, int) { return grey(200); }));
-  for (int x = 0; x < 64; ++x) EXPECT_EQ(out.at(x, 0)[0], x < 48 ? 200 : 0) << x;
-  EXPECT_EQ(out.at(50, 0)[3], 0);
-  EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 2u);
-  EXPECT_EQ(bench.bus.read(reg::kStatus),
-            reg::kStatusIdle | reg::kStatusFrameDone | reg::kStatusMemoryError);
-}
-
 TEST(Memory, OutstandingIsKept) {
   Parameters p = preset(Preset::kMlaa);
   p.storage = spec::morphological::Storage::kMemory;
@@ -593,9 +541,7 @@ TEST(PixelStoreLines, AWordIsNotThereInTheClockOfItsAddress) {
   bench.store_beat(0, 0, 0);
   bench.fetch_beat(10, 0, 0);
   bench.clock.run(12);
-  EXPECT_THAT(
-      of_a_stage_less(bench.store, bench.clock),
-      ::testing::AllOf(::testing::HasSubstr("pixel_lines0"), ::testing::HasSubstr("is used")));
+  expect_used_early(bench.store, bench.clock, "pixel_lines0");
 }
 
 TEST(PixelStoreLines, HaveNoBeatBeyondTheLongestRow) {

@@ -19,9 +19,7 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
   all[0].start_of_frame = false;
   all[1].end_of_row = true;
   all[2].count = 3;
-  front.clock.set_reset_n(false);
-  front.clock.run(1);
-  front.clock.set_reset_n(true);
+  reset_by(front.clock);
   front.registers.software.set_size(3, 1);
   front.driver.send([all](std::uint64_t i, spec::morphological::PixelBeat& beat) {
     if (i >= all.size()) return false;
@@ -36,8 +34,7 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
 // A frame is inside when its first beat has been taken, and not before.
 TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EngineBench bench(preset(Preset::kDeburrLine));
-  bench.software.set_size(97, 61);
-  bench.driver.send(beats_of(noise(), 1));
+  bench.send(noise());
   for (int i = 0; i < 28; ++i) {
     auto& link = i % 2 != 0 ? static_cast<rtl::LinkBase&>(bench.engine.sequencer.slots_out.link())
                             : bench.engine.sequencer.beats_out.link();
@@ -51,8 +48,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   bench.bus.write(reg::kConfiguration, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_NE(bench.bus.read(reg::kConfiguration), configuration);
   bench.bus.write(reg::kThreshold, 1671270);
-  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
-                   1'000'000);
+  bench.finish();
   EXPECT_EQ(hash(bench.last(97, 61)), vector_hash("noise_slope"));
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone);
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
@@ -64,16 +60,14 @@ TEST(FirstBeat, WaitsForTheTextGuardBeforeTheFrameIsInside) {
   Parameters p = preset(Preset::kDeburrLine);
   p.text_guard = true;
   EngineBench bench(p);
-  bench.software.set_size(97, 61);
-  bench.driver.send(beats_of(noise(), 1));
+  bench.send(noise());
   for (int i = 0; i < 28; ++i) {
     bench.engine.sequencer.guard_slots_out->link().hold_push(bench.clock.cycle());
     bench.clock.run(1);
   }
   EXPECT_EQ(bench.in.pops(), 0u);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
-  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
-                   1'000'000);
+  bench.finish();
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
 }
 
@@ -98,14 +92,12 @@ TEST_F(GuardedFrame, WaitsUpstreamForItsBeats) {
 }
 TEST_F(GuardedFrame, SendsEachSlotToTheTextGuardOnce) {
   EngineBench bench(parameters());
-  bench.software.set_size(97, 61);
-  bench.driver.send(beats_of(noise(), 1));
+  bench.send(noise());
   for (int i = 0; i < 3000; ++i) {
     if (i % 3 == 0) bench.engine.sequencer.beats_out.link().hold_push(bench.clock.cycle());
     bench.clock.run(1);
   }
-  bench.bench->run([&] { return bench.sink.received() == 97u * 61u && bench.engine.idle(); },
-                   1'000'000);
+  bench.finish();
   EXPECT_EQ(bench.engine.sequencer.guard_slots_out->link().pushes(), 97u * (61u + 8u));
 }
 

@@ -37,6 +37,13 @@ using rtl::Link;
 using spec::morphological::Parameters;
 using spec::morphological::Rgba8;
 
+// RESET_N is low for some cycles.
+inline void reset_by(ClockDomain& clock, Cycle cycles = 1) {
+  clock.set_reset_n(false);
+  clock.run(cycles);
+  clock.set_reset_n(true);
+}
+
 struct Frame {
   int width = 0, height = 0;
   std::vector<Rgba8> pixel;
@@ -68,7 +75,6 @@ inline Frame line(int width = 200, int height = 150) { return stimuli::line_imag
 inline Frame blocks(int width = 90, int height = 80) {
   return stimuli::blocks_image(width, height);
 }
-inline Frame checkerboard(int width, int height) { return stimuli::checkerboard(width, height); }
 
 inline std::uint64_t hash(const Frame& frame) {
   Image image(frame.width, frame.height);
@@ -153,18 +159,27 @@ struct EngineBench {
   }
 
   void reset(Cycle cycles) {
-    clock.set_reset_n(false);
-    clock.run(cycles);
-    clock.set_reset_n(true);
+    reset_by(clock, cycles);
     if (program) software.set_configuration(configuration);
   }
 
-  // Runs one frame after another that was added; the frames come back in order.
-  Frame run(const Frame& frame, Cycle limit = 5'000'000) {
+  void send(const Frame& frame) {
     software.set_size(frame.width, frame.height);
     driver.send(beats_of(frame, lanes_of(engine.parameters())));
     wanted += static_cast<std::uint64_t>(beats_a_row(frame, engine.parameters()) * frame.height);
-    bench->run([&] { return sink.received() == wanted && engine.idle(); }, limit);
+  }
+  // Until all that was sent is out.
+  void finish(const std::function<void()>& each_clock = {}, Cycle limit = 5'000'000) {
+    const auto done = [&] {
+      if (each_clock) each_clock();
+      return sink.received() == wanted && engine.idle();
+    };
+    bench->run(done, limit);
+  }
+  // Runs one frame after another that was added; the frames come back in order.
+  Frame run(const Frame& frame, Cycle limit = 5'000'000) {
+    send(frame);
+    finish({}, limit);
     return last(frame.width, frame.height);
   }
   // The newest frame in the sink.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Cycles of the whole engine against the contract: latency by formula, throughput, back-pressure,
 // the interlock, and that time may change but data may not.
-#include <optional>
 #include <string>
 #include <tuple>
 
-#include "tb/base/fnv.h"
-#include "tb/base/forked.h"
 #include "tb/base/random.h"
 #include "tb/base/sanitized.h"
 #include "tb/harness/monitor.h"
@@ -20,6 +17,7 @@ namespace {
 using namespace rtl::morphological;  // NOLINT: a test of these
 using spec::morphological::Axis;
 using spec::morphological::Preset;
+using spec::morphological::Quality;
 
 // When beats were popped (the driver's push, a clock later if the pipe was ready) and pushed out.
 struct Times {
@@ -35,34 +33,45 @@ struct Times {
   Monitor<spec::morphological::BlendedBeat> out_;
 };
 
-// Stairs whose steps are `run` pixels long, `apart` rows between them.
-Frame stairs(int width, int height, int run, int apart) {
-  return draw(width, height,
-              [&](int x, int y) { return grey((y + x / run) / apart % 2 != 0 ? 255 : 0); });
-}
-
 struct Case {
-  int width, height, lanes_code, search_rows;
+  const char* name;
+  int width, height, lanes_code;
+  Parameters (*configuration)();
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.width << 'x' << c.height; }
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+template <int kReachRows>
+Parameters reaching() {
+  Parameters p = preset(Preset::kDeburrLine, kReachRows);
+  p.steps = std::min(8, kReachRows - 1);
+  return p;
+}
+template <Quality kQuality>
+Parameters smaa_of() {
+  return smaa(kQuality);
+}
 
 class LatencyFormula : public ::testing::TestWithParam<Case> {};
 
 // Every beat, flush included, if rows are long enough for the records: BPR >= T (N + 1) +
 // divider.latency + 12 if none waits for another, else the bound of bounds_test.cpp
-// (docs/reference/morphological/hardware.md).
+// (docs/reference/morphological/hardware.md). SMAA's blocks cost no clock, and half of the frame is
+// random pixels of 37 % edges then.
 TEST_P(LatencyFormula, HoldsForEveryBeat) {
-  const Case c = GetParam();
-  Parameters p = preset(Preset::kDeburrLine, c.search_rows);
-  p.steps = std::min(8, c.search_rows - 1);
+  const Case& c = GetParam();
+  Parameters p = c.configuration();
   p.lanes = static_cast<spec::morphological::Lanes>(c.lanes_code);
   p.line_pixels = c.width;
   EngineBench bench(p);
   Times times(bench);
-  const Frame in = line(c.width, c.height);
+  stimuli::Sequence s;
+  Frame in = line(c.width, c.height);
+  if (p.ends == spec::morphological::Ends::kCrossings)
+    for (int y = 0; y < c.height; ++y)
+      for (int x = c.width / 2; x < c.width; ++x) in.at(x, y) = grey(s.next() % 100 < 13 ? 255 : 0);
   bench.run(in);
   const auto beats = static_cast<Cycle>(beats_a_row(in, p));
-  const Cycle latency = static_cast<Cycle>(c.search_rows + 5) * beats + kPipe;
+  const Cycle latency = static_cast<Cycle>(search_range_of(p) + 5) * beats + kPipe;
   ASSERT_EQ(times.popped.size(), beats * static_cast<Cycle>(c.height));
   ASSERT_EQ(times.pushed.size(), times.popped.size());
   for (std::size_t j = 0; j < times.popped.size(); ++j) {
@@ -73,45 +82,73 @@ TEST_P(LatencyFormula, HoldsForEveryBeat) {
   EXPECT_EQ(bench.engine.beat_latency.max(), latency);
   EXPECT_EQ(bench.engine.beat_latency.count(), times.popped.size());
   EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
-  const Cycle frame = static_cast<Cycle>(c.height + c.search_rows + 5) * beats + kPipe;
+  const Cycle frame = static_cast<Cycle>(c.height + search_range_of(p) + 5) * beats + kPipe;
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), frame);
   EXPECT_EQ(times.pushed.back() - times.popped.front() + 1, frame);
+  if (bench.engine.diagonals) {
+    EXPECT_EQ(stalls(bench.engine.area, "diagonals"), 0u);
+    EXPECT_EQ(stalls(bench.engine.extractor, "diagonals"), 0u);
+    EXPECT_EQ(stalls(*bench.engine.diagonals, "downstream"), 0u);
+  }
+  for (const rtl::MemoryBase* memory : bench.engine.memories())
+    EXPECT_EQ(memory->not_implementable(), "") << memory->name();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Sizes, LatencyFormula,
-    ::testing::Values(Case{48, 1, 0, 32}, Case{48, 40, 0, 32}, Case{49, 3, 0, 4},
-                      Case{100, 64, 0, 9}, Case{200, 150, 0, 32}, Case{200, 20, 1, 32},
-                      Case{97, 33, 1, 8}, Case{320, 30, 2, 32}, Case{331, 77, 2, 16},
-                      Case{193, 9, 2, 4}, Case{1920, 6, 0, 32}, Case{8192, 2, 2, 128}),
-    [](const auto& param) {
-      const Case& c = param.param;
-      std::string name = std::to_string(c.width);
-      name += 'x' + std::to_string(c.height) + "_lanes";
-      name +=
-          std::to_string(spec::morphological::kLaneCount[static_cast<std::size_t>(c.lanes_code)]) +
-          "_search_range";
-      return name += std::to_string(c.search_rows);
-    });
+    ::testing::Values(
+        Case{"one_row", 48, 1, 0, reaching<32>}, Case{"narrow", 48, 40, 0, reaching<32>},
+        Case{"three_rows", 49, 3, 0, reaching<4>}, Case{"search_range_9", 100, 64, 0, reaching<9>},
+        Case{"search_range_32", 200, 150, 0, reaching<32>},
+        Case{"two_lanes", 200, 20, 1, reaching<32>}, Case{"two_lanes_odd", 97, 33, 1, reaching<8>},
+        Case{"four_lanes", 320, 30, 2, reaching<32>},
+        Case{"four_lanes_odd", 331, 77, 2, reaching<16>},
+        Case{"four_lanes_search_range_4", 193, 9, 2, reaching<4>},
+        Case{"hd", 1920, 6, 0, reaching<32>}, Case{"widest", 8192, 2, 2, reaching<128>},
+        Case{"smaa_low", 200, 60, 0, smaa_of<Quality::kLow>},
+        Case{"smaa_medium_two_lanes", 200, 40, 1, smaa_of<Quality::kMedium>},
+        Case{"smaa_high", 200, 40, 0, smaa_of<Quality::kHigh>},
+        Case{"smaa_high_two_lanes", 400, 40, 1, smaa_of<Quality::kHigh>},
+        Case{"smaa_ultra_four_lanes", 400, 30, 2, smaa_of<Quality::kUltra>},
+        Case{"smaa_ultra_hd", 1920, 6, 0, smaa_of<Quality::kUltra>}),
+    [](const auto& param) { return param.param.name; });
+
+// A row of fewer beats than a diagonal takes: rows wait for the one before, and all goes on.
+class ShortRows : public ::testing::TestWithParam<int> {};
+TEST_P(ShortRows, WaitForTheDiagonalsOfTheRowBefore) {
+  Parameters p = smaa(Quality::kUltra);
+  p.line_pixels = 64;
+  EngineBench bench(p);
+  const int width = GetParam();
+  bench.run(draw(width, 60, [](int x, int y) { return grey(x >= y % 16 ? 255 : 0); }), 100'000);
+  EXPECT_EQ(stalls(bench.engine.extractor, "diagonals") != 0, width < 17);
+  EXPECT_EQ(stalls(bench.engine.area, "diagonals"), 0u);
+}
+INSTANTIATE_TEST_SUITE_P(Beats, ShortRows, ::testing::Values(1, 2, 4, 5, 16, 17, 18));
 
 // The way of a record, from the clock that takes the slot in which its run is found.
 constexpr int kFound = 6;  // until a predictor takes it
 constexpr int kFinished =
     5;  // and divider.latency: from there, if not extended, until it is finished
 
-// A row shorter than that waits for its records: the bound is not far from the reference.
-TEST(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
+// A row shorter than that waits for its records: the bound is not far from the reference. The line
+// takes a stage more at the entrance of an AreaUnit with a table.
+class Interlock : public ::testing::TestWithParam<spec::morphological::AreaSource> {};
+TEST_P(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
   Parameters p = preset(Preset::kMlaa);
+  p.area = GetParam();
   EngineBench bench(p);
   // One L at the right border: the run closes in the last slot of the row.
-  const Frame in = draw(20, 40, [](int x, int y) { return grey(x >= 17 && y >= 20 ? 255 : 0); });
-  const Frame out = bench.run(in);
+  bench.run(draw(20, 40, [](int x, int y) { return grey(x >= 17 && y >= 20 ? 255 : 0); }));
   // Nothing else is inside: the row two below begins when the record is finished. Its slot was
   // taken in clock e; the slot two rows below would have come in e + 21.
-  constexpr unsigned kStalls = kFound + 24 + kFinished - 21;
-  EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), kStalls);
-  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (40u + 37u) * 20u + kPipe + kStalls);
+  const unsigned lost = kFound + 24 + kFinished - 21 + has_table(p);
+  EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), lost);
+  EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (40u + 37u) * 20u + kPipe + lost);
 }
+INSTANTIATE_TEST_SUITE_P(Areas, Interlock,
+                         ::testing::Values(spec::morphological::AreaSource::kAnalytic,
+                                           spec::morphological::AreaSource::kTableFull));
 
 // The same with one more clock of room a row for each clock of stall, down to none at the bound.
 class InterlockBound : public ::testing::TestWithParam<int> {};
@@ -133,21 +170,21 @@ struct Load {
 };
 void PrintTo(const Load& load, std::ostream* out) { *out << load.name; }
 
-Frame stairs_5() { return stairs(640, 160, 5, 5); }
-Frame stairs_7() { return stairs(640, 160, 7, 5); }
-Frame stairs_1() { return stairs(640, 160, 1, 40); }
+// So many pixels of a thousand are white.
+template <int kPermille>
+Frame random_pixels() {
+  Random random(kPermille);
+  return draw(640, 160, [&](int, int) { return grey(random.chance(kPermille) ? 255 : 0); });
+}
+// Stairs whose steps are some pixels long, and some rows between them.
+template <int kRun, int kApart>
+Frame stairs() {
+  return draw(640, 160,
+              [](int x, int y) { return grey((y + x / kRun) / kApart % 2 != 0 ? 255 : 0); });
+}
 Frame verticals() {
   return draw(640, 160, [](int x, int y) { return grey((x + y / 9) / 5 % 2 != 0 ? 255 : 0); });
 }
-// So many pixels of a thousand are white.
-Frame random_pixels(std::uint32_t permille) {
-  Random random(permille);
-  return draw(640, 160, [&](int, int) { return grey(random.chance(permille) ? 255 : 0); });
-}
-Frame random_1() { return random_pixels(4); }
-Frame random_10() { return random_pixels(34); }
-Frame random_20() { return random_pixels(71); }
-Frame random_75() { return random_pixels(500); }
 
 class Throughput : public ::testing::TestWithParam<Load> {};
 
@@ -177,17 +214,20 @@ void expect_a_beat_a_clock(Preset which, const Load& load) {
             (static_cast<std::uint64_t>(in.height) + 37) * beats + kPipe);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Loads, Throughput,
-    ::testing::Values(Load{"random_1", 0, random_1, 12}, Load{"random_10", 0, random_10, 98},
-                      Load{"random_20", 0, random_20, 198}, Load{"random_75", 0, random_75, 748},
-                      Load{"random_20_two_lanes", 1, random_20, 198},
-                      Load{"random_20_four_lanes", 2, random_20, 198},
-                      Load{"random_75_four_lanes", 2, random_75, 748},
-                      Load{"stairs_1", 0, stairs_1, 25}, Load{"stairs_5", 0, stairs_5, 200},
-                      Load{"stairs_7", 0, stairs_7, 200}, Load{"verticals", 0, verticals, 200},
-                      Load{"stairs_7_four_lanes", 2, stairs_7, 200}),
-    [](const auto& param) { return param.param.name; });
+INSTANTIATE_TEST_SUITE_P(Loads, Throughput,
+                         ::testing::Values(Load{"random_1", 0, random_pixels<4>, 12},
+                                           Load{"random_10", 0, random_pixels<34>, 98},
+                                           Load{"random_20", 0, random_pixels<71>, 198},
+                                           Load{"random_75", 0, random_pixels<500>, 748},
+                                           Load{"random_20_two_lanes", 1, random_pixels<71>, 198},
+                                           Load{"random_20_four_lanes", 2, random_pixels<71>, 198},
+                                           Load{"random_75_four_lanes", 2, random_pixels<500>, 748},
+                                           Load{"stairs_1", 0, stairs<1, 40>, 25},
+                                           Load{"stairs_5", 0, stairs<5, 5>, 200},
+                                           Load{"stairs_7", 0, stairs<7, 5>, 200},
+                                           Load{"verticals", 0, verticals, 200},
+                                           Load{"stairs_7_four_lanes", 2, stairs<7, 5>, 200}),
+                         [](const auto& param) { return param.param.name; });
 
 class FullWidth : public ::testing::TestWithParam<std::tuple<int, Preset>> {};
 
@@ -247,84 +287,13 @@ TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   EXPECT_LT(bench.engine.beat_latency.max(), kUnstalled + stalls);
 }
 
-struct Stress {
-  std::uint32_t stall_permille;
-  int lanes_code;
-  bool memory;
-  std::uint64_t seed;
-};
-void PrintTo(const Stress& s, std::ostream* out) { *out << "seed " << s.seed; }
-class UnderStress : public ::testing::TestWithParam<Stress> {};
-
-// All pixels on edges, small FIFOs, stalls on every link, units in any order.
-TEST_P(UnderStress, NothingIsDroppedAtAHundredPercentEdges) {
-  const Stress s = GetParam();
-  Parameters p = preset(Preset::kMlaaSlope);
-  p.lanes = static_cast<spec::morphological::Lanes>(s.lanes_code);
-  p.storage =
-      s.memory ? spec::morphological::Storage::kMemory : spec::morphological::Storage::kLineBuffers;
-  p.descriptor_fifo = 2 + static_cast<std::int32_t>(s.seed % 3);
-  p.predictor_units = 1 + static_cast<std::int32_t>(s.seed % 4);
-  p.divider_latency = 14 + static_cast<std::int32_t>(s.seed * 7 % 51);
-  p.divider_interval = 1 + static_cast<std::int32_t>(s.seed * 5 % 16);
-  p.memory_outstanding = 1 + static_cast<std::int32_t>(s.seed % 5);
-  EngineBench::Options options;
-  options.bench.stall_permille = s.stall_permille;
-  options.bench.seed = s.seed;
-  if (s.seed % 2 != 0) options.bench.shuffle = s.seed;
-  options.memory_latency = 5;
-  options.memory_scatter = 60;
-  EngineBench bench(p, options);
-  EXPECT_EQ(hash(bench.run(noise())), vector_hash("noise_slope"));
-  // All crossings are T: nothing to blend, but every edge is there.
-  const Frame board = checkerboard(33, 30);
-  const Frame out = bench.run(board);
-  const spec::morphological::Work work = bench.engine.work();
-  EXPECT_EQ(work.pixels, 97u * 61u + 33u * 30u);
-  EXPECT_EQ(out.at(16, 15), board.at(16, 15));
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, UnderStress,
-                         ::testing::Values(Stress{300, 0, false, 1}, Stress{300, 1, true, 2},
-                                           Stress{200, 2, false, 3}, Stress{50, 0, true, 5},
-                                           Stress{500, 2, true, 7}, Stress{0, 0, false, 11},
-                                           Stress{0, 2, true, 13}, Stress{700, 1, false, 8}));
-
-// The order in which units are evaluated changes neither data nor any clock.
-TEST(EvaluationOrder, DoesNotMatter) {
-  struct Digest {
-    std::uint64_t pixels, with_cycles;
-  };
-  const auto digest = [](std::optional<std::uint64_t> order) {
-    EngineBench::Options options;
-    options.bench.shuffle = order;
-    options.bench.stall_permille = 80;
-    Parameters p = preset(Preset::kDeburrLine);
-    p.lanes = spec::morphological::Lanes::kTwo;
-    p.descriptor_fifo = 4;
-    EngineBench bench(p, options);
-    const std::uint64_t pixels = hash(bench.run(blocks()));
-    std::uint64_t h = pixels;
-    for (const Cycle c : bench.sink.cycles()) h = fnv_step(h, c);
-    return Digest{pixels, h};
-  };
-  const auto plain = forked<Digest>([&] { return digest(std::nullopt); });
-  const Digest shuffled = digest(99);
-  EXPECT_EQ(shuffled.pixels, vector_hash("blocks_deburr_line_default"));
-  EXPECT_EQ(shuffled.with_cycles, plain.with_cycles);
-}
-
 // The next frame is taken in the clock after the last beat of this one has been pushed.
 TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
   Parameters p = preset(Preset::kDeburrLine);
   EngineBench bench(p);
   Times times(bench);
-  const Frame a = line(120, 40), b = line(120, 40);
-  bench.software.set_size(120, 40);
-  bench.driver.send(beats_of(a, 1));
-  bench.driver.send(beats_of(b, 1));
-  bench.driver.send(beats_of(a, 1));
-  bench.bench->run([&] { return bench.sink.received() == 3 * 4800; }, 1'000'000);
+  for (int frame = 0; frame < 3; ++frame) bench.send(line(120, 40));
+  bench.finish();
   for (std::size_t frame = 1; frame < 3; ++frame)
     EXPECT_EQ(times.popped[frame * 4800], times.pushed[frame * 4800 - 1] + 1) << frame;
   EXPECT_EQ(bench.engine.sequencer.frames.value(), 3u);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "spec/morphological/learned_weights.h"
-#include "spec/morphological/tables.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
 namespace deburr::tb::morphological_rtl::weights_rom_test {
@@ -56,24 +55,6 @@ TEST(WeightsRomAddresses, AreThoseOfTheContract) {
   }
 }
 
-// Eight classes of distances, four of lengths, each at both of its ends: bits 5:3 of the first
-// address are those of the nearer end, 2:0 of the farther one, 1:0 of the others the length.
-TEST(WeightsRomAddresses, ClassesOfDistancesAndLengths) {
-  constexpr std::array<int, 19> kClass = {0, 1, 2, 3, 4, 4, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 7, 7, 7};
-  constexpr std::array<int, 10> kLength = {0, 0, 1, 1, 2, 2, 2, 2, 3, 3};
-  for (int near = 0; near < 19; ++near)
-    for (int far = near; far < 19; ++far)
-      for (const bool turned : {false, true}) {
-        const WeightsRom::Query query = WeightsRom::ask({2 + 4 * 2, 2, 2, RunPart::kWhole},
-                                                        turned ? far : near, turned ? near : far);
-        const auto of = [&](int i) { return kClass[static_cast<std::size_t>(i)]; };
-        ASSERT_EQ(query.a[0] & 63, of(near) << 3 | of(far)) << near << ' ' << far;
-        const int length = kLength[static_cast<std::size_t>(std::min(near + far + 1, 9))];
-        ASSERT_EQ(query.b[0] & 31, of(near) << 2 | length);
-        ASSERT_EQ(query.c[0] & 31, of(far) << 2 | length);
-      }
-}
-
 TEST(WeightsRomAddresses, OfAGapAreTheLastOfNoCrossing) {
   const WeightsRom::Query query = WeightsRom::ask_gap();
   for (const std::size_t side : {0u, 1u}) {
@@ -81,41 +62,6 @@ TEST(WeightsRomAddresses, OfAGapAreTheLastOfNoCrossing) {
     EXPECT_EQ(query.b[side], 31);
     EXPECT_EQ(query.c[side], 31);
   }
-}
-
-// Mirrored, a record gives each pixel what its mirror image gets.
-TEST(WeightsRomAddresses, AreThoseOfTheMirroredRecord) {
-  for (unsigned shape = 0; shape < 16; ++shape)
-    for (int classes = 0; classes < 81; ++classes)
-      for (int before = 0; before < 20; ++before)
-        for (const int after : {0, 1, 2, 3, 5, 8, 15, 16}) {
-          const auto u8 = [](auto value) { return static_cast<std::uint8_t>(value); };
-          const auto class_of = [](unsigned code, int k) { return code == 1 || code == 2 ? k : 0; };
-          const int start = class_of(shape & 3, classes % 9),
-                    end = class_of(shape >> 2, classes / 9);
-          const WeightsRom::Query there =
-              WeightsRom::ask({u8(shape), u8(start), u8(end), RunPart::kWhole}, before, after);
-          const WeightsRom::Query back = WeightsRom::ask(
-              {u8(shape >> 2 | (shape & 3) << 2), u8(end), u8(start), RunPart::kWhole}, after,
-              before);
-          ASSERT_EQ(there.a, back.a);
-          ASSERT_EQ(there.b, back.b);
-          ASSERT_EQ(there.c, back.c);
-        }
-}
-
-TEST(WeightsRomWords, AddUpToShares) {
-  WeightsRom rom(1);
-  WeightsRom::Query query = WeightsRom::ask({2 + 4 * 2, 2, 2, RunPart::kWhole}, 0, 7);
-  const int z = spec::morphological::kWeightsOfCodes[645] +
-                spec::morphological::kWeightsOfNear[419] + spec::morphological::kWeightsOfFar[439];
-  rom.address(10, 1, query);
-  rom.add(11, 1, query);
-  rom.address_weights(12, 1, query);
-  const WeightsRom::Weights weights = rom.weights(13, 1, query);
-  EXPECT_EQ(
-      weights.first,
-      spec::morphological::kWeightOfSum[static_cast<std::size_t>(std::clamp(z, -128, 127) + 128)]);
 }
 
 // All three tables at their ends: the sum is limited, not cut.
