@@ -206,7 +206,7 @@ TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
   raw.write(reg::kConfiguration, 0xF0000000);
   EXPECT_EQ(text_of(decoded().configuration, none), "");
   raw.write(reg::kConfiguration, 0xF0000000 | 1u << 24);
-  EXPECT_EQ(text_of(decoded().configuration, none), "leave 1");
+  EXPECT_EQ(text_of(decoded().configuration, none), "bypass 1");
   raw.write(reg::kSize, 0xC000C000 | 40 | 30 << 16);
   EXPECT_EQ(decoded().configuration.width, 40);
   EXPECT_EQ(decoded().configuration.height, 30);
