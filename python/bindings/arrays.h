@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Between numpy and the golden models: dtypes of packets from their fields, arrays that look into a
-// model without a copy, and arrays that were given, checked.
+// Conversion between numpy and the golden models: dtypes of packets from their fields, arrays that
+// refer to a model's memory without a copy, and checked arguments.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -25,7 +25,7 @@ namespace py = pybind11;
 template <class T>
 py::dtype dtype_of();
 
-// The members of a record at the places where the compiler has put them.
+// The members of a record at the offsets that the compiler chose.
 class DtypeFields {
  public:
   explicit DtypeFields(const void* record) : record_(static_cast<const std::byte*>(record)) {}
@@ -78,12 +78,12 @@ py::dtype dtype_of() {
 
 using Shape = std::vector<py::ssize_t>;
 
-// Read only; `owner` lives as long as the array.
+// Read only. The array keeps `owner` alive.
 template <class T>
 py::array view(const std::vector<T>& values, Shape shape, const py::handle& owner) {
   const py::dtype dtype = dtype_of<T>();
-  // numpy makes dimensions of a dtype's subarray: it gets them, with the distances between
-  // elements.
+  // numpy turns the dimensions of a dtype's subarray into array dimensions and is given its
+  // strides.
   py::array array(dtype, std::move(shape), values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -92,7 +92,7 @@ template <class T>
 py::array view(const std::vector<T>& values, const py::handle& owner) {
   return view(values, {static_cast<py::ssize_t>(values.size())}, owner);
 }
-// An array that owns what it was given.
+// An array that owns its values.
 template <class T>
 py::array owned(std::vector<T>&& values, Shape shape) {
   auto* const kept = new std::vector<T>(std::move(values));
@@ -111,10 +111,10 @@ std::string described(const py::handle& given);
 // ArgumentError: "pixels: uint8 of (height, width, 4) is wanted; None was given".
 [[noreturn]] void reject_array(std::string_view name, std::string_view wanted,
                                const py::handle& given);
-// An array of this dtype and number of dimensions, in C's order.
+// A C-contiguous array of this dtype and number of dimensions.
 py::array checked(const py::handle& given, std::string_view name, const py::dtype& dtype,
                   py::ssize_t dimensions, std::string_view wanted);
-// The elements of one that has one dimension.
+// The elements of a one-dimensional array.
 template <class T>
 std::span<const T> elements(const py::array& array) {
   return {static_cast<const T*>(array.data()), static_cast<std::size_t>(array.size())};

@@ -26,7 +26,7 @@ FramePixels frame_pixels(const py::handle& given) {
   golden::c::require(width >= 1 && height >= 1 && width <= kMaxSide && height <= kMaxSide,
                      "a frame of " + std::to_string(width) + " x " + std::to_string(height) +
                          " pixels; width and height must be 1..8192");
-  // Rows may have gaps; what lies otherwise is copied.
+  // Rows may have gaps; any other layout is copied.
   const bool in_rows = array.strides(2) == 1 && array.strides(1) == 4 &&
                        array.strides(0) >= 4 * width && array.strides(0) % 4 == 0;
   if (!in_rows) array = py::array::ensure(array, py::array::c_style);

@@ -47,7 +47,7 @@ struct GeometricFrame {
   }
 };
 
-// What the frame was drawn from, copied.
+// A copy of the mesh that the frame was drawn from.
 struct Mesh {
   std::vector<Edge> edges;
   std::vector<Vertex> vertices;
@@ -70,7 +70,7 @@ Mesh mesh_of(const py::object& vertices, const py::object& edges, const py::obje
   Mesh mesh;
   mesh.vertices = records<Vertex>(vertices, "vertices", "VERTEX", spec::geometric::kMaxVertices);
   mesh.edges = records<Edge>(edges, "edges", "EDGE", spec::geometric::kMaxEdges);
-  // What the words of memory keep of a field.
+  // Keeps only the bits that a memory word has for this field.
   for (Vertex& vertex : mesh.vertices) vertex.depth &= 0xFFFFFF;
   for (Edge& edge : mesh.edges)
     for (std::uint32_t* const index : {&edge.v0, &edge.v1, &edge.f0, &edge.f1})
@@ -84,7 +84,7 @@ Mesh mesh_of(const py::object& vertices, const py::object& edges, const py::obje
   return mesh;
 }
 
-// Where the regions lie in memory, by name; the others at 0.
+// Base addresses of the memory regions by name; regions that are not given lie at 0.
 golden::geometric::Bases bases_of(const py::object& given) {
   golden::geometric::Bases bases;
   if (given.is_none()) return bases;

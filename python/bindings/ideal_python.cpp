@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reference filters and reference in real numbers, behind deburr.ideal.
+// Reference filters and references in real arithmetic: implements deburr.ideal.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ ideal::ColourFrame colour_frame(const py::object& pixels) {
   return frame;
 }
 
-// What filter(frame) makes of a frame, while others run.
+// Returns filter(frame); the GIL is released meanwhile.
 template <class Filter>
 py::array filtered(const py::object& pixels, Filter&& filter) {
   const ideal::ColourFrame frame = colour_frame(pixels);
@@ -223,7 +223,7 @@ struct TextureImage {
 
 constexpr std::size_t kFootprintsAtATime = 256;
 
-// One colour a footprint; Ctrl-C ends it between two parts.
+// Returns one colour per footprint; Ctrl-C is checked between two parts.
 template <class Filter>
 py::array colours(const py::object& footprints, Filter&& filter) {
   const py::array array = checked_list<ideal::PixelFootprint>(footprints, "footprints",

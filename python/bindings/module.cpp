@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module deburr._golden: the golden models behind deburr.golden and deburr.ideal.
+// The module deburr._golden: the golden models used by deburr.golden and deburr.ideal.
 #include "python/bindings/module.h"
 
 #include <pybind11/numpy.h>
@@ -16,7 +16,7 @@ namespace deburr::python {
 
 std::string text_of(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.ptr() == Py_True ? "true" : "false";
-  // numpy has a type of its own for each of Python's.
+  // numpy scalars become Python scalars first.
   if (py::hasattr(value, "item") && !py::isinstance<py::array>(value))
     return text_of(value.attr("item")());
   return py::cast<std::string>(py::str(value));
@@ -54,7 +54,7 @@ Figures figures(std::span<const golden::c::Counter> counters) {
 
 namespace {
 
-// What was given is a ValueError; what the models themselves have wrong is a RuntimeError.
+// Errors in arguments raise ValueError; errors of the models raise RuntimeError.
 void translate(std::exception_ptr exception) {
   try {
     if (exception) std::rethrow_exception(exception);

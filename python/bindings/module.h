@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parts of the module `deburr._golden` have in common: parameters, figures, errors.
+// Shared by the parts of the module `deburr._golden`: parameters, figures, errors.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -18,9 +18,9 @@ namespace deburr::python {
 
 namespace py = pybind11;
 
-// The value of a parameter as it is written on a command line.
+// The value of a parameter as a command line has it.
 std::string text_of(const py::handle& value);
-// A name as Python has it, with '_' for '.', as one of these; as it is, if it is none of them.
+// Maps a Python name ('_' for '.') to one of `names`; returns an unknown name unchanged.
 std::string spelled(std::string_view name, std::span<const std::string> names);
 
 template <class Parameters>
@@ -62,7 +62,7 @@ py::list parameter_rows(Parameters parameters) {
   return visitor.rows;
 }
 
-// A dictionary whose keys are attributes too (deburr/_figures.py). A type of its own, so that
+// A dictionary whose keys are attributes too (deburr/_figures.py). It has its own type so that
 // signatures name it.
 struct Figures : py::object {
   explicit Figures(py::object figures) : py::object(std::move(figures)) {}
@@ -74,7 +74,7 @@ void add_bins(py::dict& all, const Bins& bins) {
   for (const auto& bin : bins) all[py::str(bin.name)] = bin.hits;
 }
 
-// Makes the parts: of each engine that has one, and of what is ideal.
+// Registers the submodules: one per engine with bindings, and the ideal filters.
 void add_engines(py::module_& module);
 void add_ideal(py::module_& module);
 

@@ -61,7 +61,7 @@ using golden::texture::TextureGolden;
 using spec::texture::Colour;
 using spec::texture::Quad;
 
-// Between two looks at whether Ctrl-C was pressed: some milliseconds.
+// Quads between two checks for Ctrl-C: some milliseconds.
 constexpr std::size_t kQuadsAtATime = 4096;
 
 class TextureUnit {
@@ -73,7 +73,7 @@ class TextureUnit {
     handle_.check();
   }
 
-  // Runs work(handle), unless another thread is in a call.
+  // Runs work(handle); raises an error if another thread is in a call.
   template <class Work>
   auto turn(Work&& work) {
     const c::Turn turn(handle_);
@@ -84,7 +84,7 @@ class TextureUnit {
     return work(handle_);
   }
 
-  // All or, if one of them is rejected, none.
+  // Sets all parameters, or none if one is rejected.
   void set(const py::dict& parameters) {
     turn([&](c::TextureHandle& h) {
       auto texts = h.texts;
@@ -189,7 +189,7 @@ class TextureUnit {
       c::put_level(h, texture, level, elements<std::uint8_t>(array), 0);
     });
   }
-  // What the registers of a texture's descriptor hold.
+  // Register values of a texture's descriptor.
   py::tuple words(std::uint32_t texture) {
     return turn([&](c::TextureHandle& h) {
       py::list words;
@@ -225,8 +225,8 @@ class TextureUnit {
   static py::array quads_of(const py::object& given) {
     return checked_list<Quad>(given, "quads", "an array of QUAD of (n,)");
   }
-  // Calls begin() and then do_part(quads) for one part behind the other, without the interpreter's
-  // lock; Ctrl-C ends it between two of them.
+  // Calls begin(), then do_part(quads) for each part in order with the GIL released; Ctrl-C ends it
+  // between two parts.
   template <class Do, class Begin>
   static void in_parts(std::span<const Quad> quads, Do&& do_part, Begin&& begin) {
     begin();

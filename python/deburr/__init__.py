@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Deburr from Python: models of anti-aliasing hardware on numpy arrays.
+"""Models of anti-aliasing hardware on numpy arrays.
 
 golden    bit-exact golden models of the engines as functions
-ideal     reference filters and reference in real numbers
-run       one run of a cycle-accurate model, in a process of its own
+ideal     reference filters and references in real arithmetic
+run       one run of a cycle-accurate model, in its own process
 sweep     many runs, as a table
 
-docs/reference/python.md has the whole of it.
+See docs/reference/python.md.
 """
 from deburr import golden, ideal
 from deburr._golden import version as __version__

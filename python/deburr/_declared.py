@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""Signatures and docstrings of functions from the declarations of parameters."""
+"""Generates signatures and docstrings of functions from parameter declarations."""
 import inspect
 import keyword
 import textwrap
 
 
 def argument(name):
-    """A parameter's name as Python writes it: `cache.bytes` is `cache_bytes`, `in` is `in_`."""
+    """Returns a parameter's name in Python: `cache_bytes` for `cache.bytes`, `in_` for `in`."""
     flat = name.lstrip("-").replace(".", "_").replace("-", "_")
     return flat + "_" if keyword.iskeyword(flat) else flat
 
 
 def kind_of(row):
-    """The annotation of a parameter, by its default and its range."""
+    """Returns the annotation of a parameter, from its default and its range."""
     if isinstance(row["default"], bool):
         return bool
     return type(row["default"])

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Figures by name, as attributes and as items."""
+"""Named figures, accessible as attributes and as items."""
 import collections.abc
 import typing
 
 
 class Figures(collections.abc.Mapping[str, typing.Any]):
-    """Named values that cannot be changed: `figures.cycles`, `figures["cycles"]`. Groups are Figures too, and a key
-    may name what is inside of them: `figures["units.filter_pipeline.busy"]`."""
+    """Read-only named values: `figures.cycles`, `figures["cycles"]`. Groups are Figures too, and a key may name a
+    nested value: `figures["units.filter_pipeline.busy"]`."""
 
     def __init__(self, values: collections.abc.Mapping[str, typing.Any]) -> None:
         self.__dict__["_values"] = {name: Figures(value) if isinstance(value, dict) else value
@@ -15,7 +15,7 @@ class Figures(collections.abc.Mapping[str, typing.Any]):
     def __getitem__(self, name: str) -> typing.Any:
         if name in self._values:
             return self._values[name]
-        # Names may have dots themselves: the first way to read it that is there.
+        # Keys may contain dots: takes the first split that exists.
         parts = str(name).split(".")
         for count in range(1, len(parts)):
             inner = self._values.get(".".join(parts[:count]))
@@ -60,5 +60,5 @@ class Figures(collections.abc.Mapping[str, typing.Any]):
         return "Figures(" + ", ".join(f"{name}={value!r}" for name, value in self._values.items()) + ")"
 
     def as_dict(self) -> dict[str, typing.Any]:
-        """Plain dictionaries of the same."""
+        """Returns the same as plain dictionaries."""
         return {name: value.as_dict() if isinstance(value, Figures) else value for name, value in self._values.items()}

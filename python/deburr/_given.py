@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What functions of the golden models are given."""
+"""Converts arguments of the golden models."""
 from __future__ import annotations
 
 import typing
@@ -11,7 +11,7 @@ Array = numpy.typing.NDArray[typing.Any]
 
 
 def rgba(pixels):
-    """With alpha; whatever is no picture is left to the model to reject."""
+    """Adds an alpha channel; the model rejects invalid pictures."""
     if isinstance(pixels, numpy.ndarray) and pixels.ndim == 3 and pixels.shape[2] == 3 and pixels.dtype == numpy.uint8:
         opaque = numpy.full((*pixels.shape[:2], 1), 255, dtype=numpy.uint8)
         return numpy.concatenate([pixels, opaque], axis=2)

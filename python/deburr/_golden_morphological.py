@@ -14,11 +14,11 @@ __all__ = ["MorphologicalFrame", "morphological"]
 
 def morphological(pixels: Array, depth: Array | None = None, *, edges: Array | None = None, detail: bool = False,
                   error_lines: Array | None = None, **parameters: typing.Any) -> MorphologicalFrame:
-    """Smooths a frame with the morphological engine's golden model: a MorphologicalFrame.
+    """Smooths a frame with the morphological engine's golden model; returns a MorphologicalFrame.
 
-    pixels is the frame, depth its depths (for edges of depth, and the rule `leave`), edges those that someone else
-    found (uint8, bit 0 left, bit 1 above). detail=True keeps probes, decisions, runs and coverage as well, and is slower.
-    error_lines are addresses of lines that memory cannot read, with storage = memory."""
+    pixels is the frame, depth its depths (for depth edges, and `bypass`), edges are externally detected edges (uint8,
+    bit 0 left, bit 1 above). detail=True adds probes, decisions, runs and coverage, and is slower. error_lines are
+    addresses of lines that memory cannot read, with storage = memory."""
     return _golden.morphological(rgba(pixels), depth, edges, bool(detail), error_lines, parameters)
 
 

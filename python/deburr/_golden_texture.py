@@ -18,29 +18,29 @@ _ONE = 1 << 24  # S7.24
 
 
 class TextureUnit:
-    """A texture unit's golden model: a memory, up to 16 textures, a cache that is predicted, and counters.
+    """A texture unit's golden model: a memory, up to 16 textures, a cache with predicted hits, and counters.
 
-    memory is its size in bytes; load() makes it larger where that is needed. A unit belongs to one thread at a time: a
-    call from another one meanwhile is a RuntimeError and changes nothing."""
+    memory is its size in bytes; load() enlarges it if needed. Only one thread may use a unit at a time: a concurrent
+    call raises RuntimeError and changes nothing."""
 
     def __init__(self, memory: int = 0, **parameters: typing.Any) -> None:
         self._unit = _golden.TextureUnit(memory, parameters)
         self._end = 0
 
     def set(self, **parameters: typing.Any) -> None:
-        """Parameters, from the next quad on; all of them or, if one is rejected, none. The cache is empty then, and
-        counters begin again."""
+        """Sets parameters from the next quad on: all of them or, if one is rejected, none. Empties the cache and resets
+        the counters."""
         self._unit.set(parameters)
 
     @property
     def parameters(self) -> dict[str, str]:
-        """Every parameter as text."""
+        """Returns every parameter as text."""
         return self._unit.parameters()
 
     def load(self, levels: Array | list[Array], texture: int = 0, **fields: typing.Any) -> None:
-        """Puts a texture after those that are there: its mip levels, the largest first, each uint8 of (height, width,
-        4), or of (height, width, bytes of a texel) in the format that `format` says. Fields are those of the
-        descriptor's registers; width, height, levels and max_lod follow from the arrays unless they are given."""
+        """Stores a texture after the existing ones: its mip levels, the largest first, each uint8 of (height, width,
+        4), or of (height, width, bytes of a texel) in the format given by `format`. Fields are those of the
+        descriptor's registers; width, height, levels and max_lod follow from the arrays unless given."""
         for level in levels if isinstance(levels, (list, tuple)) else [levels]:
             if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
                 raise ValueError("levels: uint8 of (height, width, bytes of a texel) is wanted; "
@@ -62,7 +62,7 @@ class TextureUnit:
         self._end = -(-end // 64) * 64
 
     def _describe(self, texture, levels, fields):
-        """Sets the descriptor of a texture that will lie after the others; the address after it."""
+        """Sets the descriptor of a texture stored after the others; returns the address after it."""
         height, width = levels[0].shape[:2]
         self._unit.set_fields(texture, {"width": width, "height": height, "levels": len(levels),
                                         "max_lod": 256 * (len(levels) - 1), **fields})
@@ -74,41 +74,41 @@ class TextureUnit:
         return self._unit.place(texture, self._end)
 
     def set_fields(self, texture: int = 0, **fields: typing.Any) -> None:
-        """Fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""
+        """Sets fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""
         self._unit.set_fields(texture, fields)
 
     def describe(self, texture: int = 0) -> dict[str, typing.Any]:
-        """Size, levels, bases and fault (None: quads may name it) of a texture."""
+        """Returns size, levels, bases and fault (None: quads may use it) of a texture."""
         return self._unit.describe(texture)
 
     def write(self, address: int, values: Array) -> None:
-        """Bytes to memory. A line that the cache holds stays predicted as it is: invalidate() it, as software must."""
+        """Writes bytes to memory. A cached line remains a predicted hit: call invalidate(), as software must."""
         self._unit.write(address, values)
 
     def read(self, address: int, size: int) -> Array:
-        """Bytes of memory."""
+        """Reads bytes of memory."""
         return self._unit.read(address, size)
 
     def filter(self, quads: Array) -> Array:
-        """Filters an array of QUAD: an array of COLOUR, one for each covered lane, in order."""
+        """Filters an array of QUAD; returns an array of COLOUR, one for each covered lane, in order."""
         return self._unit.filter(quads)
 
     def analyse(self, quads: Array) -> Array:
-        """What is decided about each lane of quads before its first texel is read: records of (n, 4)."""
+        """Returns the decisions for each lane of quads before its first texel is read: records of (n, 4)."""
         return self._unit.analyse(quads)
 
     @property
     def fills(self) -> Array:
-        """Lines of memory that the last filter() fetched, in order: address / cache_line_bytes."""
+        """Returns the memory lines that the last filter() fetched, in order: address / cache_line_bytes."""
         return self._unit.fills()
 
     @property
     def work(self) -> Figures:
-        """Counters since the unit was made or reset, with histograms by samples and by level."""
+        """Returns the counters since the unit was created or reset, with histograms by samples and by level."""
         return self._unit.work()
 
     def set_error_lines(self, lines: Array | None) -> None:
-        """Numbers of lines that memory answers with an error, uint32; None: none."""
+        """Sets the numbers of lines that memory answers with an error, uint32; None: no errors."""
         self._unit.fail_lines(lines)
 
     def invalidate(self) -> None:
@@ -116,22 +116,22 @@ class TextureUnit:
         self._unit.invalidate()
 
     def reset(self) -> None:
-        """As a reset of the hardware: counters 0, cache empty. Textures and memory stay."""
+        """Resets like the hardware: counters 0, cache empty. Textures and memory are kept."""
         self._unit.reset()
 
 
 def texture(quads: Array, levels: Array | list[Array], *, fields: dict[str, typing.Any] | None = None,
             **parameters: typing.Any) -> tuple[Array, TextureUnit]:
-    """Filters an array of QUAD with a texture unit of its own: (colours, unit), the unit for its work and fills.
+    """Filters an array of QUAD with a new texture unit; returns (colours, unit), the unit for its work and fills.
 
-    levels are the mip levels of texture 0 and fields those of its registers, as TextureUnit.load() takes them."""
+    levels are the mip levels of texture 0 and fields those of its registers, as in TextureUnit.load()."""
     unit = TextureUnit(**parameters)
     unit.load(levels, **(fields or {}))
     return unit.filter(quads), unit
 
 
 def mip_levels(texels: Array) -> list[Array]:
-    """The mip chain of a picture whose sides are powers of two: means of two by two, rounded."""
+    """Returns the mip chain of a picture whose sides are powers of two: rounded means of 2 x 2 texels."""
     level = rgba(texels)
     if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
         raise ValueError(f"texels: uint8 of (height, width, 4) is wanted; {described(texels)} was given")
@@ -141,7 +141,7 @@ def mip_levels(texels: Array) -> list[Array]:
     levels = [level]
     while max(level.shape[:2]) > 1:
         wide = level.astype(numpy.uint16)
-        # A side of one texel stays: both of its two are the same one.
+        # A side of one texel stays: it averages the texel with itself.
         rows = wide[0::2] + wide[1::2] if wide.shape[0] > 1 else 2 * wide
         both = rows[:, 0::2] + rows[:, 1::2] if rows.shape[1] > 1 else 2 * rows
         level = ((both + 2) // 4).astype(numpy.uint8)
@@ -150,8 +150,9 @@ def mip_levels(texels: Array) -> list[Array]:
 
 
 def quads_of(s: Array, t: Array, covered: Array | None = None, texture: int = 0) -> Array:
-    """Quads of a picture from the texture coordinates of its pixels, float64 or int32 (S7.24) of (height, width), both
-    sides even, in the order of rows. covered is a bool a pixel. Coordinates beyond [-128, 128) are clamped."""
+    """Returns the quads of a picture from the texture coordinates of its pixels, float64 or int32 (S7.24) of (height,
+    width), both sides even, in row order. covered is one bool per pixel. Coordinates outside [-128, 128) are clamped.
+    """
     s, t = numpy.asarray(s), numpy.asarray(t)
     if s.ndim != 2 or s.shape != t.shape or s.shape[0] % 2 or s.shape[1] % 2:
         raise ValueError(f"s and t: two arrays of (height, width), both even, are wanted; {s.shape} and {t.shape} "
@@ -191,8 +192,8 @@ def quads_of(s: Array, t: Array, covered: Array | None = None, texture: int = 0)
 
 
 def image_of(quads: Array, colours: Array, shape: tuple[int, int]) -> Array:
-    """The picture of (height, width) that colours of such quads make: uint8 of (height, width, 4), 0 where there is
-    none."""
+    """Returns the picture of (height, width) with the colours of such quads: uint8 of (height, width, 4), 0 for pixels
+    without a colour."""
     picture = numpy.zeros((*shape, 4), dtype=numpy.uint8)
     of = quads[numpy.searchsorted(quads["tag"], colours["tag"])]
     picture[of["y"] + colours["lane"] // 2, of["x"] + colours["lane"] % 2] = colours["rgba"]

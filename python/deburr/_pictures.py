@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of runs as arrays: PNG with 8 bits, as the command writes it, and portable float maps."""
+"""Files of runs as arrays: 8-bit PNG, as the command writes it, and portable float maps."""
 import struct
 import sys
 import zlib
@@ -14,7 +14,7 @@ _NONE, _UP = 0, 2
 
 
 def _level_of_caller():
-    """Where a warning belongs, as a level of the stack above the one that asks: the first line outside of deburr."""
+    """Returns the stack level for a warning, relative to the caller: the first line outside of deburr."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] == "deburr":
         level, frame = level + 1, frame.f_back
@@ -22,8 +22,8 @@ def _level_of_caller():
 
 
 def png_of(array):
-    """A picture of uint8, (height, width), (height, width, 3) or (height, width, 4); or depths of (height, width),
-    float32, 0..1, or uint32, U24, as 24 bits in R, G, B, which the command reads as such."""
+    """Encodes a picture of uint8, (height, width), (height, width, 3) or (height, width, 4), or depths of (height,
+    width): float32, 0..1, or uint32, U24, as 24 bits in R, G, B, which the command reads as depths."""
     if array.ndim == 2 and array.dtype in (numpy.float32, numpy.uint32):
         _golden.check_depths(array, _level_of_caller())
     if array.ndim == 2 and array.dtype == numpy.float32:
@@ -49,7 +49,7 @@ def png_of(array):
 
 
 def read_png(file):
-    """uint8 of (height, width, channels), of what the command has written."""
+    """Returns uint8 of (height, width, channels) from a file that the command wrote."""
     data = file.read_bytes()
     position, pixels, header = len(_SIGNATURE), b"", None
     while position + 8 <= len(data):
@@ -74,7 +74,7 @@ def read_png(file):
 
 
 def read_pfm(file):
-    """float32 of (height, width), the upper row first; NaN where there is nothing."""
+    """Returns float32 of (height, width), top row first; NaN for pixels without a value."""
     data = file.read_bytes()
     kind, size, scale, values = data.split(b"\n", 3)
     width, height = (int(word) for word in size.split())

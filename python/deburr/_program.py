@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command `deburr`: where it is, what it can, and how it is called."""
+"""The command `deburr`: its location, its capabilities, and calls to it."""
 from __future__ import annotations
 
 import functools
@@ -25,8 +25,8 @@ _USAGE, _FILE = 2, 5
 
 
 class RunError(RuntimeError):
-    """A run that failed: `code` is the command's exit code (1 mismatch, 3 simulation error, 4 deadlock), `result` what
-    was measured until then, or None."""
+    """A failed run: `code` is the command's exit code (1 mismatch, 3 simulation error, 4 deadlock), `result` the
+    measurements until then, or None."""
 
     def __init__(self, text: str, code: int, result: Run | None = None) -> None:
         super().__init__(text)
@@ -34,7 +34,7 @@ class RunError(RuntimeError):
 
 
 def program():
-    """Where the command is: beside this package, as it was installed, or on the PATH."""
+    """Returns the command's path: next to this package as installed, or on the PATH."""
     beside = pathlib.Path(_golden.__file__).absolute().parent / _build.PROGRAM
     if os.access(beside, os.X_OK):
         return str(beside.resolve())
@@ -46,8 +46,9 @@ def program():
 
 
 def call(*words, progress=False):
-    """What the command says, as JSON. ValueError and OSError have its words; other failures are in exit_code."""
-    # What a user's terminal sends goes to both; where Ctrl-C comes to Python alone, it is passed on.
+    """Returns the command's answer as JSON. Raises ValueError and OSError with its message; other failures are in
+    exit_code."""
+    # Ctrl-C in a terminal reaches both processes; if only Python receives it, it is passed on.
     with tempfile.TemporaryFile("w+", encoding="utf-8") as said, tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
         with subprocess.Popen([program(), *words, "--json"], stdin=subprocess.DEVNULL, stdout=said,
                               stderr=None if progress else errors) as process:
@@ -76,7 +77,7 @@ def call(*words, progress=False):
 
 
 def _end(process):
-    """Ctrl-C twice: the first ends a run at its next chance, the second at once."""
+    """Sends Ctrl-C twice: the first ends a run at its next poll, the second immediately."""
     for wait in (0.2, 5):
         try:
             process.wait(wait)
@@ -84,11 +85,11 @@ def _end(process):
         except subprocess.TimeoutExpired:
             process.send_signal(signal.SIGINT)
     process.kill()
-    process.wait()  # Popen waits for a quarter of a second after Ctrl-C, and no longer
+    process.wait()  # Popen waits only a quarter of a second after Ctrl-C
 
 
 def _words(answer):
-    """The command's complaint, whole; its last line is cut."""
+    """Returns the command's complete error message; `outcome` has only a shortened line."""
     kind, _, short = answer["outcome"].partition(": ")
     del kind
     whole = "\n".join(answer["messages"])
@@ -102,25 +103,25 @@ def _declared():
 
 
 def engines() -> list[str]:
-    """Names of the engines that run() takes."""
+    """Returns the names of the engines that run() accepts."""
     return list(dict.fromkeys(row["engine"] for row in _declared()[0]))
 
 
 def parameters(engine: str) -> list[dict[str, typing.Any]]:
-    """Every parameter of an engine's runs: dictionaries of name, kind, default, range, unit and meaning."""
+    """Returns every parameter of an engine's runs: dictionaries of name, kind, default, range, unit and meaning."""
     if engine not in engines():
-        call("run", str(engine))  # whose words say what is known
+        call("run", str(engine))  # raises the command's message with the known names
     return [dict(row) for row in _declared()[0] if row["engine"] == engine]
 
 
 def options(engine):
-    """Short names of parameters, as of `deburr run ENGINE --help`."""
+    """Returns the short parameter names of `deburr run ENGINE --help`."""
     return [dict(row) for row in _declared()[1] if row["engine"] == engine]
 
 
 def known(engine):
-    """The names that Python has for an engine's parameters: the parameters' own that each stands for, and what a
-    switch gives them."""
+    """Returns the Python names of an engine's parameters: for each name the parameters that it sets, and the value that
+    it gives a switch."""
     names = {}
     for row in parameters(engine):
         names[argument(row["name"])] = ([row["name"]], None)
@@ -130,7 +131,7 @@ def known(engine):
 
 
 def text_of(value, folder):
-    """A value as it is written on the command line. Arrays become pictures in the folder."""
+    """Returns a value as on the command line. Arrays are written as pictures to the folder."""
     if isinstance(value, (bool, numpy.bool_)):
         return "true" if value else "false"
     if isinstance(value, numpy.ndarray):
@@ -145,8 +146,8 @@ def text_of(value, folder):
 
 
 def settings(engine, given, folder):
-    """[(parameter, value as text)] of what was given by Python's names; what is no parameter stays as it is, for the
-    command to reject."""
+    """Converts settings by Python names to [(parameter, value as text)]; unknown names are unchanged, and the command
+    rejects them."""
     names = known(engine)
     found = []
     for name, value in given.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One run of a cycle-accurate model, in a process of its own: SystemC elaborates once a process."""
+"""One run of a cycle-accurate model, in its own process: SystemC elaborates once per process."""
 from __future__ import annotations
 
 import collections.abc
@@ -20,7 +20,7 @@ from deburr._program import RunError, call, settings
 
 
 class _Scratch:
-    """A folder that goes with the last who needs it."""
+    """A folder that is deleted with its last user."""
 
     def __init__(self):
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="deburr_run_"))
@@ -28,7 +28,7 @@ class _Scratch:
 
 
 class _Files(collections.abc.Mapping[str, Array]):
-    """Arrays of the files of a directory that a run left, read when they are asked for: a mapping by name."""
+    """Arrays from the files of a run's directory, read on first access: a mapping by name."""
 
     def __init__(self, directory, pattern, prefix, read):
         self._files = {file.stem.removeprefix(prefix): file for file in sorted(directory.glob(pattern))
@@ -54,7 +54,7 @@ class _Files(collections.abc.Mapping[str, Array]):
 
 
 def _arrays(node):
-    """Windows as arrays: lists of numbers, however deep."""
+    """Converts sampling intervals to arrays: nested lists of numbers."""
     if isinstance(node, dict):
         return {name: _arrays(value) for name, value in node.items()}
     if isinstance(node, list) and node and all(isinstance(value, (int, float)) for value in node):
@@ -63,11 +63,11 @@ def _arrays(node):
 
 
 class Run(Figures):
-    """What a run measured. Its figures are those of result.json, as attributes: `run.cycles`, `run.throughput.value`,
-    `run.units`, `run.work`; `run["units.filter_pipeline.busy"]` names one by its key.
+    """The measurements of a run. Its figures are those of result.json, as attributes: `run.cycles`,
+    `run.throughput.value`, `run.units`, `run.work`; `run["units.filter_pipeline.busy"]` selects one by its key.
 
-    pictures and maps are arrays by name, intervals an array a series by key, directory is where the files are, which
-    are gone with this object unless run() was told where to leave them."""
+    pictures and maps are arrays by name, intervals has one array per series by key, directory holds the files. It is
+    deleted with this object unless run() was given `out`."""
 
     directory: pathlib.Path
     meaning: dict[str, dict[str, str]]
@@ -98,7 +98,7 @@ class Run(Figures):
         return f"<Run {self.unit}: {self.verdict}, {self.cycles} cycles, {rate.value:.3f} {rate.unit}>"
 
     def explain(self, key: str) -> str:
-        """Unit and meaning of a figure, by its key."""
+        """Returns unit and meaning of a figure, by its key."""
         entry = self.meaning.get(key)
         if entry is None:
             raise KeyError(f"nothing is said of '{key}'")
@@ -107,16 +107,16 @@ class Run(Figures):
 
 def run(engine: str, *, out: str | os.PathLike[str] | None = None, config: str | os.PathLike[str] | None = None,
         progress: bool = False, **parameters: typing.Any) -> Run:
-    """Runs a cycle-accurate model against its golden model: a Run.
+    """Runs a cycle-accurate model against its golden model; returns a Run.
 
     engine is one of engines(). Parameters have the names of `deburr params ENGINE` with '_' for '.'
     (memory_latency=200), or the short ones of `deburr run ENGINE --help` (scene="tunnel", size=(640, 360), in_=file,
-    windows=2000); names with dots can be given as **{"memory.latency": 200}. Where a picture or depths are wanted, an
-    array may be given. config is a file of parameters, out a directory that the files are left in, progress=True shows
-    what the command says meanwhile.
+    windows=2000); names with dots can be given as **{"memory.latency": 200}. Arrays are accepted for pictures and
+    depths. config is a file of parameters, out a directory for the files, progress=True shows the command's messages
+    during the run.
 
-    What is wrong with an argument is a ValueError with the command's words, a file that cannot be read or written an
-    OSError, a run that fails a RunError. Ctrl-C ends the run."""
+    Raises ValueError with the command's message for invalid arguments, OSError for a file that cannot be read or
+    written, RunError for a run that fails. Ctrl-C ends the run."""
     kept = _Scratch()
     folder = kept.path
     (folder / "given").mkdir()

@@ -17,7 +17,7 @@ _METRICS = {"cycles": "cycles", "rate": "throughput.value"}
 
 
 def _definition(engine, axes, metrics, rest, given, folder):
-    """What a file of a sweep says, of Python's names."""
+    """Builds the contents of a sweep file from Python names."""
     names = known(engine)
     if not axes:
         raise ValueError("axes: a dictionary of parameters and their values is wanted, such as "
@@ -40,19 +40,19 @@ def _definition(engine, axes, metrics, rest, given, folder):
 
 
 def _typed(axis, declared):
-    """What makes a value of the axis of the text that a sweep has for it."""
+    """Returns a function that converts an axis's text in the sweep's results to a value."""
     default = declared.get(axis["name"], "")
     if isinstance(default, bool):
         return lambda text: text == "true"
     if isinstance(default, (int, float)):
         kind = float if isinstance(default, float) else lambda text: int(text, 0)
-        # Of an axis that is not given everywhere: "-".
+        # "-" marks a point where this axis does not apply.
         return lambda text: text if text == "-" else kind(text)
     return str
 
 
 def _rows(collected):
-    """A dictionary a point: its values of the axes, its metrics, state, front and failure."""
+    """Returns one dictionary per point: its axis values, metrics, state, front and failure."""
     declared = {row["name"]: row["default"] for row in parameters(collected["engine"])}
     axes = [axis["name"] for axis in collected["axes"]]
     types = [_typed(axis, declared) for axis in collected["axes"]]
@@ -74,7 +74,7 @@ def _rows(collected):
 
 
 def _table(rows):
-    """A DataFrame where pandas is installed, else the dictionaries."""
+    """Returns a DataFrame if pandas is installed, else the dictionaries."""
     try:
         import pandas
     except ImportError:
@@ -88,18 +88,18 @@ def sweep(what: str | os.PathLike[str], axes: dict[str, typing.Any] | None = Non
           constraints: list[str] | None = None, sample: str | dict[str, int] | None = None, refused: str | None = None,
           out: str | os.PathLike[str] | None = None, jobs: int | None = None, progress: bool = False,
           **parameters: typing.Any) -> typing.Any:
-    """Runs an engine at many points, each checked against its golden model: a table with a row a point.
+    """Runs an engine at many points, each checked against its golden model; returns a table with one row per point.
 
-    what is the name of an engine, or a file of a sweep, which says all but out and jobs itself. axes are parameters and
-    their values: {"cache_bytes": [4096, 8192]} by the names that run() takes, lists or what a file may have for them
-    ({"from": 32, "to": 256, "times": 2}). Parameters beside them are those of every point. metrics are keys of
-    result.json, a list, or names and keys; without any: cycles and rate. minimise and maximise name metrics, and the
-    table says which points are on the front of them; points are compared that agree in the axes of for_each.
-    constraints, sample and `refused` are those of a file. out keeps the points, and what is there is not run again; jobs
-    is how many run at a time.
+    what is the name of an engine, or a sweep file, which defines everything except out and jobs. axes are parameters
+    and their values: {"cache_bytes": [4096, 8192]} by the names that run() accepts, as lists or in the forms of a sweep
+    file ({"from": 32, "to": 256, "times": 2}). Other parameters apply to every point. metrics are keys of result.json,
+    as a list or as names and keys; default: cycles and rate. minimise and maximise name metrics, and the table shows
+    which points are on their Pareto front; only points that agree in the axes of for_each are compared. constraints,
+    sample and `refused` are those of a file. out keeps the points, and existing ones are not run again; jobs is the
+    number of concurrent runs.
 
-    The table is a pandas DataFrame where pandas is installed, else a list of dictionaries. Points that failed are rows
-    with their failure, and a warning."""
+    The table is a pandas DataFrame if pandas is installed, else a list of dictionaries. Points that failed are rows
+    with their failure, and a warning is raised."""
     with tempfile.TemporaryDirectory(prefix="deburr_sweep_") as scratch:
         folder = pathlib.Path(scratch)
         place = folder / "out" if out is None else pathlib.Path(out)
@@ -121,7 +121,7 @@ def sweep(what: str | os.PathLike[str], axes: dict[str, typing.Any] | None = Non
             if axes is not None or parameters or any(
                     value is not None for value in (metrics, minimise, maximise, for_each, constraints, sample, refused)):
                 if not os.path.exists(what):
-                    call("run", str(what))  # no engine: its words
+                    call("run", str(what))  # not an engine: raises the command's message
                 raise ValueError(f"{what}: a file of a sweep says itself what it varies; out, jobs and progress can be "
                                  "given beside it")
             file = pathlib.Path(what)

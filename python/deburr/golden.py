@@ -2,13 +2,13 @@
 """Bit-exact golden models of the engines, on numpy arrays.
 
 Frames are uint8 of (height, width, 4), R, G, B, A; (height, width, 3) is opaque. Depths are near / w in float32, 0..1,
-or the codes that hardware has, U24 in uint32. What is wrong with an argument is a ValueError that says what is wanted.
-Results share the memory of the model that made them, which lives as long as they do, and are read only.
+or the hardware's codes, U24 in uint32. An invalid argument raises a ValueError with what was expected. Results are
+read-only views of memory of the model that made them, which they keep alive.
 """
 import importlib
 import pathlib
 
-# Each engine's part is a module of its own, _golden_NAME.py; what it offers is here.
+# Each engine's part is a module _golden_NAME.py; its public names are re-exported here.
 _PARTS = [importlib.import_module(f"deburr.{file.stem}") for file in sorted(pathlib.Path(__file__).parent.glob("_golden_*.py"))]
 for _part in _PARTS:
     for _name in _part.__all__:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reference filters and reference in real numbers: what the engines are compared with, and methods beside theirs.
+"""Reference filters and references in real arithmetic, and other methods for comparison with the engines.
 
 Filters take uint8 frames of (height, width, 4). Colours of textures are float64, 0..255.
 """

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program behind `deburr papers`.
+// The program that `deburr papers` starts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ tool::Outcome reproduce(const tool::PapersOptions& command, const tool::CommandL
                              .interrupted = tb::interrupted};
   tool::RunDirectory directory(command.out);
   std::vector<Paper> done;
-  std::string ended;  // why it is not complete
+  std::string ended;  // why it is incomplete
   int code = 0;
   try {
     directory.claim(line.text, {"papers.json", "index.html"},

@@ -24,7 +24,7 @@ namespace {
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-// Columns line up by characters, not bytes: the tables hold Greek letters and signs.
+// Aligns columns by characters rather than bytes: the tables contain Greek letters and signs.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
@@ -35,7 +35,7 @@ std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(width - std::min(width, characters(text)), ' ');
 }
 
-// A column is set right when it holds numbers (and gaps) only.
+// Columns that contain only numbers (and gaps) are aligned right.
 bool is_numeric(const PaperTable& table, std::size_t column) {
   return !table.rows.empty() &&
          std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {

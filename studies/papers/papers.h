@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reproduction report: for each figure that a paper prints, ours, computed here and now, and a
-// verdict in one word. One file a paper (papers_004.cpp, ...); this one knows how to print them.
+// The reproduction report: for each figure printed in a paper, our computed value and a one-word
+// verdict. One file per paper (papers_004.cpp, ...); this one prints the tables.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace deburr::studies {
 
 struct PaperTable {
   std::string title, note;
-  // A column named "verdict" is shown as one (verdicts.h); "-": nothing is claimed of this row.
+  // A column named "verdict" is shown as one (verdicts.h); "-": the row makes no claim.
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
@@ -44,18 +44,18 @@ struct Paper {
 };
 
 struct PaperOptions {
-  bool quick = false;  // leave out what takes more than a few seconds
-  int size = 512;      // side of the pictures and of the scenes that are measured
+  bool quick = false;  // omits parts that take more than a few seconds
+  int size = 512;      // side in pixels of the pictures and of the measured scenes
   bool quiet = false;  // no progress
-  std::function<bool()> interrupted = [] { return false; };  // asked now and then
+  std::function<bool()> interrupted = [] { return false; };  // polled during the work
 
-  // Throws Interrupted when asked to: what was done of this paper is of no use.
+  // Throws Interrupted if requested: a partial paper is discarded.
   void go_on() const;
-  // The same question of those who ask by themselves, and shows what is waited for meanwhile.
+  // The same check for callees that poll by themselves; also shows what is being waited for.
   std::function<bool()> watching(tb::Waiting& waiting) const;
 };
 
-// Builds one paper's part; shows progress on the error stream. May throw Interrupted.
+// Builds one paper's tables; shows progress on the error stream. May throw Interrupted.
 using PaperBuilder = Paper (*)(const PaperOptions&);
 struct PaperEntry {
   const char* id;
@@ -63,12 +63,12 @@ struct PaperEntry {
 };
 const std::vector<PaperEntry>& papers();
 
-// A number for a table: "identical" for the PSNR of identical pictures, which is infinite.
+// A number for a table; "identical" for the infinite PSNR of identical pictures.
 std::string decimals(double value, int digits);
 
 // The tables as text, for the terminal.
 std::string to_text(const Paper& paper);
-// papers.json, the pictures and index.html. Returns what a manifest says of them.
+// Writes papers.json, the pictures and index.html. Returns their description for the manifest.
 nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
                                     const std::vector<Paper>& papers);
 

@@ -43,7 +43,7 @@ using tb::stimuli::FanOptions;
 using tb::stimuli::FanRow;
 
 constexpr int kPaperLoops = 4;        // "all results use 4"
-constexpr int kReferenceSamples = 8;  // each way, of a pixel
+constexpr int kReferenceSamples = 8;  // per pixel, in each direction
 
 double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
@@ -85,13 +85,13 @@ PaperTable theorem(const PaperOptions& options) {
       lengths.push_back(length);
       shortest = std::min(shortest, length);
       longest = std::max(longest, length);
-      // 1 / (L + 1) < k < 1 / (L - 1), for slopes that are no 1 / n.
+      // 1 / (L + 1) < k < 1 / (L - 1), for slopes other than 1 / n.
       if (!(line.slope * (length + 1) > 1 && line.slope * (length - 1) < 1)) ++outside;
     }
     runs += static_cast<std::int64_t>(lengths.size());
     ++pairs;
     violations += longest - shortest > 1;
-    // In a digital line the rarer of two lengths has no neighbour of its own kind.
+    // In a digital line the rarer of the two lengths never occurs twice in a row.
     const auto rare = 2 * std::count(lengths.begin(), lengths.end(), longest) <
                               static_cast<std::ptrdiff_t>(lengths.size())
                           ? longest
@@ -99,7 +99,7 @@ PaperTable theorem(const PaperOptions& options) {
     if (longest != shortest)
       for (std::size_t k = 0; k + 1 < lengths.size(); ++k)
         neighbours += lengths[k] == rare && lengths[k + 1] == rare;
-    // Lengths of L and L + 1 at random obey the theorem; most of them are no line.
+    // Random lengths of L and L + 1 satisfy the theorem, but most of them are not digital lines.
     bool twice[2] = {false, false};
     int last = -1;
     for (int k = 0; k < 12; ++k) {
@@ -134,8 +134,8 @@ PaperTable theorem(const PaperOptions& options) {
 struct Search {
   int end = 0;      // where it stops
   int steps = 0;    // extensions taken
-  int tests = 0;    // end points tested, one after the other
-  int fetches = 0;  // texture samples: one shows two neighbouring pixels
+  int tests = 0;    // end points tested, in sequence
+  int fetches = 0;  // texture samples: one returns two neighbouring pixels
   bool on_corner = true;
 };
 
@@ -324,7 +324,7 @@ std::vector<FanRow> quality_rows() {
   return rows;
 }
 
-// Without `digits`: as they were given.
+// Without `digits`, values are printed as given.
 std::vector<std::string> cells_of(std::string name, const FanFigures& figures,
                                   std::optional<int> digits = {}) {
   std::vector<std::string> cells = {std::move(name)};
@@ -337,7 +337,7 @@ std::vector<std::string> cells_of(std::string name, const FanFigures& figures,
   return cells;
 }
 
-// "kept", or the names of the figures that are above.
+// "kept", or the names of the figures that exceed the contract.
 std::string contract_text(const std::vector<std::string>& above) {
   std::string text = above.empty() ? "kept" : "above:";
   for (const std::string& name : above) text += " " + name + (name == above.back() ? "" : ",");
@@ -377,7 +377,7 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
     if (rows[r].name == "mlaa") mlaa = figures;
     const bool chord = rows[r].name.starts_with("chord") && rows[r].parameters.steps > 0;
     const bool ours = rows[r].name.starts_with("fit") || rows[r].name.starts_with("deburr");
-    // Two steps a side are not what the contract's row has.
+    // The contract's row assumes at least four steps per side.
     const bool checked = ours && rows[r].parameters.steps >= 4;
     const std::vector<std::string> above = exceeded(tb::stimuli::asked_of_ours(), figures);
     std::vector<std::string> cells = cells_of(rows[r].name, figures, 1);
@@ -445,12 +445,12 @@ Mask crop_mask(const Mask& mask, int x0, int y0, int size) {
   return out;
 }
 
-// Where the corner of a window may lie.
+// Allowed positions of a window's corner.
 struct Region {
   int left, right, top, bottom;  // pixels; right and bottom excluded
 };
 
-// The corner of the window of this size with the most pixels of the mask.
+// The corner of the window of this size that contains the most pixels of the mask.
 std::pair<int, int> busiest(const Mask& mask, int size, const Region& region) {
   std::pair<int, int> best{region.left, region.top};
   std::int64_t most = -1;
@@ -465,9 +465,9 @@ std::pair<int, int> busiest(const Mask& mask, int size, const Region& region) {
   return best;
 }
 
-// One sheet. Columns: the methods. Rows: as it is, then in each of `strips` upright parts of the
-// picture, within `rows` of its height, the place with the most silhouettes, 4 x and, inside it,
-// 8 x.
+// One sheet of zoomed crops. Columns: methods. Rows: the whole picture, then for each of `strips`
+// vertical strips the window with the most silhouettes (within `rows` of the height), at 4 x with
+// an inset at 8 x.
 Image zooms(const std::vector<Method>& list, const Mask& silhouettes, int strips,
             std::pair<double, double> rows) {
   constexpr int kSide = 192;
@@ -502,8 +502,8 @@ std::vector<tb::LitFrames> frames_of_configuration(const PaperOptions& options) 
   return frames;
 }
 
-// The row that this one is made of: the one above, or the one that it names ("mlaa, deburr's
-// edges"); none of a preset itself.
+// The row that this row is compared with: the previous one, or the one that it names ("mlaa,
+// deburr's edges"); none for a preset itself.
 std::optional<std::size_t> made_of(const std::vector<FanRow>& rows, std::size_t row) {
   const std::string& name = rows[row].name;
   const std::size_t comma = name.find(',');
@@ -515,7 +515,7 @@ std::optional<std::size_t> made_of(const std::vector<FanRow>& rows, std::size_t 
   return row - 1;
 }
 
-// What each rule of deburr adds.
+// The gain of each configuration step of deburr.
 PaperTable configuration(const PaperOptions& options) {
   PaperTable table{
       "The rules of deburr, one by one",
@@ -572,7 +572,7 @@ PaperTable configuration(const PaperOptions& options) {
   return table;
 }
 
-// Of a method among those of a scene.
+// The verdict of one method among those of a scene.
 std::string scene_verdict(const std::vector<Method>& list, const std::vector<Scores>& scores,
                           std::size_t which) {
   if (list[which].name.starts_with("deburr")) return place(scores, which);
@@ -608,7 +608,7 @@ Compared rendered_scenes(const PaperOptions& options) {
   struct Shown {
     const char* scene;
     const char* title;  // none: no pictures
-    int strips = 0;     // of the sheet of zooms
+    int strips = 0;     // vertical strips of the zoom sheet
     std::pair<double, double> rows = {0, 1};
   };
   constexpr std::array<Shown, 6> kScenes = {
@@ -659,7 +659,7 @@ Compared rendered_scenes(const PaperOptions& options) {
   return compared;
 }
 
-// Frames that learned shares were not trained on.
+// Frames that the learned weights were not trained on.
 PaperTable held_out(const PaperOptions& options) {
   PaperTable table{
       "Learned shares on frames that they did not see, PSNR in dB",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paper 002: Fan and others, Geometric information anti-aliasing algorithm with edge optimization,
-// 2016. Its equations are lost in the scan; docs/reference/geometric/algorithm.md has them as
-// they were reconstructed.
+// 2016. Its equations are illegible in the scan; docs/reference/geometric/algorithm.md has the
+// reconstruction.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,7 +71,7 @@ tb::Scene edge_on_cube() {
 
 // ---- equations (1) to (4) -----------------------------------------------------------------------
 
-// The sign of N . V with V from the eye to the middle of a face, where the table takes a corner.
+// The sign of N . V, with V from the eye to the centre of a face; the table takes V to a corner.
 double facing_of(const tb::Scene& scene, std::size_t face) {
   const auto& corners = scene.mesh.triangles[face].vertex;
   const V3d &a = scene.mesh.vertices[corners[0]].position,
@@ -81,7 +81,7 @@ double facing_of(const tb::Scene& scene, std::size_t face) {
 }
 
 struct Silhouettes {
-  std::uint64_t edges = 0, open = 0;  // vertices at which a loop ends
+  std::uint64_t edges = 0, open = 0;  // vertices where a loop ends
 };
 
 template <class IsSilhouette>
@@ -251,8 +251,8 @@ PaperTable equations_7_and_8(const PaperOptions& options) {
   return table;
 }
 
-// Pixels whose centre a line meets, for all directions of a few pixels: what does the printed
-// choice of a neighbour find there, and what ours? Who owns such a pixel says the top-left rule.
+// Pixels whose centre lies on a line, for all directions of a few pixels: compares the neighbour
+// that the printed rule chooses with ours. The top-left rule decides which face owns such a pixel.
 PaperTable ties() {
   constexpr int kReach = 12;
   std::int64_t ties = 0, printed_same = 0, ours_same = 0, borders = 0;
@@ -260,8 +260,8 @@ PaperTable ties() {
     for (int dx = -kReach; dx <= kReach; ++dx) {
       if (std::gcd(dx, dy) != 1) continue;
       const bool horizontal = std::abs(dx) > std::abs(dy);
-      // The pixel at the centre belongs to the face for which the line is a left edge, which lies
-      // to its right, or a top edge, which lies below.
+      // The centre pixel belongs to the face for which the line is a left edge (face to its right)
+      // or a top edge (face below).
       const auto to_the_right_or_below = [&](int x, int y) {
         return dy == 0 ? y > 0 : (dy > 0 ? dy * x - dx * y > 0 : dx * y - dy * x > 0);
       };
@@ -299,12 +299,12 @@ PaperTable ties() {
 
 // ---- table 1 ------------------------------------------------------------------------------------
 
-// What draws: every edge, those of the mesh's list, those selected in the view.
+// The set of drawn edges: every edge, the mesh's list, or those selected in the view.
 struct Drawing {
   const char* name;
   Parameters parameters;
 };
-// Persson's chapter draws a list that is made once a mesh: boundaries and creases by their angle.
+// Persson's chapter draws a list that is made once per mesh: boundaries, and creases by angle.
 Parameters prefiltered() {
   Parameters p = preset_parameters(Preset::kGpaa);
   p.select = spec::geometric::Select::kMesh;
@@ -316,12 +316,12 @@ std::array<Drawing, 3> drawings() {
            {"selected", preset_parameters(Preset::kGpaaOptimised)}}};
 }
 
-// Cycles of the hardware's edges phase by the bounds of docs/reference/geometric/hardware.md,
+// Cycles of the hardware's edges phase, by the bounds in docs/reference/geometric/hardware.md,
 // "Cycles".
 struct EdgeCycles {
   std::uint64_t kept = 0, blended = 0;
-  double rebuilt = 0;                     // a record a clock read, a kept one a clock written
-  std::array<double, 2> until_line{};     // classify, vertices, setup; by one and by two lanes
+  double rebuilt = 0;  // one record read per cycle, one kept record written per cycle
+  std::array<double, 2> until_line{};     // classify, vertices, setup; for one and two lanes
   double until_group = 0, with_copy = 0;  // without and with the copy of the frame
 };
 
@@ -361,7 +361,7 @@ EdgeCycles edge_cycles(const Frame& frame, const Parameters& parameters) {
   std::uint64_t port = 0;
   for (const Region region : {Region::kEdges, Region::kVertices, Region::kDepth, Region::kWeights})
     port += golden.traffic().read(region).size();
-  // The resolve's reads of weights come later; here they are few.
+  // The resolve reads weights later; here they are few.
   port += golden.traffic().write(Region::kWeights).size();
   const std::uint64_t copy =
       golden.traffic().read(Region::kColour).size() + golden.traffic().write(Region::kCopy).size();
@@ -429,7 +429,7 @@ PaperTable table_1() {
   }
   for (const std::size_t which : {1u, 2u}) {
     const Savings& mean = means[which];
-    // (a) cannot say more than half, so it is not what is compared.
+    // Variant (a) cannot report more than half, so it is not compared.
     table.rows.push_back({"mean (paper: 22.55)", drawings()[which].name, "-", "-",
                           decimals(mean.rebuilt, 2), "-", decimals(mean.one_lane, 2), "-",
                           decimals(mean.two_lanes, 2), "-", decimals(mean.no_copy, 2), "-",
@@ -494,7 +494,7 @@ Compared pictures(const PaperOptions& options) {
     const auto word = [&](std::size_t i) -> std::string {
       if (i == 0) return "-";
       if (i + 1 == methods.size()) return place(scores, i);
-      // Of those that draw fewer edges: than gpaa; of the others: than none.
+      // Methods that draw fewer edges are compared with gpaa, the others with no filter.
       return beats(scores[i], scores[i > kGpaa ? kGpaa : 0]) ? "better" : "worse";
     };
     for (std::size_t i = 0; i < methods.size(); ++i)

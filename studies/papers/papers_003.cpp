@@ -52,8 +52,8 @@ using tb::stimuli::FanOptions;
 
 // ---- the table ----------------------------------------------------------------------------------
 
-// A texture of two-byte texels as the public generator prints it: six characters a byte, and six
-// more for each line of twelve.
+// Size of a texture of two-byte texels as the public generator prints it: six characters per byte,
+// plus six for each line of twelve bytes.
 struct Texture {
   int width, height;
   int bytes() const { return 2 * width * height; }
@@ -62,7 +62,7 @@ struct Texture {
 };
 
 PaperTable sizes() {
-  // SMAA's, and one with seven rows of 8 orthogonal and 16 diagonal tiles of 16 x 16.
+  // SMAA's texture, and one with seven rows of 8 orthogonal and 16 diagonal tiles of 16 x 16.
   constexpr Texture kFull{160, 560}, kMerged{96, 448};
   const auto saving = [](double before, double after) { return 100 * (before - after) / before; };
   const double printed = saving(kFull.printed_kilobytes(), kMerged.printed_kilobytes());
@@ -225,7 +225,7 @@ struct Method {
   bool smoothed = true;
   Parameters parameters;
   const tb::stimuli::ReferenceFilter* reference =
-      nullptr;  // instead of the engine: has no hardware
+      nullptr;  // replaces the engine: no hardware exists
   bool by_engine() const { return smoothed && reference == nullptr; }
 };
 
@@ -377,11 +377,12 @@ PaperTable matrix_of_frames(const PaperOptions& options) {
 }
 
 struct Cost {
-  std::uint64_t cycles, unstalled;   // of a frame, measured and by formula
+  std::uint64_t cycles, unstalled;   // per frame, measured and by formula
   std::uint64_t rom_bits, ram_bits;  // physical
 };
 
-// The frame through the hardware model, every pixel compared with golden; in a process of its own.
+// Runs the frame through the hardware model in its own process; every pixel is compared with
+// golden.
 Cost cost_of(const Parameters& parameters, const Image& image) {
   return tb::forked<Cost>([&] {
     const tb::MorphologicalInput frame{image, {}};

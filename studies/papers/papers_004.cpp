@@ -103,7 +103,7 @@ PaperTable table_2() {
   return table;
 }
 
-// Equation 8 is said to be monotone over [0, π/4]: looks for its maximum.
+// Equation 8 is claimed to be monotone over [0, π/4]: searches for its maximum.
 std::vector<std::string> monotone_row(double alpha) {
   const auto error = [&](double theta) {
     return std::log2(std::cos(theta) + alpha * std::sin(theta));
@@ -151,7 +151,8 @@ PaperTable equation_23() {
   const double area = ideal::level_flip_area();
   const double closed = std::asinh(1.0) - 2 * std::log(1.5);
   const double probability = ideal::level_flip_probability();
-  // The unit's own integers over the same domain, and over lengths spread evenly in the logarithm.
+  // The unit's integer arithmetic over the same domain, and over lengths spread evenly on a log
+  // scale.
   const auto measured = [](bool log_uniform) {
     constexpr int kSteps = 1024;
     int flips = 0;
@@ -203,7 +204,7 @@ PaperTable figure_1() {
 
 // ---- section 3: what a synthesis gave -----------------------------------------------------------
 
-// Ours, once there is one.
+// Our synthesis result, once available.
 struct Synthesis {
   std::optional<double> flip_flops, look_up_tables, pins, clock_buffers, fpga_mhz, asic_mhz,
       milliwatts, square_micrometres;
@@ -221,7 +222,7 @@ PaperTable synthesis(const Synthesis& ours) {
     table.rows.push_back({item, paper, value ? decimals(*value, 2) : kNotPrinted,
                           value ? kNotPrinted : why, verdict(paper, value, "other")});
   };
-  // Of what the board has: the paper's own arithmetic, which needs no synthesis.
+  // Fractions of the board's resources: the paper's own arithmetic, which needs no synthesis.
   const auto share = [&](const char* item, const char* paper, double used, double there) {
     row(item, paper, 100 * used / there, "");
   };
@@ -254,7 +255,7 @@ struct Flips {
   }
 };
 
-// How often N differs from exact arithmetic on the fragments of a scene.
+// Counts how often N differs from exact arithmetic on the fragments of a scene.
 Flips count_flips(const TextureScene& scene, const spec::texture::Parameters& parameters) {
   const gold::TextureGolden golden = tb::make_golden(scene, parameters);
   Flips flips;
@@ -334,7 +335,7 @@ constexpr std::array<Gaussian, 3> kGaussians = {{{"whole", ideal::kEwaGaussian},
                                                  {"tapered", ideal::kEwaTapered},
                                                  {"cut", ideal::kEwaHeckbert}}};
 
-// Every rule against both references on the checkerboard ground plane.
+// Every configuration against both references on the checkerboard ground plane.
 PaperTable quality(const PaperOptions& options) {
   tb::SceneParameters scene_parameters;
   scene_parameters.source = "plane";
@@ -350,7 +351,7 @@ PaperTable quality(const PaperOptions& options) {
   const std::vector<ideal::PixelFootprint> footprints =
       ideal::pixel_footprints(scene.stream().quads, texture.image.width, texture.image.height);
 
-  // In blocks, so that progress is seen.
+  // In blocks, so that progress is shown.
   std::vector<ideal::Colour> box;
   std::array<std::vector<ideal::Colour>, kGaussians.size()> ewa;
   {
@@ -383,7 +384,7 @@ PaperTable quality(const PaperOptions& options) {
       {}};
   for (const Gaussian& gaussian : kGaussians)
     table.columns.push_back(fmt::format("EWA {} dB", gaussian.name));
-  // Of every pair of rules, then of the spreads of the paper's own.
+  // Every pair of configurations, then the spreads of the paper's own.
   std::vector<spec::texture::Parameters> variants;
   for (std::size_t f = 0; f < spec::texture::kFootprintNames.size(); ++f)
     for (std::size_t g = 0; g < spec::texture::kLog2Names.size(); ++g)
@@ -439,7 +440,7 @@ PaperTable quality(const PaperOptions& options) {
 
 // ---- a camera that turns ------------------------------------------------------------------------
 
-// A rule over roll on one texture, and what it costs.
+// Each configuration over roll on one texture, and its cost.
 PaperTable over_roll(const PaperOptions& options) {
   constexpr double kRolls[] = {0, 11.25, 22.5, 33.75, 45};
   struct Rule {
@@ -460,7 +461,7 @@ PaperTable over_roll(const PaperOptions& options) {
                                 {"four, ceil", own(Axes::kFour, CountRule::kCeil)},
                                 {"four, any (preset deburr)", own(Axes::kFour, CountRule::kAny)},
                                 {"eight, any", own(Axes::kEight, CountRule::kAny)}};
-  // Rules were chosen by looking at the first of these alone.
+  // Configurations were tuned on the first texture only.
   constexpr const char* kTextures[] = {"stones", "checker", "road", "brick"};
   const int size = std::min(options.size, 192);
 

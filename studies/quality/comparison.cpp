@@ -39,7 +39,7 @@ using GeometricConfiguration = spec::geometric::Parameters;
 
 constexpr int kWidth = 640, kHeight = 480, kSamples = 16;
 constexpr int kLinePixels = 1920;
-constexpr double kStreamBytes = 2 * spec::morphological::kFramePixelBytes;  // in and out
+constexpr double kStreamBytes = 2 * spec::morphological::kFramePixelBytes;  // input and output
 constexpr double kDepthBytes = 4;
 
 struct Method {
@@ -103,7 +103,7 @@ Image picture_of(const Method& method, const Frame& frame) {
 
 // ---- costs --------------------------------------------------------------------------------------
 
-// Runs an environment that `make` makes, in a process of its own.
+// Runs the environment that `make` creates, in its own process.
 template <class Make, class Measure>
 ComparisonCost cost_of(Make make, Measure measure) {
   return tb::forked<ComparisonCost>([&] {
@@ -176,7 +176,7 @@ ComparisonCost cost_of(const Method& method, const Frame& frame) {
 
 // ---- tables -------------------------------------------------------------------------------------
 
-// Digits in groups of three.
+// Groups digits in threes.
 std::string grouped_digits(double value) {
   std::string digits = fmt::format("{}", std::llround(value));
   for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
@@ -184,7 +184,7 @@ std::string grouped_digits(double value) {
   return digits;
 }
 
-// A column of quality.
+// A quality column.
 struct Column {
   const char* title;
   double ComparisonRow::*value;
@@ -199,6 +199,7 @@ constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
 
 bool is_reference(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
 
+// The reference has no value here.
 std::string cell(const ComparisonRow& row, const Column& column) {
   return fmt::format("{:.{}f}", row.*column.value, column.digits);
 }
@@ -309,7 +310,7 @@ namespace {
 
 struct Place {
   const char* scene;
-  int x, y;  // of the crop's corner
+  int x, y;  // crop corner
 };
 constexpr Place kPlaces[] = {{"object", 264, 116}, {"cylinders", 414, 136}};
 constexpr int kCrop = 28, kZoom = 6, kAcross = 8, kGap = 8, kLetters = 2, kLeading = 4;
@@ -352,7 +353,7 @@ Image comparison_sheet() {
     for (const Method& method : compared_methods())
       add(method.label, picture_of(method, checker.frame));
     add("reference", checker.reference);
-    // The next place begins a row.
+    // Pads to a full row.
     while (cells.size() % kAcross != 0)
       cells.emplace_back(cells.front().width, cells.front().height, tb::Rgba8{255, 255, 255, 255});
   }

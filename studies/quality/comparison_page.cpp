@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Keeps the generated part of docs/measurements/comparison.md and its picture current.
+//
 //   comparison_page write PAGE           replaces the part between the two marker lines
-//   comparison_page check PAGE [SCENE]   exit code 1 when that part, or of it the section of one
-//                                        scene, is not what would be written
+//   comparison_page check PAGE [SCENE]   exit code 1 if that part, or one scene's section of it, is
+//                                        out of date
 //   comparison_page draw PICTURE         writes the picture
-//   comparison_page compare PICTURE      exit code 1 when its pixels are not what would be drawn
+//   comparison_page compare PICTURE      exit code 1 if its pixels are out of date
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +39,7 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
-// Where the generated part lies.
+// Bounds of the generated part.
 std::pair<std::size_t, std::size_t> part_of(const std::filesystem::path& path,
                                             const std::string& page) {
   const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
@@ -47,7 +48,7 @@ std::pair<std::size_t, std::size_t> part_of(const std::filesystem::path& path,
   return {begin + kBegin.size(), end};
 }
 
-// A column per scene, the best method of each in bold.
+// One column per scene; the best method of each is bold.
 std::string edges_by_scene(std::span<const std::vector<deburr::studies::ComparisonRow>> scenes) {
   std::string text = "### Edges by scene, dB\n\n| |", line = "|---|";
   for (const std::string_view scene : deburr::studies::comparison_scenes()) {
@@ -70,7 +71,7 @@ std::string edges_by_scene(std::span<const std::vector<deburr::studies::Comparis
   return text + "\n";
 }
 
-// The mean of all scenes, and in full the one that takes most cycles.
+// The mean over all scenes, and the full table of the scene that takes most cycles.
 std::string generated() {
   std::vector<std::vector<deburr::studies::ComparisonRow>> scenes;
   std::string sections;

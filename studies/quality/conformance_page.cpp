@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Keeps the generated part of docs/measurements/filtering_conformance.md current.
+//
 //   conformance_page write PAGE           replaces the part between the two marker lines
-//   conformance_page check PAGE [STALE]   exit code 1 when that part is not what would be written;
-//       STALE is a page with a injected wrong table, and it is a failure when that is not noticed
+//   conformance_page check PAGE [STALE]   exit code 1 if that part is out of date; STALE is a page
+//                                         with an injected wrong table, which must be detected
 #include <exception>
 #include <filesystem>
 #include <fstream>

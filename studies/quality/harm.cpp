@@ -74,11 +74,11 @@ std::vector<Filter> filters() {
 // ---- measures -----------------------------------------------------------------------------------
 
 struct Figures {
-  double small = 0, large = 0;  // % of the right pixels, changed by more than 2 and 16 codes
+  double small = 0, large = 0;  // % of the correct pixels that change by more than 2 and 16 codes
   double psnr = 0, flip = 0, ssim = 0;
 };
 
-// Against the reference, or, without one, against the frame, all of which is right then.
+// Measured against the reference; without one, against the frame, which is then correct everywhere.
 std::vector<Figures> measure(const Image& frame, const Image& reference,
                              std::span<const Image> smoothed) {
   const tb::Mask right = inverted(tb::edge_mask(reference, frame));
@@ -126,7 +126,7 @@ std::string row(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-// A frame that is right as it is, and what every filter makes of it.
+// A frame that needs no smoothing, and the output of every filter.
 struct Checked {
   std::string name;
   std::vector<Figures> figures;
@@ -171,8 +171,7 @@ std::string textured_table(std::span<const Filter> filters) {
   return text;
 }
 
-// ---- frames with reference
-// --------------------------------------------------------------------------
+// ---- frames with reference ----------------------------------------------------------------------
 
 struct Pair {
   Image frame, reference;
@@ -230,7 +229,7 @@ std::vector<Pair> stand_ins() {
 
 // ---- the text guard -----------------------------------------------------------------------------
 
-// Each without the guard and with it.
+// Each preset without and with the guard.
 constexpr std::array<m::Preset, 2> kGuardedPresets = {m::Preset::kDeburr, m::Preset::kSmaa};
 
 std::vector<Filter> guarded_filters() {
@@ -271,14 +270,14 @@ std::string of_right_frame_with_guard(const std::string& name, const Image& fram
   return row(cells);
 }
 
-// Without a sign where it is rounded to nothing.
+// Omits the sign if the value rounds to zero.
 std::string difference(double decibels) {
   std::string text = fmt::format("{:.2f}", decibels);
   return text == "-0.00" ? "0.00" : text;
 }
 
-// Of frames with reference: PSNR over edges and over the frame with the guard less that without it,
-// of each preset that of the frame that loses most; and the largest share of guarded pixels.
+// For frames with a reference: change of PSNR over edges and over the frame when the guard is
+// enabled, per preset for the frame that loses most; and the largest fraction of guarded pixels.
 std::string worst_with_guard(const std::string& name, std::span<const Pair> pairs,
                              std::span<const Filter> filters) {
   double guarded = 0;
@@ -317,7 +316,7 @@ struct FramePair {
 constexpr std::array<FramePair, 2> kFrames = {
     {{"`track` 720p", "frames/track_720p_noaa.png", "frames/track_720p_ssaa256.png"},
      {"`track` 1080p", "frames/track_1080p_noaa.png", "frames/track_1080p_ssaa64.png"}}};
-// Never trained on, and measured once (docs/measurements/morphological_quality.md, "Frames with a
+// Not used for training; evaluated once (docs/measurements/morphological_quality.md, "Frames with a
 // reference").
 constexpr std::array<const char*, 17> kHeldOut = {"kenney/city/models/building-small-b.glb",
                                                   "kenney/city/models/building-small-d.glb",

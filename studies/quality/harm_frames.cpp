@@ -84,7 +84,7 @@ class Hall {
     mesh_.materials.push_back({"", colour, texture});
     return static_cast<std::uint32_t>(mesh_.materials.size() - 1);
   }
-  // Counter-clockwise from the corner; repeats of the texture along both sides.
+  // Corners counter-clockwise; texture repeats along both sides.
   void quad(const V3d& corner, const V3d& along, const V3d& up, std::uint32_t of, double repeats_s,
             double repeats_t) {
     const V3d normal = along.cross(up).normalized();
@@ -118,7 +118,7 @@ class Hall {
 
 // ---- noise --------------------------------------------------------------------------------------
 
-// Smooth noise over the plane, 0..1, of one octave and of several that halve.
+// Smooth noise over the plane, 0..1: one octave, and several with halving amplitude.
 double lattice(int x, int y, std::uint64_t seed) {
   Random random(seed + static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) * 0x1F123BB5ULL +
                 static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) * 0x9E3779B97F4AULL);
@@ -145,9 +145,9 @@ double fractal(double x, double y, int octaves, std::uint64_t seed) {
 
 // ---- a camera -----------------------------------------------------------------------------------
 
-using Light = std::array<double, 3>;  // as codes, 0..255, from 0 to white
+using Light = std::array<double, 3>;  // as codes, 0..255, linear up to white
 
-// The picture light(x, y), four samples a pixel each way, through a lens and with a sensor's noise.
+// The picture light(x, y) with 4 x 4 samples per pixel, a lens blur and sensor noise.
 template <class Scenery>
 Image photo(int width, int height, std::uint64_t seed, Scenery light) {
   constexpr int kSamples = 4;
@@ -168,7 +168,7 @@ Image photo(int width, int height, std::uint64_t seed, Scenery light) {
   }
   for (double& tap : lens.taps) tap /= sum;
   Random random(seed);
-  const auto noise = [&] {  // about normal, with a deviation of 2 codes
+  const auto noise = [&] {  // approximately normal, standard deviation 2 codes
     double all = 0;
     for (int i = 0; i < 4; ++i) all += random.uniform(-1, 1);
     return all * 2 / std::sqrt(4.0 / 3);
@@ -177,7 +177,7 @@ Image photo(int width, int height, std::uint64_t seed, Scenery light) {
   for (std::size_t c = 0; c < 3; ++c) {
     ImageOf<double> rows, blurred;
     convolve_along_rows(planes[c], lens, rows);
-    // The outermost rows once more, for the lens.
+    // The outermost rows are repeated for the lens.
     ImageOf<double> framed(width, height + 4);
     for (int y = 0; y < height + 4; ++y)
       std::copy_n(&rows.at(0, std::clamp(y - 2, 0, height - 1)), width, &framed.at(0, y));
@@ -216,13 +216,13 @@ std::vector<Stroke> strokes_of(const std::string& text) {
       if (down) join(x, y, x, y + 1);
       if (!right && !down && dot(x + 1, y + 1)) join(x, y, x + 1, y + 1);
       if (!dot(x - 1, y) && !down && dot(x - 1, y + 1)) join(x, y, x - 1, y + 1);
-      join(x, y, x, y);  // dots by themselves
+      join(x, y, x, y);  // isolated dots
     }
   }
   return strokes;
 }
 
-// Where strokes of this thickness cover a plane, in 64 samples a pixel.
+// Coverage by strokes of this thickness, with 64 samples per pixel.
 class Coverage {
  public:
   Coverage(int width, int height) : samples_(width, height) {}
@@ -316,7 +316,7 @@ Tile tile_of(int kind, Random& random) {
   return tile;
 }
 
-// Half of a figure at random, the other half its mirror image, an outline around both.
+// A random half figure, mirrored, with an outline.
 void draw_figure(ImageOf<std::uint8_t>& canvas, int left, int top, Random& random) {
   constexpr int kSide = 12;
   std::array<std::array<bool, kSide>, kSide> body{};
@@ -411,7 +411,7 @@ Image foliage_photo(int width, int height) {
                       std::sin(angle),
                       {110 * bright, 170 * bright, 60 * bright * bright}});
   }
-  // Leaves that may be seen in a cell of 16 x 16 pixels.
+  // Leaves that can be visible in a cell of 16 x 16 pixels.
   const int columns = width / 16 + 1, rows = height / 16 + 1;
   std::vector<std::vector<std::size_t>> cells(static_cast<std::size_t>(columns * rows));
   const auto cell = [&](int column, int row) -> std::vector<std::size_t>& {
@@ -454,7 +454,7 @@ Image text_page(Text kind, int width, int height) {
     }
     return page;
   }
-  constexpr double kScale = 1.56, kThickness = 1.5;  // pixels a dot; nine dots are 14 pixels
+  constexpr double kScale = 1.56, kThickness = 1.5;  // pixels per dot; nine dots are 14 pixels
   Coverage coverage(width, height);
   for (double y = 8; y + 9 * kScale < height - 4; y += 11.5 * kScale) {
     const auto letters = static_cast<std::size_t>((width - 16) / (6 * kScale));
@@ -493,7 +493,7 @@ Textured wires(double thickness, double degrees, int width, int height) {
   const auto on_wire = [&](double x, double y) {
     return std::abs(std::remainder(y * cosine - x * sine, kApart)) < thickness / 2;
   };
-  // By the number of samples that a wire takes.
+  // Indexed by the number of samples that a wire covers.
   std::array<Rgba8, kSide * kSide + 1> mixes{};
   for (std::size_t samples = 0; samples < mixes.size(); ++samples) {
     const double share = static_cast<double>(samples) / (kSide * kSide);

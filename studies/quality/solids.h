@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes of many plain solids that no engine was tuned on: thin things, stacked things, things
-// through each other and in a floor, far and fine things.
+// Scenes of many plain solids that no engine was tuned on: thin, stacked, intersecting each other
+// or a floor, far and fine.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ struct SolidsName {
 // rods, plates, crossing, floor, far
 std::span<const SolidsName> solids_names();
 
-// One of them by name; another seed is another scene of the same kind, from elsewhere. Throws
-// std::out_of_range for a name that there is not.
+// A scene by name; another seed gives another scene and camera of the same kind. Throws
+// std::out_of_range for an unknown name.
 tb::Scene make_solids(std::string_view name, std::uint64_t seed);
 
-// The scene seen from elsewhere: its camera turned about the vertical through its target.
+// The scene with its camera turned about the vertical axis through its target.
 tb::Scene turned(tb::Scene scene, double degrees);
 
 }  // namespace deburr::studies

@@ -13,7 +13,7 @@
 namespace deburr::studies {
 namespace {
 
-constexpr int kBox = 24;  // points each way in a pixel of the reference
+constexpr int kBox = 24;  // points per reference pixel, in each direction
 
 std::vector<std::uint8_t> bytes_of(const tb::Image& image) {
   std::vector<std::uint8_t> bytes;
@@ -47,7 +47,7 @@ TurnedPhoto::TurnedPhoto(const PhotoTexture& photo, const Turn& turn) : photo_(p
     const double across = x - 0.5 * turn.size, down = y - 0.5 * turn.size;
     const double s = turn.ratio * turn.width * (cosine * across - sine * down);
     const double t = turn.width * (sine * across + cosine * down);
-    // Off the grid of the texels, as a camera is.
+    // An offset that does not align with the texel grid.
     return std::pair{s / photo.image().width + 0.4137, t / photo.image().height + 0.2731};
   };
   for (int y = 0; y < turn.size; y += 2) {

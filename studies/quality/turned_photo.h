@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A photograph on a surface that a turned camera sees at a shallow angle: every pixel has the same
-// footprint, ratio : 1 texels, with the camera turned about its own axis. What anisotropic
-// filtering is worth in every direction, which a camera that stands upright does not show.
+// A photograph on a surface at a shallow angle, seen by a camera that is rotated about its own
+// axis: every pixel has the same footprint, ratio : 1 texels. Measures anisotropic filtering in
+// every direction, which an upright camera does not show.
 #pragma once
 
 #include <cstdint>
@@ -37,16 +37,16 @@ class PhotoTexture {
 struct Turn {
   double degrees = 0;  // of the camera
   double ratio = 6;    // length of the footprint in texels
-  double width = 1;    // across it
-  int size = 96;       // pixels each way, even
+  double width = 1;    // footprint width in texels
+  int size = 96;       // pixels per side, even
 };
 
 struct FilterFigures {
   double psnr = 0;  // dB against the supersampled parallelogram, R, G and B
-  // Share of the detail that a trilinear filter loses and this one keeps; 1: as much as the
+  // Fraction of the detail lost by a trilinear filter that this filter keeps; 1: as much as the
   // reference.
   double detail = 0;
-  double samples = 0;  // a fragment
+  double samples = 0;  // per fragment
   double bilinears = 0;
 };
 
@@ -56,7 +56,7 @@ class TurnedPhoto {
 
   FilterFigures golden(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
   FilterFigures ellipse(const spec::texture::Parameters& parameters, int lb_n_max = 4) const;
-  // Of colours one a pixel in the order of the quads.
+  // `rgba` holds one colour per pixel in the order of the quads.
   FilterFigures check(std::span<const std::uint8_t> rgba) const;
   const std::vector<spec::texture::Quad>& quads() const { return quads_; }
   const std::vector<golden::ideal::Colour>& reference() const { return reference_; }

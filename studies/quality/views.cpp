@@ -30,7 +30,7 @@ std::uint32_t paint(Mesh& mesh, Random& random) {
 }
 
 struct Axes {
-  V3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // of a box or a ring, at right angles
+  V3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // axes of a box or a ring, at right angles
 };
 Axes about_y(double angle) {
   return {V3d(std::cos(angle), 0, std::sin(angle)), V3d(0, 1, 0),
@@ -90,7 +90,7 @@ struct Point {
 void ring(Mesh& mesh, const V3d& middle, const Axes& axes, double radius, double tube, int around,
           std::uint32_t material) {
   surface(mesh, around, 16, material, [&](double u, double v) {
-    // The last corner is the first one, to the bit.
+    // The last corner equals the first one bit for bit.
     const double a = kTurn * std::fmod(u, 1.0), b = kTurn * std::fmod(v, 1.0);
     const V3d out = axes.x * std::cos(a) + axes.y * std::sin(a);
     const V3d normal = out * std::cos(b) + axes.z * std::sin(b);
@@ -98,7 +98,7 @@ void ring(Mesh& mesh, const V3d& middle, const Axes& axes, double radius, double
   });
 }
 
-// A lathe about y: profile of (radius, height), flat from point to point.
+// A solid of revolution about y: profile of (radius, height), flat between points.
 void lathe(Mesh& mesh, const V3d& foot, std::span<const Imath::V2d> profile, int sides,
            std::uint32_t material) {
   const auto out = [&](int i) {
@@ -202,7 +202,7 @@ void terraces(Mesh& mesh, Random& random) {
     for (int step = 0; step < 7 && radius > 0.06; ++step) {
       y += random.uniform(0.02, 0.12);
       const double lid = random.uniform(0.004, 0.02);
-      profile.emplace_back(radius, y);  // a lid that stands out, and the next step
+      profile.emplace_back(radius, y);  // a protruding lid, and the next step
       profile.emplace_back(radius + lid, y);
       profile.emplace_back(radius + lid, y + lid);
       radius *= random.uniform(0.7, 0.9);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Views that the engines' rules are measured on, in two halves: one to choose rules by, and one
-// that was drawn only when they were chosen. Both have scenes of the project, kinds of meshes of
-// its own (thin, stacked, through each other, far and fine) and meshes of others.
+// Views for measuring the engines' configurations, in two halves: one for selecting options, and
+// one first rendered after the selection. Both contain scenes of the project, kinds of its
+// procedural meshes (thin, stacked, intersecting, far and fine) and third-party meshes.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,20 @@ struct MeasuredView {
 };
 
 enum class Half { kChosenBy, kHeldOut };
-// Meshes of others come from the data folder, and are left out without it.
+// Third-party meshes come from the data folder; without it they are omitted.
 std::vector<MeasuredView> views(Half half, const std::filesystem::path& data);
 
-// A mesh of one kind; another seed is another one, from elsewhere. Throws std::out_of_range for a
-// name that there is not. solids.h has more of them.
-//   fence    thin: bars of one to four pixels, upright and across, in three layers
-//   ribbons  thin: open strips that wind, seen from both sides
-//   chain    through each other: rings and balls, smooth
-//   shelves  stacked: boxes side by side and on each other, a hair apart
+// A mesh of one kind; another seed gives another mesh and camera. Throws std::out_of_range for an
+// unknown name. solids.h has more kinds.
+//   fence    thin: bars of one to four pixels, vertical and horizontal, in three layers
+//   ribbons  thin: winding open strips, visible from both sides
+//   chain    intersecting: rings and balls, smooth
+//   shelves  stacked: boxes next to and on each other with tiny gaps
 //   terraces stacked: round steps with thin lids
-//   field    far and fine: cones and boxes in a hilly ground, seen from low above it
+//   field    far and fine: cones and boxes on hilly ground, seen from a low camera
 tb::Scene make_kind(std::string_view name, std::uint64_t seed);
 
-// Inside of a cube, near its middle.
+// Inside a cube, near its centre.
 tb::Scene inside_a_cube(double degrees);
 
 }  // namespace deburr::studies

@@ -42,7 +42,7 @@ std::string listed(const Table& table) {
   return text;
 }
 
-// The least step of a colour that is an edge of preset deburr, whatever units its T has.
+// The smallest colour step that preset deburr detects as an edge, in codes for any unit of T.
 int least_step() {
   for (int step = 1; step < 256; ++step) {
     golden::morphological::MorphologicalGolden golden(

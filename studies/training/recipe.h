@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the ROMs of learned weights were made of, as text: the trainer's version, its options, the
-// rules that frames are looked at by, every frame with a hash of its pixels.
-// spec/morphological/learned_weights.h has the hash of that text (kWeightsRecipe).
+// The recipe of the learned weights' ROMs, as text: the trainer's version, its options, the
+// configuration for frames, and every frame with a hash of its pixels.
+// spec/morphological/learned_weights.h contains the hash of that text (kWeightsRecipe).
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@
 
 namespace deburr::studies::training {
 
-// To be raised with everything that changes tables and stands in no other line of the recipe
-// (WeightTrainer.GivesTheTablesOfItsVersion says when).
+// Raise it with every change that affects the tables and no other line of the recipe
+// (WeightTrainer.ReproducesTheTablesOfItsVersion reports that).
 inline constexpr int kTrainerVersion = 2;
 
-// Of name, size and colours of frame and reference.
+// Hash of name, size, and the colours of frame and reference.
 std::uint64_t hash_of(const ReferenceFrame& frame);
 
-// A frame is its name and hash, in the order of the training.
+// A frame's name and hash, in training order.
 using HashedFrame = std::pair<std::string, std::uint64_t>;
 std::string recipe_text(const Recipe& recipe, const FrameOptions& options,
                         const std::vector<HashedFrame>& frames);
-// The frames of such a text.
+// The frames listed in a recipe.
 std::vector<HashedFrame> frames_of_recipe(const std::string& text);
 
-// spec/morphological/learned_weights.h.
+// Text of spec/morphological/learned_weights.h.
 std::string header_of(const golden::morphological::WeightTables& tables, const std::string& recipe);
 
 }  // namespace deburr::studies::training

@@ -31,7 +31,7 @@ class Writer {
   explicit Writer(std::string name) : text_(fmt::format("mtllib {}.mtl\n", name)) {}
 
   void use(int colour) { text_ += fmt::format("usemtl c{}\n", colour); }
-  // Turned by `angle` around the upright axis through its centre.
+  // Rotated by `angle` around the vertical axis through its centre.
   void box(const Point& centre, const Point& size, double angle) {
     const auto [s, c] = tb::sin_cos(angle);
     std::array<int, 8> corner{};
@@ -45,7 +45,7 @@ class Writer {
       text_ +=
           fmt::format("f {} {} {} {}\n", corner[f[0]], corner[f[1]], corner[f[2]], corner[f[3]]);
   }
-  // From a foot of radius `low` to a top of radius `high` (0: a cone), upright.
+  // Upright, with radius `low` at the foot and `high` at the top (0: a cone).
   void prism(const Point& foot, double height, double low, double high, int sides) {
     std::vector<int> below, above;
     for (int i = 0; i < sides; ++i) {
@@ -64,7 +64,7 @@ class Writer {
       }
     }
   }
-  // A wheel: a disc of `sides` corners that stands upright, facing along z.
+  // A wheel: an upright disc of `sides` corners, facing along z.
   void wheel(const Point& centre, double radius, double width, int sides) {
     std::vector<int> front, back;
     for (int i = 0; i < sides; ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Meshes made by formula that stand for those of the data folder where there is none: uniform
-// colours, edges that are mostly geometry, as such models have them. Written as OBJ, so that they
-// come by the way of any other mesh.
+// Procedural meshes that replace those of the data folder where it is missing: uniform colours, and
+// edges that are mostly geometry, as in such models. They are written as OBJ and loaded like any
+// other mesh.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace deburr::studies {
 
-// "street": houses along a road; "vehicle": boxes on wheels; "forest": cones on trunks; another
-// one for each seed. Leaves NAME.obj and NAME.mtl in the folder and gives the path of the first.
+// "street": houses along a road; "vehicle": boxes on wheels; "forest": cones on trunks; each seed
+// gives another one. Writes NAME.obj and NAME.mtl to the folder; returns the path of NAME.obj.
 std::filesystem::path write_stand_in(const std::filesystem::path& folder, const std::string& kind,
                                      std::uint64_t seed);
 

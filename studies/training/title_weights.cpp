@@ -21,7 +21,7 @@ namespace {
 using golden::morphological::MorphologicalGolden;
 using golden::morphological::WeightTables;
 
-constexpr int kLeastSide = 32;  // pixels, of a picture that is trained on or measured
+constexpr int kLeastSide = 32;  // pixels, of a picture for training or measurement
 
 void check(const TitlePair& pair) {
   const tb::Image &frame = pair.frame, &reference = pair.reference;

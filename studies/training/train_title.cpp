@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program behind `deburr train`.
+// The program that `deburr train` starts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ using training::KeptBack;
 using training::TitlePair;
 using training::TitleWeights;
 
-constexpr double kLeastGain = 0.05;  // dB; what is below is noise
+constexpr double kLeastGain = 0.05;  // dB; smaller gains are noise
 
 std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet) {
   const std::vector<std::string> frames = tb::listed_files("--in", options.in),
@@ -53,8 +53,8 @@ std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet)
   return pairs;
 }
 
-// Before the work: what cannot be written, for a disk that is full or a folder that is closed, too,
-// is an error now.
+// Called before the work, so that an output that cannot be written (full disk, read-only folder)
+// fails at once.
 void check_output(const tool::TrainOptions& options) {
   const std::filesystem::path out = options.out;
   for (const std::string& text : {options.in, options.reference})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trains the ROMs of learned weights, says how good they are on frames that they saw and on frames
-// that they did not, and writes spec/morphological/learned_weights.h with its recipe. Called by
+// Trains the ROMs of learned weights, reports their quality on training frames and on held-out
+// frames, and writes spec/morphological/learned_weights.h and its recipe. Called by
 // scripts/train-weights.
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ std::string_view name_of(Preset preset) {
   return spec::morphological::kPresetNames[static_cast<std::size_t>(preset)];
 }
 
-// A table with a row a frame: the other methods, then deburr with these tables.
+// A table with one row per frame: the other methods, then deburr with these tables.
 void report(const std::string& title, const std::vector<const ReferenceFrame*>& frames,
             const std::function<const WeightTables&(const ReferenceFrame&)>& tables_of,
             bool brief) {
@@ -129,7 +129,7 @@ void report(const std::string& title, const std::vector<const ReferenceFrame*>& 
             << " frames\n";
 }
 
-// How much of what lies beside text changes by more than two codes, in percent.
+// Pixels next to text that change by more than two codes, in percent.
 double changed_beside_text(const Overlaid& text, const Image& image) {
   const Image& before = text.frame.frame;
   std::int64_t beside = 0, changed = 0;
@@ -178,8 +178,8 @@ WeightTables trained(const std::vector<const ReferenceFrame*>& frames, const Sam
   return train(chosen, recipe);
 }
 
-// Triangles by their corners, to a 100 000th of a unit: what two meshes of one kit have in common
-// stands in the same place.
+// Triangles by their corners, rounded to 1e-5 units: parts shared by two meshes of one kit have the
+// same coordinates.
 std::set<std::array<std::int64_t, 9>> triangles_of(const tb::Mesh& mesh) {
   std::set<std::array<std::int64_t, 9>> found;
   for (const tb::Triangle& triangle : mesh.triangles) {
@@ -196,7 +196,7 @@ std::set<std::array<std::int64_t, 9>> triangles_of(const tb::Mesh& mesh) {
   return found;
 }
 
-// How much of each held-out mesh was trained on as well.
+// The fraction of each held-out mesh that was trained on too.
 void report_overlap(const std::vector<FrameSource>& trained_on,
                     const std::vector<FrameSource>& held_out) {
   std::set<std::array<std::int64_t, 9>> seen;
@@ -311,7 +311,7 @@ int run(int argc, char** argv) {
       "Held out", others, [&](const ReferenceFrame&) -> const WeightTables& { return tables; },
       false);
   if (folds < 2) return 0;
-  // Every group is measured with tables that were trained on the groups of the other folds.
+  // Each group is measured with tables trained on the groups of the other folds.
   const auto fold_of = [&](const ReferenceFrame& frame) {
     return static_cast<int>(std::find(groups.begin(), groups.end(), frame.group) - groups.begin()) %
            folds;

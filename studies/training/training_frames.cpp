@@ -37,12 +37,12 @@ bool get(std::ifstream& file, tb::ImageOf<Pixel>& image) {
                 static_cast<std::streamsize>(image.pixels.size() * sizeof(Pixel))));
 }
 
-// Frames of scenes, rendered or read from where they are kept.
+// Frames of scenes, rendered or read from the cache.
 class Renderer {
  public:
   explicit Renderer(const FrameOptions& options) : options_(options) {}
 
-  // The reference smooths edges and textures, or edges alone.
+  // The reference smooths edges and textures, or only edges.
   enum class Reference : std::uint8_t { kAll, kEdges };
 
   FrameSource source(const std::string& name, const std::string& group,
@@ -55,7 +55,7 @@ class Renderer {
             [make] { return make().mesh; }};
   }
 
-  // The same scene from `views` sides, the first one its own.
+  // The same scene from `views` cameras; the first is its own.
   template <class MakeScene>
   void add(std::vector<FrameSource>& frames, const std::string& group, int views,
            const MakeScene& make) const {
@@ -91,7 +91,7 @@ class Renderer {
     write(options, kept, frame);
     return frame;
   }
-  // About the upright axis through the target, and a little nearer.
+  // Turns about the vertical axis through the target, and moves slightly closer.
   static void turn(tb::Camera& camera, int view) {
     if (view == 0) return;
     const tb::SinCos angle = tb::sin_cos(1.1 * view);
@@ -127,7 +127,7 @@ void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
     if (!std::filesystem::exists(path))
       throw spec::FileError(
           fmt::format("there is no mesh '{}': name a folder that has it by --data", path.string()));
-    // The first one as other tables show it, with a checkerboard where the mesh has no texture.
+    // The first view matches the other tables, with a checkerboard if the mesh has no texture.
     renderer.add(frames, path.filename().string(), views, [path](int view) {
       tb::SceneOptions plain;
       plain.plain = view != 0;
@@ -136,7 +136,7 @@ void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
   }
 }
 
-// Meshes made by formula, seen with a checkerboard first and then in their own colours.
+// Procedural meshes, first with a checkerboard and then in their own colours.
 void add_stand_ins(std::vector<FrameSource>& frames, const FrameOptions& options,
                    const std::vector<std::uint64_t>& seeds, int views) {
   const Renderer renderer(options);
@@ -169,8 +169,8 @@ void add_shapes(std::vector<FrameSource>& frames, const FrameOptions& options,
   }
 }
 
-// Of the kinds with textures some come with a reference, too, in which the textures stay as they
-// are: that teaches to leave them.
+// Some scenes with textures also get a reference with unfiltered textures, which teaches the
+// weights not to blend them.
 void add_training_scenes(std::vector<FrameSource>& frames, const FrameOptions& options,
                          std::uint64_t first_seed, int seeds, int views, int kept_textures) {
   const Renderer renderer(options);

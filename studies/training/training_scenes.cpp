@@ -43,7 +43,7 @@ class Builder {
   explicit Builder(Random& random) : random_(random) {}
 
   std::uint32_t colour(const V3d& linear) { return add({"", linear, -1}); }
-  // Of any hue; a scene has few of them.
+  // A random hue; a scene uses few colours.
   std::uint32_t colour() {
     const double light = random_.uniform(0.04, 0.9), vivid = random_.uniform(0, 0.9);
     V3d linear;
@@ -63,12 +63,12 @@ class Builder {
       mesh_.vertices.push_back({p, normal.normalized(), V2d(p.x, p.z)});
     mesh_.triangles.push_back({{first, first + 1, first + 2}, of});
   }
-  // Seen from both sides.
+  // Visible from both sides.
   void leaf(const V3d& a, const V3d& b, const V3d& c, std::uint32_t of) {
     triangle(a, b, c, of);
     triangle(a, c, b, of);
   }
-  // Counter-clockwise from the corner; repeats of the texture along both sides.
+  // Corners counter-clockwise; texture repeats along both sides.
   void quad(const V3d& corner, const V3d& along, const V3d& up, std::uint32_t of,
             const V2d& repeats = {1, 1}) {
     const V3d normal = along.cross(up).normalized();
@@ -79,7 +79,7 @@ class Builder {
     mesh_.triangles.push_back({{first, first + 1, first + 2}, of});
     mesh_.triangles.push_back({{first, first + 2, first + 3}, of});
   }
-  // Upon its foot; `turn` of a whole one. Repeats of the texture a unit.
+  // Stands on `foot`; `turn` is in full turns. Texture repeats are per unit.
   void box(const V3d& foot, const V3d& size, double turn, std::uint32_t side, std::uint32_t lid,
            double repeats = 1) {
     const V3d forward = around(turn) * size.z, across = around(turn + 0.25) * size.x,
@@ -95,7 +95,7 @@ class Builder {
     face(corner + up + forward, across, -forward, lid);
     face(corner, across, forward, lid);
   }
-  // A roof whose ridge runs along z before the turn.
+  // A roof whose ridge runs along z before rotation.
   void gable(const V3d& foot, const V3d& size, double turn, std::uint32_t roof,
              std::uint32_t wall) {
     const V3d forward = around(turn) * size.z, across = around(turn + 0.25) * size.x;
@@ -108,7 +108,8 @@ class Builder {
     leaf(a, b, near, wall);
     leaf(c, d, far, wall);
   }
-  // A body of revolution around the upright through `foot`: radius and height from below to above.
+  // A solid of revolution around the vertical axis through `foot`: radius and height, bottom to
+  // top.
   void revolve(const V3d& foot, const std::vector<V2d>& profile, int sides, std::uint32_t of) {
     const auto first = next();
     for (std::size_t j = 0; j < profile.size(); ++j) {
@@ -165,7 +166,7 @@ class Builder {
   tb::Mesh mesh_;
 };
 
-// What is looked at: its middle, and how far it reaches.
+// The camera's target: centre and radius.
 struct Subject {
   V3d middle;
   double radius;
@@ -302,7 +303,7 @@ Subject town(Builder& out, Random& random) {
   return {{0, 0.7, 0}, half * 1.1, 0.15, 1.0};
 }
 
-// One thing alone, or a square piece of ground as they are laid beside each other.
+// A single object, or a square ground tile with objects on it.
 Subject model(Builder& out, Random& random) {
   const std::uint32_t ground = out.colour({0.25, random.uniform(0.35, 0.6), 0.15}),
                       side = out.colour(),
@@ -496,7 +497,7 @@ Subject circuit(Builder& out, Random& random) {
             out.quad(to + up * y, at - to, up * 0.12, rail);
     }
   }
-  const V3d gate = middle(random.uniform(-5, 5));  // over the street, with squares
+  const V3d gate = middle(random.uniform(-5, 5));  // spans the street, with squares
   for (const int side : {-1, 1})
     out.box(gate + V3d(side * 2.2, 0, 0), {0.25, 2.4, 0.25}, 0, rail, rail);
   for (int j = 0; j < 2; ++j)
@@ -572,7 +573,7 @@ Subject wires(Builder& out, Random& random) {
   const double high = random.uniform(3, 5), turn = random.uniform(0, 0.5);
   const V3d forward = around(turn), across = around(turn + 0.25);
   const double thin = random.uniform(0.008, 0.03);
-  for (int n = -1; n <= 1; ++n) {  // masts and what hangs between them
+  for (int n = -1; n <= 1; ++n) {  // masts and suspended wires
     const V3d foot = forward * (6.0 * n) + across * 2;
     out.tube({foot, foot + V3d(0, high, 0)}, 0.09, 7, wood);
     for (int arm = 0; arm < 2; ++arm) {
@@ -619,7 +620,7 @@ std::uint8_t code(double value) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
-// Boards, plaster, cloth and paper, in two colours that are near or far.
+// Boards, plaster, cloth and paper, in two colours of low or high contrast.
 tb::Image pattern(Random& random, int kind, int size) {
   tb::Image image(size, size);
   std::array<double, 3> light{}, dark{};
@@ -768,7 +769,7 @@ tb::Camera looking(const Subject& subject, Random& random, bool inside) {
   camera.target = subject.middle;
   camera.eye = subject.middle + direction * (subject.radius * reach);
   if (camera.eye.y < 0.15) camera.eye.y = 0.15;
-  // Half of them are held straight.
+  // Half of the cameras have no roll.
   const double roll = random.chance(500) ? 0 : random.uniform(-0.05, 0.05);
   camera.up =
       V3d(0, 1, 0) + direction.cross(V3d(0, 1, 0)).normalized() * tb::tangent(2 * kPi * roll);
@@ -795,7 +796,7 @@ tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   texture_everything(scene.mesh, nullptr);
   Random looks(seed * 64 + static_cast<std::uint64_t>(view), fmt::format("{} camera", kind));
   scene.camera = looking(subject, looks, kind == "room");
-  if (kind == "signs") {  // from before the wall
+  if (kind == "signs") {  // in front of the wall
     scene.camera.eye.z = std::abs(scene.camera.eye.z - subject.middle.z) + subject.middle.z + 1;
   }
   const double turn = looks.uniform(0, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes by formula that learned weights are trained on: what frames of games have, each kind in
-// as many forms as there are seeds. Arithmetic as of tb/scene: the same bytes everywhere.
+// Procedural scenes for training learned weights, with typical contents of game frames; each seed
+// gives another scene of its kind. Uses the arithmetic of tb/scene: the same bytes on every
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace deburr::studies::training {
 // "town", "props", "circuit", "thicket", "wires": plain colours; "signs", "room": textures.
 std::span<const std::string_view> training_scene_kinds();
 
-// Another one for each seed, another camera for each view.
+// Each seed gives another scene, each view another camera.
 tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view);
 
 }  // namespace deburr::studies::training

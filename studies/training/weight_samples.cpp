@@ -15,7 +15,7 @@ namespace {
 namespace gm = golden::morphological;
 using spec::morphological::Axis;
 
-// Of one edge, for its first and its second pixel.
+// One edge's data, for its first and second pixel.
 struct EdgeSource {
   Source source = Source::kNone;
   std::array<gm::WeightIndices, 2> indices = {gm::kGapIndices, gm::kGapIndices};

@@ -24,11 +24,11 @@ constexpr std::size_t kA = 1024, kB = 640, kAll = kA + 2 * kB;
 constexpr double kUnit = 16;  // S3.4
 constexpr double kMost = 0.5;
 
-using Weights = std::vector<double>;  // A, B, C, as real sums
+using Weights = std::vector<double>;  // A, B, C, as real-valued sums
 
 double sigmoid(double z) { return 1 / (1 + tb::exponential(-z)); }
 
-// The code of linear light as a real number, and its slope.
+// Linear light to code as a real-valued function, and its slope.
 class Encoding {
  public:
   Encoding() {
@@ -59,7 +59,7 @@ class Pixel {
  public:
   Pixel(const Encoding& encoding, const Recipe& recipe) : encoding_(encoding), recipe_(recipe) {}
 
-  // Adds `factor` times the gradient, if there is a place for it.
+  // Adds `factor` times the gradient if `gradient` is given.
   double operator()(const WeightSample& s, const Weights& weights, double factor,
                     Weights* gradient) const {
     std::array<double, 4> weight{}, slope{}, by_weight{};
@@ -73,7 +73,7 @@ class Pixel {
       slope[i] = v < kMost ? v * (1 - v) : 0;
     }
     const double up_down = weight[0] + weight[1], left_right = weight[2] + weight[3];
-    double chosen;  // how much of up and down
+    double chosen;  // fraction of the vertical pair
     bool soft = false;
     if (up_down == 0 || left_right == 0) {
       chosen = left_right == 0 ? 1 : 0;
@@ -128,8 +128,8 @@ class Pixel {
   const Recipe& recipe_;
 };
 
-// The area that a line between both ends leaves to the near pixel of the side, in the middle of
-// classes of distances.
+// The area left to the near pixel by a line between both ends, at the centre of the distance
+// classes.
 double analytic_weight(int near_code, int far_code, int near_distance, int far_distance) {
   constexpr int kNone = 0, kOwn = 1, kOther = 2, kBoth = 3;
   if (near_code == kBoth && (far_code == kOwn || far_code == kOther)) near_code = 3 - far_code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr compare A B...` and `deburr report DIR...`: what can be done with results afterwards.
+// `deburr compare A B...` and `deburr report DIR...`: commands for existing results.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A number that something can be more than: with NaN nothing ever would be worse.
+// A number that works as an upper bound: with NaN no value would ever be worse.
 CLI::Validator tolerance() {
   return CLI::Validator(
       [](std::string& given) -> std::string {
@@ -46,13 +46,13 @@ struct CompareOptions {
   std::vector<std::filesystem::path> paths;
   Tolerances tolerances;
   std::filesystem::path page;
-  bool all = false;  // counters, too
+  bool all = false;  // counters too
 };
 
 std::string text(const Json& value) { return value.get<std::string>(); }
 
-// Columns as wide as what is in them: names to the left, all else to the right. Where a terminal is
-// narrower, every row takes lines of its own.
+// Columns are as wide as their cells: names aligned left, everything else right. On a narrow
+// terminal each row is split into several lines.
 void print(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
@@ -101,7 +101,7 @@ bool is_worse(const Json& value) {
                      [](const Json& cell) { return cell.value("worse", false); });
 }
 
-// What a reader looks for first, and what is worse; behind it all else that differs.
+// The headline figures and everything that is worse, then all other differences.
 std::pair<std::vector<const Json*>, std::vector<const Json*>> by_weight(const Json& comparison) {
   std::pair<std::vector<const Json*>, std::vector<const Json*>> split;
   const Json &figures = comparison.at("figures"), &values = comparison.at("values");
@@ -216,19 +216,19 @@ std::vector<std::string> what_is_worse(const Json& comparison) {
   return worse;
 }
 
-// What a parameter is that a sweep does not set, beside what its base does.
+// The value of a parameter that a sweep does not set, given its base settings.
 std::string unsaid_value(const std::string& engine_name,
                          const std::vector<std::pair<std::string, std::string>>& base,
                          const std::string& parameter) {
   const std::unique_ptr<Engine> engine = engine_named(engine_name);
   BoundEngine bound(*engine);
   const tb::Parameter* wanted = bound.set.find(parameter);
-  if (!wanted) return "-";  // of another version
+  if (!wanted) return "-";  // from another version
   try {
     for (const auto& [name, value] : base)
       if (bound.set.find(name)) bound.set.set(name, value, "base");
     bound.resolve();
-  } catch (const spec::ConfigError&) {  // what the points set is missing here
+  } catch (const spec::ConfigError&) {  // depends on what the points set
   }
   return wanted->text();
 }
@@ -246,14 +246,14 @@ Json comparison_of(const CompareOptions& options) {
   return compare_sweeps(options.paths, options.tolerances, unsaid_value);
 }
 
-// A page in a folder that is compared might take the place of what is read, or of its report.
+// A page in a compared folder could replace an input or its report.
 void check_page(const CompareOptions& options) {
   if (options.page.empty()) return;
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
   for (const std::filesystem::path& path : options.paths) {
     const std::filesystem::path read =
         tb::is_folder(path) ? path : std::filesystem::absolute(path).parent_path();
-    std::error_code none;  // what is not there is said by who reads it
+    std::error_code none;  // missing inputs are reported by their reader
     if (std::filesystem::equivalent(folder, read, none))
       throw spec::ConfigError(
           fmt::format("--html {}: '{}' holds results that are compared: choose another folder",
@@ -261,8 +261,8 @@ void check_page(const CompareOptions& options) {
   }
 }
 
-// What is read here was written by deburr, and perhaps changed by somebody else since: a value of
-// another kind is a damaged file, whoever meets it.
+// The files were written by deburr and may have been edited since: a value of the wrong type is
+// reported as a damaged file, wherever it is found.
 Outcome of_written_files(const std::vector<std::string>& paths,
                          const std::function<Outcome()>& made) {
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `deburr completion bash | zsh | fish`: a script that completes commands, actions, options, units,
-// parameters and their values, faults. Made from the command line's own description and from what
-// the engines declare.
+// parameters and their values, and faults. It is generated from the command line's description and
+// the engines' declarations.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,12 +21,12 @@
 namespace deburr::tool {
 namespace {
 
-// What may follow, in words: by "PLACE" (a command: its commands and options), by "PLACE:WORD" (of
-// an option or a parameter: its values), by "PLACE@N" (of the N-th name without an option). Nothing
-// where only the shell knows more: files.
+// Completion words, keyed by "PLACE" (a command: its subcommands and options), "PLACE:WORD" (the
+// values of an option or a parameter) and "PLACE@N" (the N-th positional argument). No entry where
+// only the shell knows the words: files.
 using Words = std::map<std::string, std::string>;
 
-// "a | b | c" and "list of a, b, c" -> "a b c"; nothing for any other range.
+// "a | b | c" and "list of a, b, c" -> "a b c"; empty for any other range.
 std::string choices(const std::string& range) {
   constexpr std::string_view kListOf = "list of ";
   if (range.starts_with(kListOf)) {
@@ -47,7 +47,7 @@ std::string values_of(const tb::Parameter& parameter) {
   return words;
 }
 
-// As CLI11 writes what IsMember takes: "TEXT:{plan,run}".
+// The format in which CLI11 prints IsMember: "TEXT:{plan,run}".
 std::string values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{'), end = type.find('}');
@@ -64,7 +64,7 @@ void add_words(Words& words, const CLI::App& command, const std::string& place) 
   for (const CLI::App* sub : commands) here += sub->get_name() + " ";
   int position = 0;
   for (const CLI::Option* option : command.get_options()) {
-    if (option->get_group().empty()) continue;  // gone: kept for its message alone
+    if (option->get_group().empty()) continue;  // removed: kept only for its message
     const std::string values = values_of(*option);
     for (const std::string& name : option->get_lnames()) {
       here += "--" + name + " ";
@@ -112,11 +112,11 @@ Words words_of(const CLI::App& app) {
   }
   for (const CLI::App* command : commands_of(app))
     words["deburr help@0"] += command->get_name() + " ";
-  words["deburr regress@0"] = words["deburr regress@1"];  // an action alone
+  words["deburr regress@0"] = words["deburr regress@1"];  // just an action
   return words;
 }
 
-// Places, as a list of patterns or of words.
+// Places as a list of patterns or words.
 std::string places_of(const Words& words, std::string_view between) {
   std::string places;
   for (const auto& [key, values] : words)
@@ -125,7 +125,7 @@ std::string places_of(const Words& words, std::string_view between) {
   return places;
 }
 
-// A table of the words, and the places, in the place of @TABLE@ and @PLACES@.
+// The script with @TABLE@ and @PLACES@ replaced.
 std::string filled(std::string_view script, const std::string& table, const std::string& places) {
   std::string text(script);
   for (const auto& [mark, content] : {std::pair("@TABLE@\n", table), {"@PLACES@", places}})
@@ -261,7 +261,7 @@ complete -c deburr -f -a '(__deburr_complete)'
 complete -c deburr -n 'test -z "$(__deburr_complete | string collect)"' -F
 )sh";
 
-// Of bash and zsh; of fish.
+// For bash and zsh, or for fish.
 std::string table_of(const Words& words, bool fish) {
   std::string table;
   for (const auto& [key, values] : words)

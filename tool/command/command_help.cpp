@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `deburr help [COMMAND]`: what `deburr COMMAND --help` prints; `deburr help --man`: all of that as
-// a manual page.
+// `deburr help [COMMAND]` prints `deburr COMMAND --help`; `deburr help --man` prints all of it as a
+// manual page.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -23,11 +23,11 @@ std::string help_page(const CLI::App& app, const std::vector<std::string>& words
     command = &command_named(*command, path, word);
     path += " " + word;
   }
-  // By itself App::help() would tell of the command that was given, which is this one.
+  // App::help() alone would describe the command that was called, which is this one.
   return command->get_formatter()->make_help(command, path, CLI::AppFormatMode::Normal);
 }
 
-// Text as roff prints it as it stands, between .nf and .fi.
+// Text that roff prints verbatim, between .nf and .fi.
 std::string verbatim(const std::string& text) {
   std::string roff = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -56,7 +56,7 @@ void add_commands(std::string& page, const CLI::App& app, std::vector<std::strin
   }
 }
 
-// Without a date, so that a commit gives one page.
+// Has no date, so that builds of one commit are identical.
 std::string man_page(const CLI::App& app) {
   std::string page = fmt::format(
       ".\\\" SPDX-License-Identifier: MIT, made by `deburr help --man`\n"

@@ -39,7 +39,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
-// CLI11 lists the options that one excludes by their addresses, which differ from run to run.
+// CLI11 lists excluded options by address, in an order that differs from run to run.
 class OrderedFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -84,12 +84,13 @@ int finish(const Outcome& outcome, const CommandLine& line) {
   return outcome.code;
 }
 
-// A standard stream that is closed would be given to the first file that is opened, and that file
-// what is printed. /dev/null takes its place: output to it fails, errors vanish.
+// If a standard stream is closed, the first opened file would get its number and receive what is
+// printed. /dev/null takes its place: output to it fails, errors are discarded.
 void fill_closed_streams() {
   for (const auto& [stream, mode] :
        {std::pair(STDIN_FILENO, O_RDONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", mode);  // which takes the lowest number
+    // open() takes the lowest free number
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", mode);
 }
 
 bool is_utf8(const std::string& text) {
@@ -100,7 +101,7 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-// Results and pages hold the command, and they are UTF-8.
+// Results and pages contain the command line and must be UTF-8.
 void require_utf8(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (!is_utf8(argv[i]))
@@ -109,7 +110,7 @@ void require_utf8(int argc, char** argv) {
           i));
 }
 
-// What was printed must have arrived: a full disk behind standard output is a failure too.
+// Flushes standard output: a full disk is a failure too.
 int flushed(int code) {
   errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
@@ -119,7 +120,7 @@ int flushed(int code) {
   return code != 0 ? code : static_cast<int>(ExitCode::kFile);
 }
 
-// The message becomes the last line; with its details (a dump) it goes to the error stream.
+// The message becomes the last line; with details (a dump) it goes to the error stream.
 Outcome failure(int code, const char* kind, const std::string& text) {
   fmt::print(stderr, "deburr: {}\n", text);
   return {code, fmt::format("FAIL {}: {}", kind, tb::headline(text))};
@@ -132,8 +133,8 @@ std::string quoted_names(const std::vector<const CLI::App*>& commands) {
   return names;
 }
 
-// What is wrong with the command line, in the order in which it was written: CLI11 names the last
-// of what it could not place first, knows no near matches and not which page of help to look at.
+// Explains the first error of the command line in the order in which it was written: CLI11 reports
+// the last argument that it could not place, without near matches or the relevant help page.
 std::string explain(const CLI::App& app, int argc, char** argv, const std::string& complaint) {
   const CLI::App* command = &app;
   std::string path = "deburr";
@@ -169,8 +170,8 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
   return see(complaint);
 }
 
-// CLI11 takes any word after an option for its value: `--out --quiet` would make a directory of
-// that name. The option that misses its value so, and what came instead; empty: there is none.
+// CLI11 accepts any word after an option as its value: `--out --quiet` would create a directory of
+// that name. Returns the option whose value is missing, and the word that follows; empty: none.
 std::string missing_value(const CLI::App& app, int argc, char** argv) {
   const CLI::App* command = &app;
   const auto option_of = [&](const std::string& word) {
@@ -207,7 +208,7 @@ bool asks_for_json(int argc, char** argv) {
 int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   CLI::App app{"Cycle-accurate models of anti-aliasing hardware, checked against golden models.",
                "deburr"};
-  app.formatter(std::make_shared<OrderedFormatter>());  // commands have it from here
+  app.formatter(std::make_shared<OrderedFormatter>());  // inherited by all commands
   app.set_version_flag("--version", [] {
     const auto& build = build_info();
     return fmt::format("deburr {} ({}), {}, SystemC {}", build.version, build.commit,
@@ -253,7 +254,7 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
   } catch (const std::bad_alloc&) {
     return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation",
                          "out of memory: use a smaller picture or fewer textures"));
-  } catch (const std::system_error& error) {  // fmt's, when standard output is full
+  } catch (const std::system_error& error) {  // from fmt, when standard output is full
     return ended(failure(static_cast<int>(ExitCode::kFile), "file", error.what()));
   } catch (const std::exception& error) {
     return ended(failure(static_cast<int>(ExitCode::kSimulation), "simulation", error.what()));
@@ -262,7 +263,7 @@ int run(int argc, char** argv, void (*add)(CLI::App&, CommandLine&)) {
 
 }  // namespace
 
-// Those without a group are started by the program itself.
+// Commands without a group are started by the program itself.
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   std::vector<const CLI::App*> commands = app.get_subcommands(nullptr);
   std::erase_if(commands, [](const CLI::App* command) { return command->get_group().empty(); });
@@ -286,13 +287,13 @@ const CLI::App& command_named(const CLI::App& app, const std::string& path,
 }
 
 void print_help(const std::string& text) {
-  constexpr std::size_t kDescriptions = 30;  // where CLI11 begins them
+  constexpr std::size_t kDescriptions = 30;  // column where CLI11 starts them
   const std::size_t columns = tb::output_columns();
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    // A command stays whole, so that it can be copied.
+    // A command is not wrapped, so that it can be copied.
     if (!line.starts_with("  deburr ")) line = tb::wrapped(line, columns, kDescriptions);
-    std::fputs((line + "\n").c_str(), stdout);  // whether it arrived is looked at in the end
+    std::fputs((line + "\n").c_str(), stdout);  // write errors are checked at the end
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// `deburr papers`: every table and figure of the papers beside ours. They need half of the golden
-// models' other uses, so that they are a program of its own, deburr_papers, which stands beside
-// `deburr` and is started with the same command line.
+// `deburr papers`: every table and figure of the papers next to ours. It needs many more parts of
+// the golden models than the other commands, so it is a separate program, deburr_papers, installed
+// next to `deburr` and started with the same command line.
 #pragma once
 
 #include <string>
@@ -14,14 +14,15 @@ namespace deburr::tool {
 struct PapersOptions {
   std::string out = "out/papers";
   std::vector<std::string> only;  // ids; empty: all
-  int size = 512;                 // side of the pictures and of the scenes that are measured
+  int size = 512;                 // side in pixels of the pictures and of the measured scenes
   bool quick = false, wait = false, quiet = false;
 };
 
 using PapersAction = Outcome (*)(const PapersOptions& options, const CommandLine& line);
 void add_papers(CLI::App& app, CommandLine& line, PapersAction action);
 
-// The action of `deburr`: becomes deburr_papers. FileError where that is not there.
+// The action of `deburr`: replaces the process with deburr_papers. FileError if it is not
+// installed.
 Outcome start_papers(const PapersOptions& options, const CommandLine& line);
 
 }  // namespace deburr::tool

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kLeastMeaning = 24;  // columns, below which it gets lines of its own
+constexpr std::size_t kLeastMeaning = 24;  // columns; narrower texts get their own lines
 
 struct ParamsCommand {
   std::string unit, markdown;
@@ -42,7 +42,7 @@ Json to_json(const Engine& engine, const Parameter& p) {
   return json;
 }
 
-// Short options of `deburr run ENGINE`, and what they stand for.
+// Short options of `deburr run ENGINE`, and the parameters that they set.
 void list_options(const Engine& engine, const tb::ParameterSet& set, Json& listed) {
   for (const Shorthand& shorthand : shorthands_of(engine)) {
     Json parameters = {shorthand.parameter};
@@ -91,7 +91,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   std::vector<std::string> groups;
   std::vector<Parameter> shown;
   std::vector<tb::BuildLimit> limits;
-  Json listed = Json::array();  // of each engine, whose defaults may be others
+  Json listed = Json::array();  // per engine, since defaults may differ
   Json options = Json::array();
   for (const auto& engine : all) {
     tb::ParameterSet set;

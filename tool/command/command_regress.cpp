@@ -52,7 +52,7 @@ struct RegressOptions : PointOptions {
                                    : "rerun: of what? 'rerun --failed' runs again what has failed");
   }
 
-  // `deburr regress status` is about the default testplan.
+  // `deburr regress status` uses the default testplan.
   void take_lone_action() {
     if (std::find(kActions.begin(), kActions.end(), file) == kActions.end() || tb::is_there(file))
       return;
@@ -87,7 +87,7 @@ class Regression {
   }
 
  private:
-  // Given, or that of the report that is spoken of, or the day.
+  // From the command line, from the report in question, or today's.
   static std::uint64_t base_seed_of(const RegressOptions& options, const Testplan& testplan) {
     if (options.seed) return *options.seed;
     return options.action == "rerun" ? seed_of_last_report(options.out, testplan.name)
@@ -106,7 +106,7 @@ class Regression {
     return check(collect());
   }
 
-  // What failed, by the names of the runs: behind a change of the model they are other points.
+  // Selects failures by run name: after a change of the model, the points' hashes differ.
   Outcome rerun() {
     reject_while_submitted(place_);
     std::vector<PlannedPoint> points;
@@ -124,7 +124,7 @@ class Regression {
     return check_again(points);
   }
 
-  // All of the report where every run has a result, and else only what was run again.
+  // Updates the whole report if every run has a result, else only the runs that were repeated.
   Outcome check_again(const std::vector<PlannedPoint>& points) const {
     std::vector<const PlannedPoint*> failed;
     std::uint64_t passed = 0;
@@ -180,7 +180,7 @@ class Regression {
     return settings;
   }
 
-  // Failures are few behind signatures: their waves are made here, whoever ran the points.
+  // Failures group into few signatures: their waveforms are recorded here, whoever ran the points.
   RegressionResult collect() const {
     RegressionResult result = collect_regression(testplan_, place_);
     const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);
@@ -233,7 +233,7 @@ class Regression {
     return {0, "PASS " + figures};
   }
 
-  // Of the signature with the most runs.
+  // The example of the most frequent signature.
   static std::string arguments_of_example(const RegressionResult& result) {
     const PlannedPoint& point = result.runs[result.signatures.front().runs.front()].point;
     return arguments_of(point.engine, point.settings);
@@ -309,7 +309,8 @@ void add_regress(CLI::App& app, CommandLine& line) {
       options->reject_half_a_rerun();
       Regression regression(*options);
       if (!options->seed)
-        line.text += fmt::format(" --seed {}", regression.base_seed());  // the same tomorrow
+        // reproducible on another day
+        line.text += fmt::format(" --seed {}", regression.base_seed());
       return regression.act();
     };
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr run ENGINE`: gathers parameters, runs the engine once, leaves the results.
+// `deburr run ENGINE`: collects parameters, runs the engine once, writes the results.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ namespace {
 
 using spec::ConfigError;
 
-// An option or a --set, in the words of the user.
+// An option or a --set, as the user wrote it.
 struct Assignment {
   std::string name, value, where;
 };
@@ -61,7 +61,7 @@ void reject_empty_names(const RunOptions& options) {
           fmt::format("{}: expected a name, got '': give one, or leave out {}", name, name));
 }
 
-// What --config holds. It is read once: a pipe gives it once.
+// The contents of --config. It is read once, since it may be a pipe.
 std::string configuration_of(const RunOptions& options) {
   if (!options.config) return "";
   return *options.config == tb::kStandardInput
@@ -69,7 +69,7 @@ std::string configuration_of(const RunOptions& options) {
              : tb::read_file(*options.config, tb::kMaxConfigurationBytes);
 }
 
-// As printf makes the text of it again, in one line.
+// Quoted for printf, in one line.
 std::string printed(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -88,7 +88,8 @@ std::string printed(const std::string& text) {
 void apply(const RunOptions& options, const std::string& configuration, const std::string& engine,
            tb::ParameterSet& set) {
   if (options.config) set.load(*options.config, configuration, engine);
-  // The same parameter given twice with different values would silently lose one of them.
+  // Without this check, a parameter given twice with different values would silently lose one of
+  // them.
   std::map<std::string, Assignment> given;
   std::vector<Assignment> all = options.shorthands;
   for (const std::string& text : options.sets) {
@@ -137,7 +138,7 @@ std::string measured(const std::optional<double>& after, const std::optional<dou
   return text;
 }
 
-// Rate, bound, bottleneck, quality and what was changed in a few lines.
+// Rate, bound, bottleneck, quality and changed pixels in a few lines.
 std::string figures_of(const tb::Result& r) {
   if (r.cycles == 0) return "";
   std::string text = fmt::format("rate        {:.3f} {}", r.throughput, r.throughput_unit);
@@ -238,7 +239,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
       directory};
 }
 
-// What --help calls a value of it.
+// The placeholder of its value in --help.
 std::string value_name(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (!shorthand.second_parameter.empty()) return "WxH";
   if (parameter.range.find_first_not_of("0123456789.| ") == std::string::npos) return "NUMBER";
@@ -248,7 +249,7 @@ std::string value_name(const Shorthand& shorthand, const tb::Parameter& paramete
   return shorthand.option == "--in" ? "FILE" : "NAME";
 }
 
-// Its help, with the default where that is a number.
+// Its help text, with the default if that is a number.
 std::string help_of(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (shorthand.help.empty() || parameter.range.find("..") == std::string::npos ||
       !shorthand.second_parameter.empty())
@@ -315,7 +316,7 @@ void add_run(CLI::App& app, CommandLine& line) {
                       "Print one JSON object: exit code, outcome, directory, result");
     command->add_flag("--show-config", options->resolve_only,
                       "Check the configuration as a run would, print it and stop");
-    // To know which shorthands are switches, the parameters are asked.
+    // The parameters tell which shorthands are switches.
     const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {
       const tb::Parameter* parameter = probe.set.find(shorthand.parameter);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `deburr sweep FILE.yaml plan | run | status | collect`, `deburr search FILE.yaml`, and the worker
-// behind both.
+// `deburr sweep FILE.yaml plan | run | status | collect`, `deburr search FILE.yaml`, and their
+// worker.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -41,7 +41,7 @@ using spec::ExitCode;
 
 struct SweepOptions : PointOptions {
   std::string file, action;
-  SearchSettings search;  // population 0: one that suits the budget
+  SearchSettings search;  // population 0: chosen by the budget
 };
 
 Plan planned(const SweepOptions& options, const SweepDefinition& sweep, const SweepPlace& place) {
@@ -67,7 +67,7 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
   return ended(options, what, place, pending.done, code);
 }
 
-// A generation is small: what its points share is made once a job.
+// A generation is small: inputs shared by its points are prepared once per job.
 int run_generation(const SweepOptions& options, const SweepPlace& place, Plan plan,
                    const std::vector<PlannedPoint>& points, const RunSettings& settings) {
   if (!options.slurm.empty()) {
@@ -78,7 +78,7 @@ int run_generation(const SweepOptions& options, const SweepPlace& place, Plan pl
   return run_here(plan, place, points, settings);
 }
 
-// Few enough to be read here; the page and the tables have them all.
+// Small enough to print here; the page and the tables list all.
 constexpr std::uint64_t kFewOnTheFront = 3;
 
 void say_front(const SweepOptions& options, const SweepDefinition& sweep,
@@ -141,7 +141,7 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
                    : run_generation(options, place, plan, pending.points, settings);
       },
       [&](std::uint64_t points) { progress->update(points); });
-  progress.reset();  // its row ends before anything else is said
+  progress.reset();  // ends its line before anything else is printed
   say_left_out(options, end.plan);
   if (!end.interrupted && !end.missing) collect_and_say(options, sweep, end.plan, place);
   Outcome outcome = ended(options, "search " + sweep.name, place, before,
@@ -152,8 +152,7 @@ Outcome run_search(const SweepOptions& options, const SweepDefinition& sweep,
 Outcome collect_points(const SweepOptions& options, const std::string& what,
                        const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place) {
   const Collection collection = collect_and_say(options, sweep, plan, place);
-  // It shows what is there at any time; where every point that ended failed, there is nothing to
-  // show.
+  // A report can be made at any time; if every finished point failed, there is nothing to report.
   const bool nothing = collection.done == 0 && collection.failed > 0;
   return with_collection(
       {nothing ? 1 : 0,

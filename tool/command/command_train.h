@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `deburr train`: learned shares for a title, from pairs of its frames. A training is a program of
-// its own, deburr_train, which stands beside `deburr` and is started with the same command line.
+// `deburr train`: learned weights for a title, from pairs of its frames. It is a separate program,
+// deburr_train, installed next to `deburr` and started with the same command line.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct TrainOptions {
 using TrainAction = Outcome (*)(const TrainOptions& options, const CommandLine& line);
 void add_train(CLI::App& app, CommandLine& line, TrainAction action);
 
-// The action of `deburr`: becomes deburr_train. FileError where that is not there.
+// The action of `deburr`: replaces the process with deburr_train. FileError if it is not installed.
 Outcome start_train(const TrainOptions& options, const CommandLine& line);
 
 }  // namespace deburr::tool

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands of `deburr`. Each adds its options to the command line and leaves an action behind
-// when it is the one that was called.
+// The commands of `deburr`. Each adds its options to the command line and stores its action when it
+// is called.
 #pragma once
 
 #include "tool/command/command_line.h"

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
-// What begins with a dash would be an option to the programs that are given it.
+// Called programs would take a leading dash for an option.
 CLI::Validator as_a_name() {
   return CLI::Validator(
       [](std::string& name) {
@@ -48,7 +48,7 @@ Json to_json(const FailedPoint& point) {
           {"command", "deburr " + point.arguments}};
 }
 
-// What --json shows of points: `counts`, and the first failures.
+// Fields of --json about points: `counts`, and the first failures.
 Json details_of(const SweepPlace& place, Json counts, const std::vector<FailedPoint>& failures) {
   Json details = {{"directory", place.directory.string()}, {"counts", std::move(counts)}};
   details["failures"] = Json::array();
@@ -56,7 +56,7 @@ Json details_of(const SweepPlace& place, Json counts, const std::vector<FailedPo
   return details;
 }
 
-// A reason may hold bytes of a file that was not understood.
+// A reason may contain bytes of an invalid file.
 std::string text_of(const Json& details) {
   return tb::json_text(details, -1, tb::NotUtf8::kReplace);
 }
@@ -86,8 +86,8 @@ void add_point_options(CLI::App& command, PointOptions& options, CommandLine& li
       "Print one JSON object: exit code, outcome, counts, failures, what was collected");
 }
 
-// By itself CLI11 takes -1, and all that is too large, for the largest number, and nothing for
-// none.
+// CLI11 alone takes -1 and numbers that are too large for the largest number, and an empty text for
+// 0.
 void add_seed(CLI::App& command, const std::string& meaning,
               const std::function<void(std::uint64_t)>& take) {
   const auto read = [take](const std::string& text) {
@@ -231,7 +231,7 @@ Outcome show_status(const PointOptions& options, const std::string& what, const 
                              {"failed", status.failed},
                              {"queued", status.missing}},
                             status.failures);
-  // What was asked for, be it quiet.
+  // Requested output, printed even if quiet.
   std::string text = fmt::format(
       "points      {}\ndone        {}\nrunning     {}\nfailed      {}\nqueued      {}\n",
       grouped(plan.points), grouped(status.done), grouped(status.running), grouped(status.failed),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `deburr sweep`, `search` and `regress` have in common: where points are and how they are
-// run.
+// Shared by `deburr sweep`, `search` and `regress`: the location of points, and how they are run.
 #pragma once
 
 #include <cstdint>
@@ -22,34 +21,34 @@ struct PointOptions {
   bool retry = false, quiet = false, json = false;
 };
 void add_point_options(CLI::App& command, PointOptions& options, CommandLine& line);
-// --seed; `take` is given what it says.
+// --seed; `take` receives its value.
 void add_seed(CLI::App& command, const std::string& meaning,
               const std::function<void(std::uint64_t)>& take);
 
 // "1 point", "1,000 points"
 std::string points_of(std::uint64_t number);
-// Unless quiet; with --json on the error stream.
+// Prints unless quiet; with --json, to the error stream.
 void say(const PointOptions& options, const std::string& text);
 void say_left_out(const PointOptions& options, const Plan& plan);
 
 RunSettings run_settings(const PointOptions& options);
-// Runs points here, and returns when they are over. 0, or Ninja's exit code, or kInterruptedExit.
+// Runs points locally and waits for them. Returns 0, Ninja's exit code, or kInterruptedExit.
 int run_here(const Plan& plan, const SweepPlace& place, const std::vector<PlannedPoint>& points,
              const RunSettings& settings);
-// Leaves them to Slurm. `what`: "sweep first".
+// Submits them to Slurm. `what`: "sweep first".
 Outcome run_on_slurm(const PointOptions& options, const std::string& what, const Plan& plan,
                      const SweepPlace& place, const std::vector<PlannedPoint>& points);
 
-// What a run leaves; `before` of its points were done when it began.
+// The outcome of a run; `before` points were done when it began.
 Outcome ended(const PointOptions& options, const std::string& what, const SweepPlace& place,
               std::uint64_t before, int code);
-// What has changed since the place was planned, and what that means. A report of another model's
-// results stays as it is: ConfigError for `collect`.
+// Reports what has changed since planning, and the consequences. A report with another model's
+// results is not replaced: ConfigError for `collect`.
 void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
                  const std::filesystem::path& file);
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place);
 Outcome show_status(const PointOptions& options, const std::string& what, const SweepPlace& place);
-// With collected.json of the place.
+// Adds the collected.json of the place.
 Outcome with_collection(Outcome outcome, const SweepPlace& place);
 
 }  // namespace deburr::tool

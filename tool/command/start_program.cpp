@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Commands that are programs of their own, beside `deburr`, started with the same command line.
+// Commands that are separate programs, installed next to `deburr` and started with the same command
+// line.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -28,7 +29,7 @@ namespace {
 
 }  // namespace
 
-// The other program reads the options again.
+// The other program parses the options again.
 Outcome start_papers(const PapersOptions&, const CommandLine& line) {
   become("deburr_papers", "papers are reproduced", line);
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Runs at every build: writes build_info.cpp, and touches it only when its content changes.
+# Runs at every build; rewrites build_info.cpp only if its content changes.
 execute_process(COMMAND git -C "${SOURCE}" rev-parse HEAD
                 OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)
@@ -10,7 +10,7 @@ else()
     string(APPEND COMMIT "-dirty")
   endif()
 endif()
-# Documentation, tests and what only starts runs or shows results change no result.
+# Excludes files that cannot affect results: documentation, tests, and code that starts runs or displays results.
 set(folders)
 foreach(folder spec golden rtl_model tb/engines tb/env tb/harness tb/run tb/scene tool/engines tool/pages tool/run)
   list(APPEND folders "${SOURCE}/${folder}/*.h" "${SOURCE}/${folder}/*.cpp")

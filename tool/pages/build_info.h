@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What this program was built from. Only the small generated file behind it is compiled again when
-// the commit changes.
+// The sources and tools that this program was built from. Only a small generated file is recompiled
+// when the commit changes.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 namespace deburr::tool {
 
 struct BuildInfo {
-  std::string version;   // of the project, "0.1.0"
-  std::string commit;    // "1234abcd...", with "-dirty" when files differed; "unknown" without git
+  std::string version;   // project version, "0.1.0"
+  std::string commit;    // "1234abcd...", with "-dirty" for modified files; "unknown" without git
   std::string compiler;  // "GNU 12.2.0"
   std::string build;     // "Release"
   std::string systemc;   // "2.3.4"
-  // Of every source that a result depends on: two programs with the same one, compiler and SystemC
-  // give the same results.
+  // Hash of every source that affects results: two programs with the same hash, compiler and
+  // SystemC give the same results.
   std::string model;  // SHA-256, the first 16 digits
 };
 const BuildInfo& build_info();

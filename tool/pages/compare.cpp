@@ -65,8 +65,9 @@ Better better_of(const std::string& key) {
 using KeyValues = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
-  // The host's speed says nothing about the hardware, nor do bins of coverage say what is better,
-  // the histogram has its percentiles, and what is identical is infinite.
+  // Not compared: the host's speed says nothing about the hardware, coverage bins have no
+  // direction, the histogram is covered by its percentiles, and identical pictures have infinite
+  // values.
   if (path == "host" || path == "quality.identical" || path == "change.identical" ||
       path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
       path == "schema")
@@ -90,7 +91,7 @@ std::optional<double> number_of(const Json* value) {
 }
 std::string shown_or_dash(const Json* value) { return value ? value_text(*value) : "-"; }
 
-// The parameters that one of the manifests says to be such work, each once.
+// The parameters that either manifest marks as defining the work, each once.
 std::vector<std::string> work_parameters(const Json& a, const Json& b, tb::GivenWork work) {
   std::vector<std::string> names;
   for (const Json* manifest : {&a, &b})
@@ -103,7 +104,7 @@ std::vector<std::string> work_parameters(const Json& a, const Json& b, tb::Given
   return names;
 }
 
-// Of values that both are there.
+// For values present in both.
 Trend compare_numbers(Better better, double a, double b, const Tolerances& t) {
   const auto less = [&](double percent) {
     if (b > a * (1 + percent / 100)) return Trend::kWorse;
@@ -148,7 +149,7 @@ std::string value_text(const Json& value) {
   return tb::json_text(value);
 }
 
-// Parts of a key may have dots themselves.
+// Parts of a key may contain dots.
 Json value_at(const Json& result, const std::string& key) {
   if (!result.is_object()) return nullptr;
   if (const auto whole = result.find(key); whole != result.end()) return *whole;
@@ -165,7 +166,7 @@ Trend check(const std::string& key, std::optional<double> a, std::optional<doubl
     if (b.value_or(1) != 0) return Trend::kWorse;
     return a.value_or(0) != 0 ? Trend::kBetter : Trend::kEqual;
   }
-  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // none of a kind
+  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // none of this kind
   if (rule == Better::kNone && maximise)
     rule = *maximise ? Better::kMoreIsBetter : Better::kLessIsBetter;
   if (rule == Better::kNone || !a) return Trend::kNone;  // nothing to compare with
@@ -210,8 +211,8 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
     value.worse = value.verdict == Trend::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
-    // What B counts is not what could be built.
-    if (key.starts_with("not_implementable.")) value.worse = right != nullptr && left == nullptr;
+    // A result whose memory is not implementable is worse than one that is.
+    if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
     if (value.worse) value.verdict = Trend::kWorse;
     if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two results side by side: what changed, and whether it became worse by more than a tolerance.
+// Compares two results: the changes, and whether a value became worse by more than its tolerance.
 #pragma once
 
 #include <array>
@@ -18,52 +18,51 @@ struct Tolerances {
   double psnr_db = 0.05;          // quality may fall by this much
   double flip = 0.0005;           // FLIP may grow by this much
   double ssim = 0.0005;           // SSIM may fall by this much
-  // Bits of memory may grow by this much; without it they are checked, but fail nothing: what a
-  // choice costs is not a fault of it.
+  // Allowed growth of memory bits; without it they are compared but never fail: the cost of a
+  // choice is not a fault.
   std::optional<double> memory_percent{};
 };
 
-// By the value's own direction: fewer cycles, more decibels. kEqual within the tolerance too,
-// kNone: nobody can say.
+// By the value's direction: fewer cycles, more decibels. kEqual: within the tolerance; kNone: no
+// direction.
 enum class Trend : std::uint8_t { kNone, kEqual, kBetter, kWorse };
 inline constexpr std::array<std::string_view, 4> kTrendNames = {"", "equal", "better", "worse"};
 
 struct ComparedValue {
   std::string key;
-  std::string a, b, change;  // change in percent or dB, "" where neither says something
+  std::string a, b, change;  // change in percent or dB; "" if neither applies
   Trend verdict = Trend::kNone;
-  bool worse = false;  // and it counts
+  bool worse = false;  // and it fails the comparison
 };
 
 struct Comparison {
-  std::vector<ComparedValue> values;  // every one that differs, or that is worse
+  std::vector<ComparedValue> values;  // every one that differs or is worse
   bool worse = false;
 };
 
-// `b` compared with `a`, both as read_result() gives them. A mismatch, a lost verdict, or a value
-// with a better side that only `a` has is worse. ConfigError for results of different engines.
+// Compares `b` with `a`, both from read_result(). Worse are a mismatch, a lost verdict, or a value
+// with a direction that only `a` has. ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 
-// One number against another, by the key of a result; nothing: it has no direction, unless
-// `maximise` says one. Empty optionals: there is no value.
+// Compares two numbers by their result key; kNone: no direction, unless `maximise` gives one. Empty
+// optionals: no value.
 Trend check(const std::string& key, std::optional<double> a, std::optional<double> b,
             const Tolerances& tolerances, std::optional<bool> maximise = std::nullopt);
 // Whether a worse value of this key fails a comparison.
 bool counts(const std::string& key, const Tolerances& tolerances);
-// Changes of it are differences, not percents.
+// Its changes are differences rather than percentages.
 bool in_decibels(const std::string& key);
 // "+3.20 %", "-0.31 dB", or "".
 std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b);
-// The value of a result under a dotted key, as a reader wants it; "-" for none.
+// Formats the value of a result under a dotted key; "-" for none.
 std::string value_text(const nlohmann::ordered_json& value);
 std::optional<double> as_number(const nlohmann::ordered_json& value);
-// null where there is none.
+// null if there is none.
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
 
-// Two manifests: what makes their runs different work, so that a difference of the results says
-// little about the hardware: inputs (by content), and what parameters say to be work (scene, size,
-// clock). A line each.
+// Compares the work of two manifests: inputs (by content) and parameters marked as work (scene,
+// size, clock). Differences make the results hard to compare. One line each.
 std::vector<std::string> different_work(const nlohmann::ordered_json& a,
                                         const nlohmann::ordered_json& b);
 

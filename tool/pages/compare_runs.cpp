@@ -23,10 +23,10 @@ constexpr std::size_t kMaxRunManifestBytes = 64u << 20;
 struct Run {
   std::string letter;
   fs::path path, folder;
-  Json result, manifest;  // manifest: null where there is none
+  Json result, manifest;  // manifest: null if missing
 };
 
-// Why there is no result, as far as the directory tells.
+// Explains why there is no result, as far as the directory shows.
 [[noreturn]] void reject_unfinished(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / ".deburr_run" / "claim.json", error))
@@ -86,7 +86,7 @@ Json warnings_of(const std::vector<Run>& runs) {
                       run.letter));
     if (&run == &runs[0] || !run.manifest.is_object() || !runs[0].manifest.is_object()) continue;
     for (std::string line : different_work(runs[0].manifest, run.manifest)) {
-      // different_work() speaks of A and B.
+      // different_work() uses the letters A and B.
       if (runs.size() > 2) line = fmt::format("{} (B is {} here)", line, run.letter);
       warnings.push_back(line);
     }
@@ -105,7 +105,7 @@ Json described(const Run& run) {
   return json;
 }
 
-// Of every run that has a manifest.
+// From every run that has a manifest.
 Json parameters_of(const std::vector<Run>& runs) {
   std::vector<Json> all;  // entries of the manifests' lists, each name once
   const auto list = [](const Run& run) {
@@ -158,7 +158,7 @@ class Rows {
                        [](const Comparison& c) { return c.worse; });
   }
 
-  // Every key that differs somewhere, in the order of the results.
+  // Every key that differs in any run, in the order of the results.
   std::vector<std::string> keys() const {
     std::vector<std::string> keys;
     for (const Comparison& comparison : comparisons_)
@@ -212,7 +212,7 @@ class Rows {
   std::vector<const Json*> results_;
 };
 
-// What a reader looks for first, of those that one of the results has: label and key.
+// The headline figures present in at least one result: label and key.
 using Headlines = std::vector<std::pair<std::string, std::string>>;
 Headlines headlines(const std::vector<Run>& runs) {
   Headlines all = {{"Verdict", "verdict"},

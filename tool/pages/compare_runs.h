@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two or more runs of one engine side by side: the parameters that differ, the figures that a
-// reader looks for first, and every other value that differs, each compared with the first run's.
+// Compares two or more runs of one engine: differing parameters, headline figures, and every other
+// differing value, each relative to the first run.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,15 @@ inline constexpr std::size_t kMostCompared = 16;
 // "A", "B", ...
 std::string letter(std::size_t index);
 
-// Of directories, or of result.json in them. The comparison as JSON
-// (docs/reference/run.md, "Comparing"):
+// Compares directories, or result.json files in them. Returns JSON (docs/reference/run.md,
+// "Comparing"):
 //   runs: name, path, title, summary, command, verdict, interrupted, images
-//   warnings: what makes it no fair one
+//   warnings: reasons why the comparison is unfair
 //   parameters: name, kind, unit, meaning, values
-//   figures (with a label), values: key, unit, meaning, cells of value, text, change, judgement,
-//   worse worse: one of them is, by more than its tolerance
-// FileError for what is no complete run (and what to do about it), ConfigError for different
-// engines.
+//   figures (with a label), values: key, unit, meaning, cells of value, text, change, judgement and
+//     worse
+//   worse: a value is worse by more than its tolerance
+// FileError for an incomplete run (with advice), ConfigError for different engines.
 nlohmann::ordered_json compare_runs(const std::vector<std::filesystem::path>& paths,
                                     const Tolerances& tolerances);
 

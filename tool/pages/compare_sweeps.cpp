@@ -26,8 +26,8 @@ constexpr std::size_t kMaxSweepBytes = std::size_t{1} << 30;
 constexpr const char* kCollected = "collected.json";
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
-using MetricValues = std::vector<std::optional<double>>;  // one a metric in common
-using At = std::vector<std::string>;                      // one a matching parameter
+using MetricValues = std::vector<std::optional<double>>;  // one per common metric
+using At = std::vector<std::string>;                      // one per matching parameter
 
 struct ComparedPoint {
   std::string state;
@@ -84,7 +84,7 @@ Sweep read_sweep(const fs::path& path) {
   return sweep;
 }
 
-// What a point sets, by parameter: the base, and its own.
+// All settings of a point, by parameter: the base's and its own.
 std::map<std::string, std::string> settings_of(const Sweep& sweep, const Json& at) {
   std::map<std::string, std::string> settings(sweep.base.begin(), sweep.base.end());
   const Json& axes = sweep.json["axes"];
@@ -150,7 +150,7 @@ class SweepComparison {
     return known;
   }
 
-  // Those that every sweep has.
+  // Metrics present in every sweep.
   void find_metrics() {
     const auto column = [](const Sweep& sweep,
                            const std::string& key) -> std::optional<std::size_t> {
@@ -180,7 +180,7 @@ class SweepComparison {
           "them again");
   }
 
-  // A key of result.json as compare() knows it.
+  // A key of result.json in the notation of compare().
   static std::string dotted(std::string key) {
     if (!key.starts_with('/')) return key;
     key.erase(0, 1);
@@ -210,7 +210,7 @@ class SweepComparison {
     return as_number(point["values"][column]);
   }
 
-  // ---- what is compared
+  // ---- inputs of the comparison
 
   void describe(Json& json) const {
     json["warnings"] = Json::array();
@@ -249,7 +249,7 @@ class SweepComparison {
     }
   }
 
-  // From the first sweep's.
+  // Relative to the first sweep.
   std::string different_inputs_of(std::size_t sweep) const {
     const auto inputs = [](const Sweep& of) { return of.json.value("inputs", Json::array()); };
     const std::string different = different_inputs(inputs(sweeps_[0]), inputs(sweeps_[sweep]));
@@ -296,7 +296,7 @@ class SweepComparison {
     return json;
   }
 
-  // The metrics whose values would be infinite.
+  // The metrics whose values are infinite.
   Json identical(const MetricValues& values) const {
     Json names = Json::array();
     for (std::size_t m = 0; m < values.size(); ++m)
@@ -371,14 +371,14 @@ class SweepComparison {
     worse_ = worse_ || worse;
   }
 
-  // ---- all points together
+  // ---- summary over all points
 
   struct JointPoint {
     std::size_t sweep;
     const MetricValues* values;
   };
 
-  // How many points of each sweep nobody beats in any sweep.
+  // For each sweep, the points that no point of any sweep dominates.
   void count_joint_front(const std::vector<JointPoint>& points, Json& json) const {
     std::vector<std::pair<std::size_t, double>> goals;
     for (std::size_t m = 0; m < metrics_.size(); ++m)
@@ -404,7 +404,7 @@ class SweepComparison {
       }
       return better;
     };
-    // In this order nobody is dominated by one that comes later.
+    // In this order no point is dominated by a later one.
     std::stable_sort(costs.begin(), costs.end(),
                      [](const Cost& a, const Cost& b) { return a.goals < b.goals; });
     std::vector<const Cost*> front;

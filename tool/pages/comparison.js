@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures that are zoomed together, or fronts and points of sweeps.
+// Pictures with a shared zoom, or fronts and points of sweeps.
 'use strict';
 (() => {
   if (data.kind === 'runs') showPictures(); else showSweeps();
@@ -10,7 +10,7 @@
     if (!select) return;
     const roles = [...document.querySelectorAll('.role')];
     const all = () => [...document.querySelectorAll('.window img')];
-    let zoom = 1, x = 0, y = 0;  // x, y: shares of the picture at the left and upper edge
+    let zoom = 1, x = 0, y = 0;  // x, y: the left and upper edge as fractions of the picture
     function place() {
       for (const image of all()) image.style.transform = `scale(${zoom}) translate(${-100 * x}%, ${-100 * y}%)`;
     }
@@ -33,7 +33,7 @@
       frame.addEventListener('dblclick', () => { zoom = 1; x = y = 0; place(); });
     }
 
-    // Every picture but the first of its role, as its difference from that one.
+    // Shows every picture after the first of its role as its difference from the first.
     const kGain = 8;
     function pixels(image) {
       const canvas = document.createElement('canvas');
@@ -83,12 +83,12 @@
     const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];
-    // JSON has no infinity: that a picture is identical stands beside its values.
+    // JSON has no infinity: identical pictures are flagged next to their values.
     for (const p of every)
       p.values.forEach((values, s) => metrics.forEach((m, i) => {
         if (p.identical[s].includes(m.name)) values[i] = Infinity;
       }));
-    // An axis that never changes says nothing.
+    // An axis with a single value is omitted.
     const axes = data.axes.map((name, i) => ({name, i}))
       .filter((axis) => new Set(every.map((p) => p.at[axis.i])).size > 1);
     const numeric = new Intl.Collator('en', {numeric: true});
@@ -104,7 +104,7 @@
       byId(id).addEventListener('change', drawScatter);
     }
     byId('front-only').addEventListener('change', drawScatter);
-    // Those that no other one beats in the two metrics that are shown, from left to right.
+    // Points that are not dominated in the two displayed metrics, from left to right.
     function staircase(points, mx, my) {
       const sign = (m) => m.maximise === true ? -1 : 1;
       if (mx.maximise === null || my.maximise === null) return [];

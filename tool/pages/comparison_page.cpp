@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& value) { return value.is_null() ? "" : value_text(value); }
 
-// Counts grouped, anything else as it is.
+// Groups the digits of counts; other values are unchanged.
 std::string figure_text(const Json& value) {
   if (value.is_number_unsigned()) return tb::grouped(value.get<std::uint64_t>());
   if (value.is_number_integer() && value.get<std::int64_t>() >= 0)
@@ -68,7 +68,7 @@ class ComparisonPage {
   }
 
  private:
-  // What is compared; the columns of every table.
+  // The compared inputs: the columns of every table.
   void fill_inputs(const Json& inputs) {
     mustache::data list{mustache::data::type::list};
     HtmlTable table("|Directory:mono anywhere|What it is");
@@ -92,7 +92,7 @@ class ComparisonPage {
     page_.set("title", title);
   }
 
-  // Rows of `what`, a column for each input.
+  // Rows of `what`, one column per input.
   HtmlTable table_of(const std::string& what, const char* look, bool described) const {
     HtmlTable table(what);
     for (const std::string& name : names_) table.column(name, look);
@@ -133,7 +133,7 @@ class ComparisonPage {
     fill_pictures();
   }
 
-  // Of each run but the first: what became better and worse.
+  // For each run after the first: what became better and worse.
   void fill_tiles(const Json& runs) {
     mustache::data tiles{mustache::data::type::list};
     for (std::size_t i = 1; i < runs.size(); ++i) {
@@ -172,7 +172,7 @@ class ComparisonPage {
                       entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
         if (const std::string change = entry.value("change", ""); !change.empty())
           cell.add("<small>" + mustache::html_escape(change) + "</small>");
-        // A share of decibels says nothing.
+        // A percentage of decibels has no meaning.
         const auto value = as_number(entry.at("value"));
         if (bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value))
           cell.add(fmt::format(R"(<div class="bar"><i style="width: {:.1f}%"></i></div>)",
@@ -184,7 +184,7 @@ class ComparisonPage {
     return table;
   }
 
-  // A row a role, in the order of the runs' lists, a column a run.
+  // One row per role, in the order of the runs' lists; one column per run.
   void fill_pictures() {
     const Json& runs = comparison_.at("runs");
     std::vector<std::string> roles;
@@ -196,7 +196,7 @@ class ComparisonPage {
         if (const std::string role = image.value("role", "");
             std::find(roles.begin(), roles.end(), role) == roles.end())
           roles.push_back(role);
-    // What came out is what one wants to see first.
+    // Output pictures come first.
     std::stable_partition(roles.begin(), roles.end(),
                           [](const std::string& role) { return role == "after"; });
     mustache::data list{mustache::data::type::list};
@@ -275,7 +275,7 @@ class ComparisonPage {
   }
 
   const Json& comparison_;
-  std::vector<std::string> names_;  // of what is compared
+  std::vector<std::string> names_;  // of the compared inputs
   mustache::data page_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One self-contained page of a comparison (compare_runs.h, compare_sweeps.h): what differs, with a
-// verdict each, and the pictures of runs side by side, or the fronts of sweeps over each other. It
-// opens from disk, without a network; of runs it is readable without JavaScript.
+// One self-contained page of a comparison (compare_runs.h, compare_sweeps.h): the differences with
+// their verdicts, and the pictures of runs side by side, or overlaid fronts of sweeps. It opens
+// from disk without a network; pages of runs are readable without JavaScript.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

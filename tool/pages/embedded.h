@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that the build turns into part of the program, so that reports need nothing beside it.
+// Files embedded into the program by the build, so that reports need no other files.
 #pragma once
 
 #include <string_view>

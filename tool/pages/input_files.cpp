@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, std::string>> contents_of(const Json& inputs)
   return contents;
 }
 
-// Those of `some` that `others` lack.
+// Entries of `some` that `others` lack.
 std::string only_in(const std::vector<std::pair<std::string, std::string>>& some,
                     std::vector<std::pair<std::string, std::string>> others) {
   constexpr std::size_t kDigits = 8;
@@ -55,7 +55,7 @@ std::string content_of(const fs::path& file) {
   if (fs::status(file, error).type() == fs::file_type::not_found) return std::string(kMissingFile);
   try {
     return tb::sha256_of_file(file);
-  } catch (const spec::FileError&) {  // whoever reads it says why
+  } catch (const spec::FileError&) {  // its reader reports the reason
     return std::string(kUnreadableFile);
   }
 }
@@ -93,7 +93,7 @@ InputFiles::Stamp InputFiles::stamp_of(const fs::path& file) {
 
 const std::string& InputFiles::content(const fs::path& file) {
   const auto [known, is_new] = known_.try_emplace(file);
-  // The stamp first: what is written meanwhile has another one.
+  // The stamp is taken first: a later write changes it.
   if (is_new) {
     known->second.stamp = stamp_of(file);
     known->second.content = content_of(file);
@@ -117,7 +117,7 @@ void InputFiles::reject_changed(const std::vector<fs::path>& files) {
     if (content_of(file) != known->second.content)
       throw spec::FileError(fmt::format(
           "'{}' has changed since the run was planned: run the same command again", file.string()));
-    known->second.stamp = stamp;  // it was touched
+    known->second.stamp = stamp;  // only touched
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The files that a run depends on: what they hold, in a word that goes into keys, and how they are
-// listed. Which they are an engine says (Engine::input_files), those too that files name, and those
-// that are not there: a run is another one when they are.
+// The files that a run depends on: hashes of their contents for keys, and their entries in
+// manifests. The engine lists them (Engine::input_files), including files that other files name and
+// files that do not exist: creating one changes the run.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,37 @@
 
 namespace deburr::tool {
 
-inline constexpr std::string_view kMissingFile = "missing";        // there is no such file
-inline constexpr std::string_view kUnreadableFile = "unreadable";  // a folder, a pipe, locked
-// The SHA-256 of what the file holds, or one of these.
+inline constexpr std::string_view kMissingFile = "missing";  // there is no such file
+// a folder, a pipe, or no permission
+inline constexpr std::string_view kUnreadableFile = "unreadable";
+// The SHA-256 of the file's content, or one of these.
 std::string content_of(const std::filesystem::path& file);
 
-// An entry of the "inputs" of a manifest, or of what was collected. What only helped to say what is
-// run, and is said by the parameters as well, has a role: "configuration", "definition".
+// An entry of "inputs" in a manifest or a collection. A file that only defines the run, which the
+// parameters describe too, has a role: "configuration", "definition".
 nlohmann::ordered_json input_entry(const std::filesystem::path& file, std::string_view content,
                                    std::string_view role = "");
-// What content_of() said of it.
+// The content_of() that the entry records.
 std::string listed_content(const nlohmann::ordered_json& entry);
 
-// What differs between two such lists, but for entries with a role: "A reads ..., B reads ..."; ""
-// where nothing does. A file is known by its content: it may have been moved.
+// Differences of two such lists, ignoring entries with a role: "A reads ..., B reads ..."; "" if
+// there are none. Files are identified by content, since they may have been moved.
 std::string different_inputs(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 
-// What files hold, found out once, however many runs read them.
+// Contents of files, hashed once however many runs read them.
 class InputFiles {
  public:
   const std::string& content(const std::filesystem::path& file);
-  // Of several, for a key.
+  // Of several files, under one key.
   std::vector<std::string> contents(const std::vector<std::filesystem::path>& files);
-  // FileError if one of them, asked for before, is not as it was then.
+  // FileError if one of them has changed since its first use.
   void reject_changed(const std::vector<std::filesystem::path>& files);
-  // All that were asked for, and what they hold.
+  // All files used so far, and their contents.
   std::map<std::string, std::string> all() const;
   tb::MeshFiles& meshes() { return meshes_; }
 
  private:
-  // What no file keeps when it is written, or replaced.
+  // Attributes that change when a file is written or replaced.
   struct Stamp {
     std::uint64_t device = 0, number = 0, bytes = 0;
     std::int64_t written_s = 0, written_ns = 0, changed_s = 0, changed_ns = 0;

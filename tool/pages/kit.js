@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the scripts of all pages share: elements, copied commands, numbers, charts.
+// Shared by the scripts of all pages: elements, copied commands, numbers, charts.
 'use strict';
 const data = JSON.parse(document.getElementById('data').textContent);
 const byId = (id) => document.getElementById(id);
@@ -19,7 +19,7 @@ function element(tag, text, parent, className) {
   parent?.append(made);
   return made;
 }
-// By a click, or by Enter where the keyboard is.
+// Activated by a click, or by Enter with keyboard focus.
 function pressable(item, act) {
   item.tabIndex = 0;
   item.addEventListener('click', act);
@@ -52,8 +52,8 @@ if (typeof Chart !== 'undefined') {
   chartColours();
   Object.assign(Chart.defaults, {animation: false, locale: 'en-US', maintainAspectRatio: false});
   Chart.defaults.font.family = 'system-ui, "DejaVu Sans", sans-serif';
-  // A chart grows with the rows of its legend, so that what it draws keeps its height on a phone too.
-  Chart.defaults.plugins.legend.maxHeight = 1e4;  // by itself a legend ends where half of the chart is used up
+  // A chart grows with its legend, so that the plot keeps its height on a phone too.
+  Chart.defaults.plugins.legend.maxHeight = 1e4;  // by default a legend is cut off at half of the chart
   Chart.register({
     id: 'growing',
     beforeInit(chart) {
@@ -69,7 +69,7 @@ if (typeof Chart !== 'undefined') {
     },
   });
 }
-// A bar a name, from left to right. In a narrow chart names are on several lines, broken after a '_'.
+// One bar per name, from left to right. In a narrow chart names are split after a '_'.
 function stackedBars(id, names, datasets, x, more = {}) {
   const canvas = byId(id), box = canvas.parentElement;
   const linesOf = (name, width) => {
@@ -99,7 +99,7 @@ function stackedBars(id, names, datasets, x, more = {}) {
     },
   });
 }
-// Where values of a scatter are drawn: that of an identical picture beyond all that have a number.
+// Positions of scatter values: identical pictures are placed beyond all numbers.
 function placer(values) {
   const numbers = values.filter(Number.isFinite);
   const low = Math.min(...numbers), high = Math.max(...numbers);

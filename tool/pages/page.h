@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The kit of all pages: the frame around a page (page.mustache), tables and tiles. Charts, and
-// tables that scripts fill, are in kit.js. Templates are read here alone: that is compiled once,
-// and not for every page.
+// Shared by all pages: the layout (page.mustache), tables and tiles. Charts, and tables filled by
+// scripts, are in kit.js. Only this file includes the template library, so it is compiled once.
 #pragma once
 
 #include <kainjow/mustache.hpp>
@@ -12,10 +11,10 @@
 
 namespace deburr::tool {
 
-// Escaped; names may end a line after '_', '.' and '/', and not within their words.
+// Escaped; names may wrap after '_', '.' and '/', but not within words.
 std::string breakable(const std::string& text);
 
-// A text, and HTML behind it; `look`: classes besides those of the column.
+// A text, followed by HTML; `look`: classes in addition to the column's.
 struct HtmlCell {
   HtmlCell(std::string text_of_cell, std::string look_of_cell = "")
       : text(std::move(text_of_cell)), look(std::move(look_of_cell)) {}
@@ -31,14 +30,14 @@ struct HtmlCell {
 
 class HtmlTable {
  public:
-  // "Name|Name:classes|Name:classes:tip"; n: numbers; name, mono: breakable texts.
+  // "Name|Name:classes|Name:classes:tip"; n: numbers; name, mono: texts that may wrap.
   explicit HtmlTable(std::string_view columns, std::string look = "");
   void column(const std::string& name, const std::string& look = "", const std::string& tip = "");
   void row(const std::vector<HtmlCell>& cells, const std::string& look = "",
            const std::string& tip = "");
   void part(const std::string& name);  // a row across all columns
   std::size_t rows() const { return rows_; }
-  // With what it scrolls in; `around`: attributes of that.
+  // With its scroll container; `around`: attributes of the container.
   std::string html(const std::string& around = R"(class="scroll")") const;
 
  private:
@@ -50,11 +49,11 @@ class HtmlTable {
 struct Tile {
   std::string name, value, unit = {}, note = {}, state = {};
 };
-// In one row, or in two that are equally long.
+// In one row, or in two rows of equal length.
 std::string html_of(const std::vector<Tile>& tiles);
 
-// The page with `content`, a template of `name`. Of `page` it shows title, brand, verdict with
-// badge, and footer; data and script are the page's own.
+// The page with `content`, a template called `name`. From `page` it takes title, brand, verdict
+// with badge, and footer; data and script belong to the page.
 std::string filled_page(std::string_view content, std::string_view name,
                         kainjow::mustache::data page, bool with_charts = true);
 

@@ -137,7 +137,7 @@ class ReportBuilder {
     const auto time = [&](double count) {
       return mhz > 0 ? fmt::format("{:.2f} ms at {:g} MHz", count / mhz / 1e3, mhz) : "";
     };
-    // What an engine shows among the tiles takes the place of what all of them have.
+    // Tiles declared by the engine replace the common ones.
     bool own_cycles = false, own_latency = false, own_memory = false;
     for (const Json& figure : result_.value("figures", Json::array())) {
       if (!figure.value("tile", false)) continue;
@@ -204,7 +204,7 @@ class ReportBuilder {
     return meaning.empty() ? "" : "Bound: " + meaning;
   }
 
-  // What held the run back, as a share of that unit's cycles.
+  // Stall causes as fractions of that unit's cycles.
   template <class Meter>
   void fill_bottleneck(const Meter& meter) const {
     const auto found = result_.find("bottleneck");
@@ -225,7 +225,7 @@ class ReportBuilder {
     return text;
   }
 
-  // The value under a dotted key; null where there is none.
+  // The value under a dotted key; null if there is none.
   Json value_at(const std::string& key) const {
     const Json* node = &result_;
     for (std::size_t from = 0; from <= key.size();) {
@@ -315,7 +315,7 @@ class ReportBuilder {
     page_.set("checks", checks.html());
   }
 
-  // Against the reference, and against what went in.
+  // Compares with the reference and with the input.
   void fill_quality() {
     const auto quality = result_.find("quality");
     page_.set("has_quality", quality != result_.end());
@@ -376,7 +376,7 @@ class ReportBuilder {
     percentiles.row({text("min"), text("p50"), text("p95"), text("p99"), text("max"), unit});
     page_.set("latency", percentiles.html());
     page_.set("latency_unit", unit);
-    // One value needs no histogram.
+    // A single value needs no histogram.
     page_.set("latency_spread", latency.value("min", Json()) != latency.value("max", Json()));
     page_.set("latency_single", text("max"));
     HtmlTable histogram("From:n|Transactions:n");
@@ -398,7 +398,7 @@ class ReportBuilder {
     page_.set("parameters", table.html());
   }
 
-  // A rate of memory is given in both units that its reader knows.
+  // A memory rate is shown in both common units.
   std::string unit_of_parameter(const Json& parameter) const {
     std::string unit = parameter.value("unit", "");
     if (unit != "byte/clk") return unit;
@@ -500,7 +500,7 @@ double number(const Json& json, const char* key) {
   return value.is_number() ? value.get<double>() : 0.0;
 }
 
-// Not with a regular expression: it would be a sixth of this library's build.
+// Not a regular expression: it would take a sixth of this library's compile time.
 std::string without_options(std::string command, std::initializer_list<std::string_view> options) {
   std::size_t at = 0;
   while ((at = command.find(" --", at)) != std::string::npos) {

@@ -10,19 +10,19 @@
 
 namespace deburr::tool {
 
-// Reads the directory and returns the page; FileError when something is missing or not valid.
+// Reads the directory and returns the page; FileError for missing or invalid files.
 std::string build_report(const std::filesystem::path& directory);
-// The page of a result that is not written yet; `pictures` are in a directory.
+// The page of a result that has not been written yet; `pictures` are in a directory.
 std::string build_report(const std::filesystem::path& pictures, nlohmann::ordered_json result,
                          nlohmann::ordered_json manifest);
-// build_report, written atomically to report.html of the same directory.
+// Writes build_report() atomically to report.html in the same directory.
 void write_report(const std::filesystem::path& directory);
 
 // A picture inside a page.
 std::string data_uri(const std::filesystem::path& image_file);
 std::string png_uri(const std::string& png);
 
-// JSON that is safe inside a <script> element: no '<' in it.
+// JSON that is safe inside a <script> element: it contains no '<'.
 std::string json_for_script(const nlohmann::ordered_json& json);
 
 }  // namespace deburr::tool

@@ -35,7 +35,7 @@
     const find = (role) => stills.findIndex((image) => image.dataset.role === role);
     if (find('before') >= 0) state.left = find('before');
     if (find('after') >= 0) state.right = find('after');
-    // What is wrong is the first thing to look at.
+    // Mismatches are shown first.
     if (data.result.checks.mismatches > 0 && find('difference') >= 0) {
       state.left = find('after');
       state.right = find('difference');
@@ -43,13 +43,13 @@
       split.value = '0';
     }
     const pixels = stills.map(() => null);
-    // Of a picture that is a map: its scale, and its values once they are decoded.
+    // For a picture of a map: its scale, and its values once decoded.
     const maps = stills.map((image) => data.maps[image.dataset.role]);
     maps.filter(Boolean).forEach((map) => {
       map.image = new Image();
       map.image.src = map.source;
     });
-    let pointed = null;  // pixel, by the pointer or by keys
+    let pointed = null;  // pixel selected by pointer or keys
     let byKeys = false;
 
     for (const side of ['left', 'right']) {
@@ -75,7 +75,7 @@
     }
     split.addEventListener('input', () => { state.split = split.value / 1000; draw(); });
 
-    // A picture of a map has its scale below it, and paper beside it: that is left out.
+    // A picture of a map includes margins with its scale: these are cropped.
     const sizeOf = (i) => maps[i] ? {w: maps[i].width, h: maps[i].height}
                                   : {w: stills[i].naturalWidth, h: stills[i].naturalHeight};
     const size = () => sizeOf(state.left);
@@ -85,7 +85,7 @@
     function resize() {
       const {w, h} = size();
       if (!w) return;
-      // As wide as its picture, so that nothing is left beside it.
+      // As wide as the picture, without margins.
       stage.style.maxWidth = split.style.maxWidth = `${Math.max(320, 620 * w / h)}px`;
       const width = Math.round(stage.clientWidth * devicePixelRatio);
       const height = Math.round(Math.min(
@@ -98,7 +98,7 @@
     }
     function fit() {
       const {w, h} = size();
-      // A picture of a few rows or columns would vanish; then only its middle is shown.
+      // Only the middle of a very narrow picture is shown, or it would vanish.
       const least = Math.min(24 * ratio() / Math.min(w, h), 8);
       state.scale = Math.max(Math.min(canvas.width / w, canvas.height / h), least);
       state.x = (canvas.width - w * state.scale) / 2;
@@ -122,7 +122,7 @@
       context.clip();
       context.imageSmoothingEnabled = state.scale < 1;
       context.imageSmoothingQuality = 'high';
-      context.fillStyle = '#808080';  // behind what is transparent
+      context.fillStyle = '#808080';  // background of transparent pixels
       context.fillRect(...at);
       context.drawImage(stills[i], 0, 0, w, h, ...at);
       context.restore();
@@ -165,7 +165,7 @@
       return c;
     }
 
-    // ---- maps: value of a pixel, and where it lies on the scale ----
+    // ---- maps: value of a pixel, and its position on the scale ----------------------------------
     const digits = new Intl.NumberFormat('en-US', {maximumSignificantDigits: 6});
     const amount = (value) => Number.isInteger(value) ? number.format(value) : digits.format(value);
     function valueOf(map, pixel) {
@@ -239,7 +239,7 @@
         const from = pointed ?? {x: Math.floor(w / 2), y: Math.floor(h / 2)};
         byKeys = true;
         point({x: Math.min(w - 1, Math.max(0, from.x + dx)), y: Math.min(h - 1, Math.max(0, from.y + dy))});
-        // It stays in sight.
+        // Keeps it in view.
         const into = (origin, at, length) => {
           const here = origin + (at + 0.5) * state.scale;
           return origin + Math.min(0, 0.9 * length - here) + Math.max(0, 0.1 * length - here);
@@ -317,8 +317,8 @@
   // ---- charts ----
   const stallColours = ['#d08a2c', '#b9503f', '#7c62a8', '#8b9138', '#b0608c', '#5c7fb5', '#9a7654',
                         '#4f8f6b', '#c9ab3a', '#72777e'];
-  // One a cause, wherever on the page it is drawn. Beyond those ten each is the farthest from all
-  // before it and from both tones of --busy, at lightnesses that can be seen on light and on dark.
+  // One colour per cause, the same in all charts. After the first ten, each new colour is the farthest from all earlier
+  // ones and from both tones of --busy, at lightnesses that are visible in the light and dark theme.
   const stallCauses = [...new Set(Object.values(data.result.units).flatMap((unit) =>
       Object.keys(unit.stalls).filter((cause) => unit.stalls[cause] > 0)))];
   const hex = (hue, lightness) => '#' + [0, 8, 4].map((offset) => {
@@ -336,16 +336,16 @@
   const colourOfCause = (cause) => causeColours[stallCauses.indexOf(cause)];
   let charts = [];
 
-  // ---- windows ----
+  // ---- sampling intervals -----------------------------------------------------------------------
   const intervals = data.intervals;
   const links = Object.entries(data.result.links || {});
-  let chosen = -1;  // window
+  let chosen = -1;  // sampling interval
   if (intervals) {
     const units = byId('time-unit');
     for (const name of Object.keys(intervals.series.units)) units.add(new Option(name));
     const worst = (data.result.bottleneck || {}).unit;
     if (worst in intervals.series.units) units.value = worst;
-    // FIFOs first, the fullest of them.
+    // FIFOs first, fullest first.
     const order = [...links].sort(([, a], [, b]) => (b.depth > 2) - (a.depth > 2) ||
         b.mean / b.depth - a.mean / a.depth);
     for (const [name, link] of order) byId('link').add(new Option(`${name}, depth ${link.depth}`, name));
@@ -367,8 +367,8 @@
     for (const chart of charts) if (chart.options.overTime) chart.draw();
   }
 
-  // Ticks of an axis whose positions are bins: bin i goes from edges[i] to edges[i + 1] and is drawn
-  // about i. Only at round numbers, as many as there is room for.
+  // Ticks of an axis with bins: bin i covers edges[i] to edges[i + 1] and is drawn at i. Only round numbers, as many as
+  // fit.
   function roundTicks(edges) {
     const last = edges.length - 2;
     const placeOf = (value) => {
@@ -376,7 +376,7 @@
       if (i < 0) i = value < edges[0] ? 0 : last;
       return i - 0.5 + (value - edges[i]) / (edges[i + 1] - edges[i]);
     };
-    // A number stands for the bin that begins there where a bin is one number wide.
+    // If all bins are one number wide, a tick labels the bin that starts there.
     const single = edges.every((edge, i) => i === 0 || edge === edges[i - 1] + 1);
     return {
       autoSkip: false,
@@ -392,7 +392,7 @@
         const ticks = [];
         for (let value = Math.ceil(from / step) * step; value <= to; value += step) {
           const at = placeOf(value) + (single ? 0.5 : 0), before = ticks[ticks.length - 1];
-          // Bins of different widths: where they are dense there is room for fewer.
+          // Bins differ in width: fewer ticks fit where they are dense.
           if (before && (at - before.value) * width / edges.length < text * 0.8) continue;
           ticks.push({value: at, round: value});
         }
@@ -405,7 +405,7 @@
     for (const chart of charts) chart.destroy();
     charts = [];
     chartColours();
-    // What all names share, up to a '_'.
+    // The common prefix of all names, up to a '_'.
     const withoutBeginning = (names) => {
       let shared = names[0] ?? '';
       for (const name of names)
@@ -433,7 +433,7 @@
     // Latency histogram with its percentiles as lines.
     const latency = data.result.latency, bins = latency.histogram;
     if (bins.length > 0 && byId('latency')) {
-      // Percentiles of the same value share a line.
+      // Equal percentiles share a line.
       const marks = [];
       for (const name of ['p50', 'p95', 'p99']) {
         const same = marks.find((mark) => mark[1] === latency[name]);
@@ -458,7 +458,7 @@
             ctx.stroke();
             const text = `${name} = ${number.format(value)}`;
             const width = ctx.measureText(text).width, right = x + 6 + width > chartArea.right;
-            ctx.fillStyle = css('--card');  // so that lines and bars do not cross the text
+            ctx.fillStyle = css('--card');  // keeps lines and bars from crossing the text
             ctx.fillRect(right ? x - 6 - width : x + 4, chartArea.top + 14 * i, width + 2, 14);
             ctx.fillStyle = css('--bad');
             ctx.textAlign = right ? 'right' : 'left';
@@ -496,8 +496,7 @@
 
     if (intervals) drawIntervals();
 
-    // Bits of the memories: for the width of this frame, beyond it what was built for wider ones,
-    // and beyond that copies and filled-up banks.
+    // Memory bits: used at this frame's width, built for wider frames, and overhead of copies and padded banks.
     const memories = Object.entries(data.result.memories);
     if (memories.length > 0) {
       const here = memories.map(([, m]) => m.logical_bits_at_frame_width);
@@ -505,7 +504,7 @@
       const copied = memories.map(([, m]) => m.physical_bits - m.logical_bits);
       const wider = beyond.some((bits) => bits > 0);
       const copies = copied.some((bits) => bits > 0);
-      // Whole names are in the table below it: what they all begin with is left out here.
+      // The table below shows full names; here the common prefix is dropped.
       charts.push(stackedBars('memories', withoutBeginning(memories.map(([name]) => name)), [
         series(wider ? 'at this width' : 'logical', css('--busy'), here),
         ...(wider ? [series('more, as built', css('--idle'), beyond)] : []),
@@ -514,7 +513,7 @@
     }
   }
 
-  // Everything over the windows shares an axis, and a mark at the one that is chosen.
+  // Charts over time share an axis and mark the selected interval.
   function drawIntervals() {
     const cycles = intervals.cycles;
     const labels = intervals.from.map((from) => number.format(from));

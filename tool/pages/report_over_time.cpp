@@ -53,7 +53,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
                                          {"--trace", "--trace-from", "--trace-to"});
   page.set("intervals_command", intervals["command"].get<std::string>());
 
-  // A rate is a series over cycles.
+  // A rate is a series divided by cycles.
   std::vector<std::vector<std::uint64_t>> columns;
   HtmlTable table("Cycles", "narrow");
   Json kept = Json::object();
@@ -72,7 +72,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
     for (const char* bytes : {"_bytes_read", "_bytes_written"})
       if (series["work"].contains(port + bytes)) kept[port + bytes] = series["work"][port + bytes];
   }
-  series["work"] = kept;  // the page needs no more of them
+  series["work"] = kept;  // the only part that the page uses
   intervals.erase("units");
   page.set("has_ports", !of_ports.empty());
   for (std::size_t i = 0; i < from.size(); ++i) {

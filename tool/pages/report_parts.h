@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of report.html, by their names on it. Each sets what its section of report.mustache
-// shows.
+// The parts of report.html, by their names. Each fills its section of report.mustache.
 #pragma once
 
 #include <filesystem>
@@ -20,22 +19,22 @@ struct ReportSource {
 
 constexpr std::size_t kMaxImageBytes = 256u << 20;
 
-// First mismatches, and the history of a pixel with the commands that give another one or the waves
-// around this one.
+// The first mismatches, and the history of a pixel with commands to show another one or its
+// waveforms.
 void fill_pixel(const ReportSource& source, kainjow::mustache::data& page);
-// Pictures, and maps over them; returns what the script shows of maps.
+// Pictures, and maps over them; returns the script's data for maps.
 nlohmann::ordered_json fill_pictures(const ReportSource& source, kainjow::mustache::data& page);
-// Over time, and links, of a run with windows; returns what the script draws.
+// Charts over time and links, for a run with sampling intervals; returns the script's data.
 nlohmann::ordered_json fill_over_time(const ReportSource& source, kainjow::mustache::data& page);
 
-// Numbers as a reader wants them: counts grouped, rates with four significant digits.
+// Formats numbers for readers: grouped counts, rates with four significant digits.
 std::string report_text(const nlohmann::ordered_json& value);
-// Of an object's key, as that.
+// The same for one key of an object.
 std::string report_text(const nlohmann::ordered_json& object, const char* key);
 double number(const nlohmann::ordered_json& object, const char* key);  // 0 for anything else
-// The command of a run without some of its options, so that others can be given behind it.
+// The run's command without some options, so that others can be appended.
 std::string without_options(std::string command, std::initializer_list<std::string_view> options);
-// Only names inside the directory: a manifest from elsewhere must not pull other files in.
+// Accepts only names inside the directory: a manifest of unknown origin must not embed other files.
 void reject_path(const std::filesystem::path& directory, const std::filesystem::path& file);
 
 }  // namespace deburr::tool

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace mustache = kainjow::mustache;
 using Json = nlohmann::ordered_json;
 
-// Columns and rows; nothing: it is no PNG.
+// Width and height; {0, 0} if it is not a PNG.
 std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
   constexpr std::size_t kWidth = 16, kHeight = 20;  // in the first chunk, IHDR
   if (!bytes.starts_with("\x89PNG") || bytes.size() < kHeight + 4) return {0, 0};
@@ -34,8 +34,8 @@ std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
   return {number(kWidth), number(kHeight)};
 }
 
-// Of a frame of a few rows or columns they would vanish: they are drawn out. Of a picture that is
-// larger than the frame, with the scale of a map, the frame's part is shown.
+// Frames of only a few rows or columns are stretched to be visible. Pictures larger than the frame
+// (with the scale of a map) are cropped to the frame.
 void fill_stills(const ReportSource& source, mustache::data& page) {
   constexpr std::uint64_t kNarrow = 8;
   const Json list = source.manifest.value("images", Json::array());
@@ -49,7 +49,7 @@ void fill_stills(const ReportSource& source, mustache::data& page) {
     width = std::min(width, across);
     height = std::min(height, down);
   }
-  width = std::max<std::uint64_t>(width, 1);  // of what is no PNG
+  width = std::max<std::uint64_t>(width, 1);  // not a PNG
   height = std::max<std::uint64_t>(height, 1);
   const char* const shape = width / kNarrow > height   ? "flat"
                             : height / kNarrow > width ? "tall"
@@ -72,7 +72,7 @@ void fill_stills(const ReportSource& source, mustache::data& page) {
   page.set("images", images);
 }
 
-// What the page says of a pixel of a map; nothing where the file of its values is gone.
+// The page's text for a pixel of a map; empty if its value file is missing.
 void keep_values(const fs::path& directory, const Json& map, Json& kept) {
   const std::string picture = map.value("picture", ""), name = map.value("values", "");
   if (picture.empty() || name.empty() || number(map, "pixels") == 0) return;
@@ -81,7 +81,7 @@ void keep_values(const fs::path& directory, const Json& map, Json& kept) {
   if (!fs::exists(file)) return;
   const std::string bytes = tb::read_file(file, kMaxImageBytes);
   int width = 0, height = 0;
-  // Before there is memory for so many values: they must be there.
+  // Checks that the values exist before memory for them is allocated.
   if (std::sscanf(bytes.c_str(), "Pf %d %d", &width, &height) != 2 || width < 1 || height < 1 ||
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > bytes.size() / 4)
     throw spec::FileError(fmt::format("'{}' is not a portable float map", file.string()));

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "X,Y" of an item that is called by its pixel, "pixel (X, Y)"; empty: it is not.
+// "X,Y" of an item called "pixel (X, Y)"; empty for any other item.
 std::string pixel_in(const std::string& item) {
   constexpr std::string_view kBegin = "pixel (";
   const std::size_t begin = item.find(kBegin), end = item.find(')', begin);

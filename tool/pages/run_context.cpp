@@ -42,7 +42,7 @@ std::string now_utc() {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
 }
 
-// What a run leaves without having declared it could replace a file of somebody else.
+// An undeclared output could replace a user's file.
 void check_declared(const std::string& name, const std::vector<std::string>& declared,
                     std::string_view what) {
   DEBURR_CHECK(std::find(declared.begin(), declared.end(), name) != declared.end(),
@@ -64,8 +64,8 @@ Json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
 struct RunContext::Listed {
   Json inputs = Json::array(), images = Json::array(), records = Json::object();
 
-  // Behind the hardware model's picture comes that of the golden model, as a rule the same one; to
-  // compare them costs a hundredth of encoding one.
+  // The golden model's picture follows the hardware model's and is usually identical; comparing
+  // them costs a hundredth of encoding one.
   const std::string& png_of(const tb::Image& image) {
     DEBURR_CHECK(!image.pixels.empty(), "a picture without pixels");
     if (image.width != last_.width || image.pixels != last_.pixels) {
@@ -96,7 +96,7 @@ fs::path RunContext::draft_file(const char* name) const {
 
 void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
-  // What a parameter asks for: its value where it asks for nothing, and the file.
+  // Parameters that request files: the value that requests nothing, and the file.
   constexpr std::array<std::array<std::string_view, 3>, 5> kAsked = {
       {{"run.trace", "", "trace.vcd"},
        {"run.line_trace", "none", "lines.trace"},
@@ -152,7 +152,7 @@ void RunContext::add_inputs(const std::vector<fs::path>& files) {
   if (shared_) shared_->files().reject_changed(files);
 }
 
-// As it was read: a pipe gives it once.
+// Records the text that was read: a pipe can be read only once.
 void RunContext::add_configuration(const fs::path& file, const std::string& text) {
   list(file, tb::sha256(text), "configuration")["bytes"] = text.size();
 }
@@ -194,9 +194,9 @@ void RunContext::add_record(const std::string& kind, std::string_view file,
   listed_->records[kind] = file;
 }
 
-// A hash of all that decides what the golden model computes: two runs with the same one have the
-// same golden result. Files count by their content. A line that memory answers with an error reads
-// as zero, and how long that is depends on what is built.
+// A hash of everything that affects the golden model: runs with the same hash have the same golden
+// result. Files count by content. A memory line with an error reads as zero, and its size is a
+// build parameter.
 std::string RunContext::golden_key() const {
   Json key = {{"input", parameters_.resolved(ParameterKind::kInput)},
               {"rule", parameters_.resolved(ParameterKind::kRule)},
@@ -244,7 +244,7 @@ Json RunContext::manifest(const tb::Result& result) const {
   json["title"] = title_;
   json["summary"] = summary_;
   json["command"] = command_;
-  // What names of files are relative to.
+  // Base of relative file names.
   std::error_code error;
   json["working_directory"] = fs::current_path(error).string();
   json["seed"] = seed_;

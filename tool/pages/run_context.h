@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What surrounds one run of an engine: its parameters, inputs, output directory and manifest.
+// The context of one run of an engine: its parameters, inputs, output directory and manifest.
 //
 //   RunContext context(...);        // touches nothing
-//   context.claim();                // may reject; then waves may be written to trace_file()
+//   context.claim();                // may reject; then waveforms may be written to trace_file()
 //   context.add_inputs(files);      // every file that was read
 //   context.add_image(...);
 //   context.finish(result);         // without it, an earlier run's results stay as they were
@@ -31,13 +31,13 @@ namespace deburr::tool {
 inline constexpr std::string_view kIntervalsFile = "intervals.json",
                                   kTimelineFile = "timeline.json";
 
-// Names of what a run may leave for people to look at, as its engine declares them.
+// Names of the files that a run may write for users, as declared by its engine.
 struct Leaves {
   std::vector<std::string> pictures, maps;
-  bool pixel_history = false;  // run.pixel gives something
+  bool pixel_history = false;  // run.pixel has an effect
 };
 
-// What a golden result depends on, by name and value; files by their names.
+// The dependencies of a golden result, by name and value; files by their names.
 nlohmann::ordered_json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
                                            const std::vector<std::string_view>& built);
 
@@ -47,19 +47,20 @@ class RunContext {
   RunContext(std::filesystem::path directory, const tb::ParameterSet& parameters,
              std::string command, std::uint64_t seed);
   ~RunContext();
-  // Nothing on the error stream but errors.
+  // Prints only errors to the error stream.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
-  // A run that ends where it would begin: everything that was given has been checked.
+  // Ends the run after all inputs have been checked, before simulation.
   void set_checking_only() { checking_only_ = true; }
   bool checking_only() const { return checking_only_; }
-  // Without: no report.html, which `deburr report` makes of what is left.
+  // If false, report.html is not written; `deburr report` can create it later.
   void set_report(bool wanted) { report_ = wanted; }
-  // Runs that are given the same one make what they have in common once. `files` are all that this
-  // one reads (Engine::input_files): what they hold is part of every key.
+  // Runs with the same SharedInputs prepare common inputs once. `files` are all files that this run
+  // reads (Engine::input_files): their contents are part of every key.
   void share(std::shared_ptr<SharedInputs> shared, std::vector<std::filesystem::path> files);
-  // What `make` gives, kept for runs that agree in the seed, in what the files hold and in the
-  // parameters whose names begin with one of `prefixes`. `what` tells one such thing from another.
+  // Returns the result of `make`, cached for runs that agree in the seed, in the contents of the
+  // files and in the parameters whose names start with one of `prefixes`. `what` distinguishes
+  // kinds of objects.
   template <class T>
   std::shared_ptr<const T> shared(std::string_view what,
                                   std::initializer_list<std::string_view> prefixes,
@@ -67,13 +68,13 @@ class RunContext {
     if (!shared_) return std::make_shared<const T>(make());
     return shared_->get<T>(key_of(what, prefixes), make);
   }
-  // The same of bytes, which processes can share too. FileError where a file has become another one
-  // since its content went into the key.
+  // The same for bytes, which processes can share too. FileError if a file has changed since its
+  // content became part of the key.
   std::string shared_bytes(std::string_view what, std::initializer_list<std::string_view> prefixes,
                            const std::function<std::string()>& make) const;
-  // The golden result that `make` gives, kept for the next runs that agree in what it depends on:
-  // seed, inputs, rules, and `built`, names of what is built. Null where the run shares nothing, is
-  // not checked, or reads lines of memory that fail, which only its own golden model knows.
+  // Returns the golden result of `make`, cached for later runs with the same seed, inputs,
+  // configuration and `built` (names of build parameters). Null if the run shares nothing, is not
+  // checked, or reads failing memory lines, which only its own golden model knows.
   template <class T>
   std::shared_ptr<const T> shared_golden(const std::vector<std::string_view>& built,
                                          const std::function<T()>& make) const {
@@ -81,32 +82,32 @@ class RunContext {
     return shared_->last<T>("golden", key_of_golden(built), make);
   }
   void set_title(std::string title, std::string summary);
-  // What had to be decided about an input (a mesh without normals): on the error stream, in result
-  // and report.
+  // Records a decision about an input (a mesh without normals): on the error stream, in result and
+  // report.
   void add_note(const std::string& note);
-  // Before claim(), which does not replace what somebody else left under one of these names.
+  // Call it before claim(), which does not replace users' files with one of these names.
   void set_leaves(Leaves leaves) { leaves_ = std::move(leaves); }
-  // The directory is this run's from here on (RunDirectory::claim).
+  // Claims the directory for this run (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kReject);
-  // Lists files that the result depends on, those too that were looked for in vain. ConfigError if
-  // the results would replace one.
+  // Records files that the result depends on, including those not found. ConfigError if the results
+  // would replace one.
   void add_inputs(const std::vector<std::filesystem::path>& files);
-  // The same of a file that said how to run, as the parameters do, and what it said.
+  // The same for a configuration file, with the text that was read.
   void add_configuration(const std::filesystem::path& file, const std::string& text);
-  // Where what is written while the run goes is until the run is over: waves, lines asked of
-  // memory, fragments.
+  // Temporary location of output that is written during the run: waveforms, requested memory lines,
+  // fragments.
   std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
   std::filesystem::path line_trace_file() const { return draft_file("lines.trace"); }
   std::filesystem::path fragment_trace_file() const { return draft_file("fragments.trace"); }
-  // Writes NAME.png and lists it for the report. NAME, which is the role too, is one of the
-  // pictures that the run may leave.
+  // Writes NAME.png and lists it for the report. NAME, also its role, is one of the pictures that
+  // the run may write.
   void add_image(const std::string& name, const tb::Image& image, std::string title,
                  std::string caption);
-  // map_NAME.png, listed for the report, and map_NAME.pfm; NAME is one of its maps.
+  // Writes map_NAME.png, listed for the report, and map_NAME.pfm; NAME is one of its maps.
   void add_map(const tb::PictureMap& map);
-  // A file of the run beside its result: `kind` is what the manifest's "records" calls it.
+  // Adds a file next to the result: `kind` is its name in the manifest's "records".
   void add_record(const std::string& kind, std::string_view file, std::string_view content);
-  // Result, report and manifest; then all of it takes the place of an earlier run's results.
+  // Writes result, report and manifest, then replaces an earlier run's results with them.
   void finish(const tb::Result& result);
 
   const std::filesystem::path& directory() const { return directory_.path(); }
@@ -132,7 +133,7 @@ class RunContext {
   Leaves leaves_;
   std::vector<std::filesystem::path> shared_files_;
   std::vector<std::string> notes_;
-  struct Listed;  // of the manifest
+  struct Listed;  // entries of the manifest
   std::unique_ptr<Listed> listed_;
 };
 

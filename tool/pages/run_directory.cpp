@@ -43,8 +43,8 @@ Json read_json(const fs::path& file) {
   return tb::try_parse_json(tb::read_file(file, kMaxJsonBytes));
 }
 
-// What a manifest says its run left, in the order in which it got there. Only what a run can have
-// written there: a manifest from elsewhere must not make others' files go.
+// The files listed in a manifest, in order. Only names that a run can have written: a manifest of
+// unknown origin must not cause other files to be deleted.
 std::vector<std::string> files_of(const fs::path& manifest) {
   constexpr std::array<std::string_view, 6> kExtensions = {".png",  ".pfm", ".json",
                                                            ".html", ".vcd", ".trace"};
@@ -60,7 +60,7 @@ std::vector<std::string> files_of(const fs::path& manifest) {
   return names;
 }
 
-// "process 12 on host since TIME (deburr run ...)"; empty while nothing can be read.
+// "process 12 on host since TIME (deburr run ...)"; empty until it can be read.
 std::string holder(const fs::path& claim) {
   try {
     const Json json = read_json(claim);
@@ -68,7 +68,7 @@ std::string holder(const fs::path& claim) {
     return fmt::format("process {} on {} since {} ({})", json.value("process", 0),
                        json.value("host", "?"), json.value("started", "?"),
                        json.value("command", "?"));
-  } catch (const spec::FileError&) {  // gone meanwhile
+  } catch (const spec::FileError&) {  // removed meanwhile
     return "";
   } catch (const Json::exception&) {
     return "";
@@ -104,10 +104,10 @@ fs::path RunDirectory::draft() const { return path_ / kDraft; }
 
 RunDirectory::~RunDirectory() {
   try {
-    // A draft that is complete waits for the next run.
+    // A complete draft is kept for the next run.
     std::error_code ignored;
     if (lock_ >= 0 && !fs::exists(draft() / kManifest, ignored)) clear_draft();
-  } catch (const spec::FileError&) {  // the next run tries again
+  } catch (const spec::FileError&) {  // the next run retries
   }
   release();
 }
@@ -118,7 +118,7 @@ void RunDirectory::claim(const std::string& command, std::vector<std::string> na
                          IfTaken if_taken) {
   names_ = std::move(names);
   lock(if_taken);
-  if (fs::exists(draft() / kManifest)) move_in();  // a run died on its last steps
+  if (fs::exists(draft() / kManifest)) move_in();  // a run died while moving its results
   clear_draft();
   write_claim(command);
   const std::set<std::string> ours = earlier();
@@ -131,7 +131,7 @@ void RunDirectory::claim(const std::string& command, std::vector<std::string> na
 void RunDirectory::lock(IfTaken if_taken) {
   using std::chrono::steady_clock;
   constexpr auto kPoll = std::chrono::milliseconds(20);
-  // As long as a run may take from its lock to its name.
+  // The longest time between a run's lock and its entry in the file.
   const auto patience = steady_clock::now() + std::chrono::seconds(2);
   bool told = false;
   while (!try_lock()) {
@@ -150,7 +150,7 @@ void RunDirectory::lock(IfTaken if_taken) {
   }
 }
 
-// False: somebody else has it, or has just left and took the folder along.
+// False: another run holds it, or has just released it and removed the folder.
 bool RunDirectory::try_lock() {
   std::error_code error;
   for (fs::path p = fs::absolute(draft()).lexically_normal(); !fs::exists(p, error) && !error;
@@ -178,7 +178,7 @@ bool RunDirectory::try_lock() {
     ::close(descriptor);
     return false;
   }
-  // What a dead run wrote there names nobody.
+  // Discards the entry of a dead run.
   if (::ftruncate(descriptor, 0) != 0) fail("write in", path_, std::strerror(errno));
   lock_ = descriptor;
   return true;
@@ -211,7 +211,7 @@ std::set<std::string> RunDirectory::earlier() const {
 }
 
 void RunDirectory::reject_to_replace(const fs::path& file) const {
-  // An earlier run's files go as well, those that this run does not make anew.
+  // Removes an earlier run's files too, unless this run replaces them.
   std::set<std::string> going = earlier();
   going.insert(names_.begin(), names_.end());
   std::error_code error;
@@ -223,7 +223,7 @@ void RunDirectory::reject_to_replace(const fs::path& file) const {
                       file.string()));
 }
 
-// ---- leaving ------------------------------------------------------------------------------------
+// ---- releasing ----------------------------------------------------------------------------------
 
 void RunDirectory::publish(Json manifest, std::string_view head) {
   std::vector<std::string> files;
@@ -233,7 +233,7 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
   std::sort(files.begin(), files.end(), [&](const std::string& a, const std::string& b) {
     return std::pair(a == head, a) < std::pair(b == head, b);
   });
-  // Somebody else may have left a file meanwhile.
+  // A user may have added a file meanwhile.
   const std::set<std::string> ours = earlier();
   for (const std::string& name : files)
     if (fs::exists(fs::symlink_status(path_ / name)) && !ours.contains(name))
@@ -245,8 +245,8 @@ void RunDirectory::publish(Json manifest, std::string_view head) {
   release();
 }
 
-// From a complete draft, or from wherever this stopped before, to results that are in place. What
-// has moved is no longer in the draft.
+// Moves a complete draft into place, or resumes an interrupted move. Moved files are no longer in
+// the draft.
 void RunDirectory::move_in() const {
   const std::vector<std::string> mine = files_of(draft() / kManifest);
   const auto waits = [&](const std::string& name) { return fs::exists(draft() / name); };
@@ -270,8 +270,8 @@ void RunDirectory::clear_draft() const {
       fail("remove what a dead run left,", entry.path(), error.message());
 }
 
-// The claim goes while it is locked, so that whoever waits for the lock sees that it is not the
-// one that is there.
+// Deletes the claim while it is locked, so that a process waiting for the lock notices that the
+// file is gone.
 void RunDirectory::release() {
   std::error_code ignored;
   if (lock_ >= 0) {
@@ -280,7 +280,7 @@ void RunDirectory::release() {
     ::close(lock_);
     lock_ = -1;
   }
-  for (const fs::path& folder : made_) ::rmdir(folder.c_str());  // those that are empty
+  for (const fs::path& folder : made_) ::rmdir(folder.c_str());  // only empty ones
   made_.clear();
 }
 

@@ -22,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxInputBytes = std::size_t{4} << 30;
-constexpr std::size_t kHash = 64;  // digits, and a line end behind them
+constexpr std::size_t kHash = 64;  // digits, followed by a line end
 
-// The kernel opens the lock of a dead process.
+// The kernel releases the lock of a dead process.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What runs have in common and what takes long to make: scenes, mip chains, references. Kept by key
-// within a process, so that the children of a sweep's worker inherit it, and, where it can be
-// written as bytes, in a folder that all processes of a sweep share.
+// Inputs that several runs share and that take long to prepare: scenes, mip chains, references.
+// They are cached by key within a process, so that the children of a sweep's worker inherit them,
+// and, if they can be serialised, in a folder shared by all processes of a sweep.
 //
-// The key says everything that the content depends on; the model version goes into it here. A file
-// of the folder begins with the hash of what follows, so that a damaged one is made again. Whoever
-// makes one holds a lock, and who wants the same waits for it.
+// The key describes everything that the content depends on; the model version is added here. A file
+// in the folder starts with the hash of its content, so that a damaged one is detected and made
+// again. A process holds a lock while it makes one; others that need it wait.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace deburr::tool {
 
 class SharedInputs {
  public:
-  // Without a folder only this process and its children share.
+  // Without a folder, only this process and its children share.
   explicit SharedInputs(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   template <class T>
@@ -31,8 +31,8 @@ class SharedInputs {
     if (!slot) slot = std::make_shared<const T>(make());
     return std::static_pointer_cast<const T>(slot);
   }
-  // The same of what is large and wanted by runs that follow each other: of each `what` the last
-  // one is kept.
+  // The same for large objects used by consecutive runs: only the latest one of each `what` is
+  // kept.
   template <class T>
   std::shared_ptr<const T> last(const std::string& what, const std::string& key,
                                 const std::function<T()>& make) {
@@ -44,12 +44,12 @@ class SharedInputs {
     }
     return std::static_pointer_cast<const T>(slot);
   }
-  // The bytes that `make` gives, from the folder if they are there. FileError when the folder
-  // cannot be written.
+  // The bytes that `make` returns, or those cached in the folder. FileError if the folder is not
+  // writable.
   std::string bytes(const std::string& key, const std::function<std::string()>& make) const;
-  // Of the runs that share.
+  // Files of the runs that share.
   InputFiles& files() { return files_; }
-  // Lets go of what the next group of runs has no use for.
+  // Releases objects that the next group of runs does not need.
   void forget() { kept_.clear(); }
 
  private:

@@ -18,7 +18,7 @@ constexpr std::uint64_t kCyclesBefore = 400, kCyclesAfter = 100;
 // An extended regular expression of the C library: std::regex takes seconds to compile.
 class Pattern {
  public:
-  // What was found, and the first groups; those that took no part are empty.
+  // The match and its first groups; groups that did not participate are empty.
   using Match = std::array<std::string, 5>;
 
   explicit Pattern(const char* pattern) {
@@ -28,7 +28,7 @@ class Pattern {
   Pattern(const Pattern&) = delete;
   Pattern& operator=(const Pattern&) = delete;
 
-  // Calls `visit` with every match, and gives the text with what `visit` gives in their places.
+  // Calls `visit` for every match; returns the text with each match replaced by its result.
   template <class Visit>
   std::string replaced(const std::string& text, Visit visit) const {
     std::string result;
@@ -49,7 +49,7 @@ class Pattern {
     }
     return result + text.substr(end);
   }
-  // With the first group kept.
+  // Keeps the first group.
   std::string replaced(const std::string& text, const char* by) const {
     return replaced(text, [by](const Match& match) { return match[1] + by; });
   }
@@ -80,7 +80,7 @@ std::uint64_t larger(std::uint64_t a, std::uint64_t b) { return std::max(a, b); 
 }  // namespace
 
 std::string without_particulars(const std::string& message) {
-  // In quotes a path may be relative; elsewhere it would look like "expected/got".
+  // Quoted paths may be relative; unquoted, "expected/got" would match as well.
   static const Pattern kQuotedPath("'[^'[:space:]]*/[^']*'");
   static const Pattern kPath(R"((^|[[:space:]"(=])\.{0,2}/[^[:space:]'")]+)");
   static const Pattern kHexadecimal(R"(\b0x[0-9a-fA-F]+)");
@@ -97,7 +97,7 @@ std::string without_particulars(const std::string& message) {
 
 std::uint64_t failing_cycle(const nlohmann::json& result) {
   const std::string reason = result.value("reason", "");
-  // The state of every link ends with "; cycle of its last push, of its last pop; from -> to".
+  // The state of each link ends with "; cycle of its last push, of its last pop; from -> to".
   static const Pattern kLastMoves("; (([0-9]+)|never), (([0-9]+)|never); [^;\n]* -> ");
   if (const auto cycle = chosen(reason, kLastMoves, larger)) return *cycle;
   static const Pattern kCycle(R"(\bcycle ([0-9]+))");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a failed run says of itself: which failures are the same one, and around which cycles to
-// look.
+// Analyses the message of a failed run: its failure signature, and the cycles to record.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +9,17 @@
 
 namespace deburr::tool {
 
-// The message without what differs from run to run: numbers become N, paths PATH. Digits within a
-// name ("predictor_h0") stay.
+// The message without details that differ from run to run: numbers become N, paths PATH. Digits
+// within a name ("predictor_h0") are kept.
 std::string without_particulars(const std::string& message);
 
-// In which cycle a failed run went wrong, as far as its result.json tells: of a deadlock the last
-// one in which anything moved, else that of the first mismatch, else one that the reason names;
-// where none is told, as of a counter that is checked at the end, the last cycle of the run.
+// The cycle in which a run failed, by its result.json: for a deadlock the last cycle with activity,
+// else the first mismatch, else a cycle named in the reason. Without any (a counter checked at the
+// end), the run's last cycle.
 std::uint64_t failing_cycle(const nlohmann::json& result);
 
 struct WaveWindow {
-  std::uint64_t from = 0, to = 0;  // `to` is the cycle behind the last
+  std::uint64_t from = 0, to = 0;  // `to` is one past the last cycle
 };
 WaveWindow wave_window(std::uint64_t failing_cycle);
 

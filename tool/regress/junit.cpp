@@ -70,7 +70,7 @@ std::string xml_escaped(std::string_view text) {
         out += "&#9;";
         break;
       default:
-        // Bytes of no character would make the whole file unreadable.
+        // Invalid characters would make the whole file unreadable.
         out += c >= ' ' && c != '\x7f' ? c : '?';
     }
   return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JUnit's XML, which servers of continuous integration read.
+// JUnit's XML, as read by continuous integration servers.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct JunitCase {
   std::string name;
   double seconds = 0;
   JunitOutcome outcome = JunitOutcome::kPassed;
-  std::string type, message, details;  // of one that did not pass
+  std::string type, message, details;  // if it did not pass
 };
 
 class JunitReport {
@@ -37,7 +37,7 @@ class JunitReport {
   Counts all_, suite_;
 };
 
-// As the value of an attribute or the text of an element; what XML cannot hold becomes '?'.
+// For an attribute value or element text; characters that XML does not allow become '?'.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace deburr::tool

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using spec::ConfigError;
 
-// Any of 32 bits is a seed of a run.
+// A run's seed has 32 bits.
 constexpr std::uint64_t kRunSeeds = 0xFFFFFFFF;
 
 class RegressionPlanner {
@@ -59,14 +59,14 @@ class RegressionPlanner {
   }
 
  private:
-  // A configuration is named by its axes; what the engine rejects is left out for every seed.
+  // A configuration is named by its axes; if the engine rejects it, it is omitted for every seed.
   void expand(const Feature& feature, const Stimulus& stimulus) {
     const SweepDefinition& configurations = stimulus.configurations;
     const Plan samples = plan_without_points(configurations);
     PointChecker points(configurations, samples);
     std::set<std::string> known;
     const auto take = [&](const Sample& sample) {
-      // After its own conditions, so that axes without an effect are not given.
+      // Conditions are applied first, so that axes without effect are omitted.
       const std::optional<PlannedPoint> point = points.check(sample);
       if (!point || !known.insert(point->name).second) return false;
       expand(feature, stimulus, in_words(samples, point->sample),
@@ -184,7 +184,7 @@ std::uint64_t seed_of_today() {
 
 std::uint64_t derived_seed(std::uint64_t base_seed, std::string_view point,
                            std::string_view purpose) {
-  constexpr std::size_t kHexDigits = 16;  // of 64 bits
+  constexpr std::size_t kHexDigits = 16;  // for 64 bits
   return std::stoull(
       tb::sha256(fmt::format("{}\n{}\n{}", base_seed, point, purpose)).substr(0, kHexDigits),
       nullptr, 16);

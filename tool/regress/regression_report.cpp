@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// junit.xml, collected.json and index.html of a regression.
+// Writes junit.xml, collected.json and index.html of a regression.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ constexpr std::string_view name_of(PointState state) {
                                         : "missing";
 }
 
-// As seen from the regression's directory, where the page is.
+// Relative to the regression's directory, where the page is.
 std::string seen_from(const SweepPlace& place, const fs::path& path) {
   return fs::proximate(fs::absolute(path), fs::absolute(place.directory)).string();
 }
@@ -84,7 +84,7 @@ Json to_json(const FeatureResult& result) {
   return json;
 }
 
-// What is demanded of all runs together.
+// Requirements on all runs together.
 Json whole_of(const RegressionResult& result) {
   Json json = {{"coverage", Json::array()}, {"unmet", Json::array()}};
   for (const CoverageResult& covered : result.merged) json["coverage"].push_back(to_json(covered));
@@ -106,7 +106,7 @@ Json to_json(const FailureSignature& signature, const RegressionResult& result,
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
-  // A run that was rejected or killed has left none.
+  // A rejected or killed run has no result.
   const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
   if (std::error_code error; fs::exists(result_file, error))
     json["example"]["result"] = seen_from(place, result_file);
@@ -154,7 +154,7 @@ Json json_of(const Testplan& testplan, std::uint64_t base_seed, const Plan& plan
   for (const FailureSignature& signature : result.signatures)
     json["signatures"].push_back(to_json(signature, result, place));
   for (const auto& [engine, bins] : result.coverage) json["coverage"][engine] = to_json(bins);
-  // A glob of bins is a check too, as in JUnit.
+  // A coverage glob counts as a check, as in JUnit.
   std::uint64_t checks = 0, failed_checks = 0, holes = 0;
   const auto count = [&](const Json& list) {
     for (const Json& check : list) {
@@ -270,7 +270,7 @@ mustache::data data_of_coverage(const Json& list) {
   return coverage;
 }
 
-// What is demanded of all runs together, and what of that the plan excepts.
+// Requirements on all runs together, and the exceptions in the plan.
 void tell_whole(const Json& whole, mustache::data& page) {
   mustache::data unmet{mustache::data::type::list};
   for (const Json& bin : whole.at("unmet")) {
@@ -363,7 +363,7 @@ mustache::data card_of(const Json& signature) {
   return card;
 }
 
-// Of the last nights; the drawing has them all.
+// The latest nights; the chart shows all.
 void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
   HtmlTable rows(
       "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand cycles a second:n|"
@@ -406,7 +406,7 @@ std::string page_of(const Json& json, const std::vector<Night>& nights) {
   page.set("badge", std::string(holds ? "pass" : "fail"));
   page.set("figures", figures_of(json));
   page.set("left_out", list_of(json.at("left_out")));
-  // The page draws the features' rates; what it lists, it has as text.
+  // The chart shows the features' rates; the lists are text.
   Json drawn = Json::array();
   mustache::data features{mustache::data::type::list}, signatures{mustache::data::type::list},
       coverage{mustache::data::type::list};

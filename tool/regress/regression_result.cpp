@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using SortedJson = nlohmann::json;
 
-// Null where the run has left none.
+// Null if the run has no result.
 SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;
@@ -64,7 +64,7 @@ class RunCollector {
   }
 
  private:
-  // What the runs of a feature have compared and met.
+  // Comparisons and coverage of a feature's runs.
   struct Seen {
     std::map<std::string, std::uint64_t> comparisons;
     Bins bins;
@@ -94,7 +94,7 @@ class RunCollector {
     all_.runs.push_back(std::move(run));
   }
 
-  // What a failed run has compared and met counts for nothing.
+  // Comparisons and coverage of a failed run are not counted.
   void read(const SortedJson& result, Seen& seen, RegressionRun& run) {
     if (!result.is_object()) return;
     run.seconds = result.value("/host/seconds"_json_pointer, 0.0);
@@ -121,7 +121,7 @@ class RunCollector {
       feature.coverage.push_back(covered(bins, seen.bins, feature.passed, "this feature"));
   }
 
-  // What all runs together have met, without what the plan excepts.
+  // Checks the coverage of all runs together, except for bins that the plan exempts.
   void check_all() {
     Bins bins;
     for (const auto& [engine, some] : all_.coverage) tool::add(some, bins);
@@ -155,7 +155,7 @@ class RunCollector {
                        fmt::join(known, ", "), tb::did_you_mean(tb::near_matches(name, known)));
   }
 
-  // Bins are too many to be listed: "texture/cache/*".
+  // Groups for display, since there are too many bins: "texture/cache/*".
   static std::vector<std::string> groups_of(const Bins& bins) {
     std::set<std::string> groups;
     for (const auto& [bin, hits] : bins) groups.insert(bin.substr(0, bin.rfind('/') + 1) + "*");
@@ -215,7 +215,7 @@ std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const 
   for (const FailureSignature& signature : result.signatures) {
     const PlannedPoint& failed = result.runs[signature.runs.front()].point;
     const SortedJson found = result_in(point_directory(place.points(), failed.name));
-    if (!found.is_object()) continue;  // it was rejected or killed: there is nothing to watch
+    if (!found.is_object()) continue;  // rejected or killed: no cycle to record
     const WaveWindow window = wave_window(failing_cycle(found));
     std::vector<Setting> settings = failed.settings;
     std::erase_if(settings, [](const Setting& s) { return s.name.starts_with("run.trace"); });

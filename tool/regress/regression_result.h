@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a regression's runs show together: which features hold, which failures are the same one,
-// what was covered. Written as JUnit XML, as JSON and as one self-contained page.
+// Combined results of a regression's runs: which features pass, failure signatures, coverage.
+// Writes JUnit XML, JSON and one self-contained page.
 #pragma once
 
 #include <cstdint>
@@ -23,31 +23,32 @@ using Bins = std::map<std::string, std::uint64_t>;
 struct RegressionRun {
   PlannedPoint point;
   PointState state = PointState::kMissing;
-  Failure failure;     // of one that failed
-  double seconds = 0;  // of the host
+  Failure failure;     // if it failed
+  double seconds = 0;  // wall-clock
   std::uint64_t cycles = 0;
 };
 
 struct CheckResult {
   RequiredCheck required;
   std::uint64_t comparisons = 0;
-  std::string unknown{};  // none of its runs has this scoreboard: where that is said, and what is
+  // no run has this scoreboard: where the plan names it, and the known names
+  std::string unknown{};
   bool met() const { return comparisons >= required.minimum; }
 };
 
-// A bin that a plan says is not met: why, and how often it was.
+// A bin that the plan declares unreachable: the reason, and its hits.
 struct UnmetBin {
   std::string bin, reason;
   std::uint64_t hits = 0;
 };
 
-// The bins that a glob of a feature names, as its own runs met them; or one of the whole plan, as
-// all runs did.
+// The bins that a glob matches, with the hits of the feature's runs, or of all runs for a glob of
+// the whole plan.
 struct CoverageResult {
   RequiredBins required;
   std::uint64_t bins = 0;
   std::vector<std::string> holes;
-  std::string unknown{};  // none of its runs has such a bin
+  std::string unknown{};  // no run has such a bin
   bool met() const { return required.every ? bins > 0 && holes.empty() : holes.size() < bins; }
 };
 
@@ -60,45 +61,45 @@ struct FeatureResult {
   bool holds() const;
 };
 
-// Failures of one engine with the same message, numbers aside.
+// Failures of one engine with the same message, ignoring numbers.
 struct FailureSignature {
   std::string engine, kind, message;
-  std::vector<std::size_t> runs;    // indices; the first one is the example
-  std::filesystem::path directory;  // of the example run again with waves; empty: there are none
+  std::vector<std::size_t> runs;    // indices; the first is the example
+  std::filesystem::path directory;  // of the example repeated with waveforms; empty: none
 };
 
 struct RegressionResult {
   std::vector<RegressionRun> runs;
   std::vector<FeatureResult> features;
   std::vector<FailureSignature> signatures;
-  std::map<std::string, Bins> coverage;  // by the engine that bins are of, whatever ran it
-  std::vector<CoverageResult> merged;    // what the plan demands of all runs together
-  std::vector<UnmetBin> unmet;           // what it excepts
+  // by the engine that owns the bins, whatever composition ran it
+  std::map<std::string, Bins> coverage;
+  std::vector<CoverageResult> merged;  // requirements on all runs together
+  std::vector<UnmetBin> unmet;         // exempted bins
   std::uint64_t passed = 0, failed = 0, missing = 0;
-  // Every run passed, and every feature and all of them together were checked and covered as the
-  // plan says.
+  // Every run passed, and every feature and the whole plan meet their checks and coverage.
   bool holds() const;
 };
 
-// Reads what is there. `testplan` must outlive the result.
+// Reads the existing results. `testplan` must outlive the return value.
 RegressionResult collect_regression(const Testplan& testplan, const SweepPlace& place);
 
-// The first run of each signature once more, with waves around the cycle in which it failed.
+// The first run of each signature again, with waveforms around the failing cycle.
 std::vector<PlannedPoint> runs_with_waves(const RegressionResult& result, const SweepPlace& place);
-// Finds the waves that these runs have left.
+// Locates the waveforms that these runs wrote.
 void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
                const SweepPlace& place);
 
-// junit.xml, collected.json and index.html in the regression's directory, and the night in the
-// trend of its testplan, unless runs are missing: all of them, or FileError and those of before.
-// Says what is worse than the night before.
+// Writes junit.xml, collected.json and index.html to the regression's directory and, if no runs are
+// missing, adds the night to its testplan's trend. All files are written, or FileError is thrown
+// and the old ones remain. Returns what is worse than the night before.
 std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_t base_seed,
                                           const Plan& plan, const SweepPlace& place,
                                           const RegressionResult& result);
 
-// The base seed of the report of this testplan that was written last. FileError where none is.
+// The base seed of this testplan's latest report. FileError if there is none.
 std::uint64_t seed_of_last_report(const std::filesystem::path& out, const std::string& testplan);
-// Names (PointOrigin::name) of the runs that the report there says have failed. FileError as above.
+// Names (PointOrigin::name) of the failed runs in the report. FileError as above.
 std::set<std::string> failed_in_report(const SweepPlace& place);
 
 }  // namespace deburr::tool

@@ -38,7 +38,7 @@ constexpr std::size_t kMaxPageBytes = 16u << 20;
 constexpr std::uint64_t kMostSeeds = 100'000;
 constexpr std::uint64_t kMostComparisons = std::uint64_t{1} << 60;
 
-// Anchors of a page's headings. Code has none.
+// Anchors of a page's headings, except in code blocks.
 std::vector<std::string> anchors_in(const std::string& markdown) {
   std::vector<std::string> anchors;
   bool in_code = false;
@@ -56,7 +56,7 @@ class Pages {
  public:
   explicit Pages(const fs::path& testplan) : folder_(fs::absolute(testplan).parent_path()) {}
 
-  // The anchors of a page, or nullptr where there is no such page.
+  // The anchors of a page, or nullptr if the page does not exist.
   const std::vector<std::string>* find(const fs::path& page) {
     const auto [entry, is_new] = pages_.try_emplace(page.string());
     if (is_new) entry->second = read(page);
@@ -81,23 +81,22 @@ class Pages {
   std::vector<fs::path> found_;
 };
 
-// A coverage glob, which is checked when every file has named the engines of its feature, or of the
-// plan.
+// A coverage glob, checked once all files have named the engines of its feature or of the plan.
 struct PendingGlob {
-  std::string feature;  // empty: of the plan
+  std::string feature;  // empty: the whole plan
   YAML::Node node;
   const YamlFile* yaml;
 };
 
-// One file of a testplan: the file itself, or one that it includes, whose features come before its
-// own and add to those that there are already.
+// One file of a testplan: the main file or an included one. Included features come first; features
+// of the same id are merged.
 class TestplanFile {
  public:
   TestplanFile(const YamlFile& yaml, std::vector<Feature>& common, std::vector<Feature>& included,
                std::vector<PendingGlob>& globs)
       : yaml_(yaml), pages_(yaml.path()), common_(common), included_(included), globs_(globs) {}
 
-  // What it says of the whole plan; files that it includes.
+  // Reads the keys of the whole plan; returns the included files.
   std::vector<fs::path> read_whole(Testplan& plan) {
     const YAML::Node& root = yaml_.root();
     yaml_.require_keys(root, {"title", "include", "features", "coverage", "unmet"});
@@ -161,7 +160,7 @@ class TestplanFile {
   }
 
  private:
-  // Of at least one entry.
+  // A list with at least one entry.
   YAML::Node list_of(const YAML::Node& map, const char* key) const {
     const YAML::Node list = map[key];
     if (!list) yaml_.fail(map, fmt::format("'{}' is missing", key));
@@ -170,7 +169,7 @@ class TestplanFile {
     return list;
   }
 
-  // A file beside this one; with * for the name of each engine, in their order.
+  // A file relative to this one; * stands for each engine's name, in order.
   std::vector<fs::path> files_of(const YAML::Node& node) const {
     const std::string text = yaml_.scalar(node, "include");
     const std::size_t star = text.find('*');
@@ -201,7 +200,7 @@ class TestplanFile {
     return yaml_.scalar(map[key], key);
   }
 
-  // It becomes a part of the names of points.
+  // The name becomes part of point names.
   std::string name_of(const YAML::Node& map, const char* key) const {
     std::string name = text_of(map, key);
     if (name.empty() ||
@@ -216,7 +215,7 @@ class TestplanFile {
     Feature feature;
     feature.id = name_of(node, "id");
     feature.title = text_of(node, "title");
-    // What is missing here may stand in files that the plan includes.
+    // Included files may supply missing keys.
     if (!includes_ || node["traces"]) read_traces_of(node, feature);
     if (!includes_ || node["stimuli"]) read_stimuli_of(node, feature);
     if (!includes_ && !node["checks"] && !node["coverage"])
@@ -262,7 +261,7 @@ class TestplanFile {
     }
   }
 
-  // Wherever it is looked for, it leads nowhere else.
+  // Whether the path stays inside docs/.
   static bool is_in_docs(const fs::path& page) {
     return page.begin() != page.end() && *page.begin() == "docs" && page.extension() == ".md" &&
            std::find(page.begin(), page.end(), "..") == page.end();
@@ -270,7 +269,7 @@ class TestplanFile {
 
   // "docs/reference/texture/index.md#presets"
   std::string read_trace(const YAML::Node& node) {
-    if (node.IsMap())  // as quoted sentences were, until 0.4.0
+    if (node.IsMap())  // the form with quoted sentences, until 0.4.0
       yaml_.fail(node,
                  "'traces' no longer takes 'page' and 'says': name the heading above the sentence, "
                  "as docs/PAGE.md#HEADING");
@@ -312,7 +311,7 @@ class TestplanFile {
     return stimulus;
   }
 
-  // Scoreboards are known only to the runs: one that none of them has is a check that failed.
+  // Only runs know scoreboards: an unknown one is reported as a failed check.
   void read_checks(const YAML::Node& node, Feature& feature) const {
     const YAML::Node checks = node["checks"];
     if (!checks) return;
@@ -338,7 +337,7 @@ class TestplanFile {
     return {bins.begin(), bins.end()};
   }
 
-  // Of bins that the engines may have; whether the runs have them, they show.
+  // A glob of possible bins; only the runs show which ones exist.
   std::string read_glob(const YAML::Node& node, std::string_view key,
                         const std::vector<std::string>& bins, std::string_view whose) const {
     std::string glob = yaml_.scalar(node, key);
@@ -365,11 +364,11 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
 }
 
-// What runs of random configurations compare differs by more than its mean: of `runs` of them so
-// large a part is sure.
+// Random configurations vary in their number of comparisons by more than the mean: the fraction of
+// it that `runs` of them surely reach.
 double sure_part(std::uint64_t runs) {
   constexpr double kSpread = 8;
-  constexpr double kLeast = 0.5;  // what frames of fixed sizes among them compare by themselves
+  constexpr double kLeast = 0.5;  // comparisons of the fixed-size frames among them
   if (runs == 0) return 1;
   return std::max(kLeast, 1 - kSpread / std::sqrt(static_cast<double>(runs)));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the YAML file of a testplan (docs/reference/regression.md): features, the headings of pages
-// that each of them tests, the runs for it, and what these runs must check and cover.
+// Reads a testplan's YAML file (docs/reference/regression.md): features, the page headings that
+// each of them tests, their runs, and the checks and coverage that these runs must reach.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace deburr::tool {
 
-// Configurations of one engine, each with so many seeds; or so many random configurations.
+// Configurations of one engine with a number of seeds each, or a number of random configurations.
 struct Stimulus {
   std::string name;
   SweepDefinition configurations;
@@ -20,7 +20,7 @@ struct Stimulus {
   bool random = false;
 };
 
-// What the runs of a feature must have compared together.
+// Comparisons required of all runs of a feature together.
 struct RequiredCheck {
   std::string scoreboard;
   std::uint64_t minimum = 0;
@@ -29,10 +29,10 @@ struct RequiredCheck {
 
 struct RequiredBins {
   std::string glob, where;
-  bool every = true;  // else one of them: which ones few seeds meet is chance
+  bool every = true;  // false: at least one of them, since few seeds meet only some by chance
 };
 
-// Bins that no run of the plan meets, and why that is so.
+// Bins that no run of the plan meets, and the reason.
 struct UnmetBins {
   std::string glob, reason, where;
 };
@@ -47,28 +47,27 @@ struct Feature {
 
 struct Testplan {
   std::filesystem::path file;
-  std::vector<std::filesystem::path> included;  // that add features and stimuli to it
+  std::vector<std::filesystem::path> included;  // files that add features and stimuli
   std::string name, title;
-  std::uint64_t divisor = 1;  // of N seeds there are N / divisor
+  std::uint64_t divisor = 1;  // N seeds become N / divisor
   std::vector<Feature> features;
-  std::vector<RequiredBins> coverage;  // that all runs together must meet, but for these:
+  std::vector<RequiredBins> coverage;  // required of all runs together, except for:
   std::vector<UnmetBins> unmet;
-  std::vector<std::filesystem::path> pages;  // that were found
+  std::vector<std::filesystem::path> pages;  // the resolved pages
 };
 
-// With the files that it includes: `include: ["../engines/*/smoke.yaml"]` stands for one of each
-// engine, in their order. Their features come before those of the file itself; one whose id there
-// is already adds to it.
+// Reads a testplan and the files that it includes: `include: ["../engines/*/smoke.yaml"]` expands
+// to one file per engine, in order. Included features come first; features of the same id are
+// merged.
 //
-// ConfigError with file and line for everything that cannot be meant: unknown keys and parameters,
-// features and stimuli of one name, headings that no page has, bins that no engine has. Pages are
-// looked for in the folder of the testplan and in those around it. Every file may have `coverage`
-// and `unmet` of the whole plan.
+// ConfigError with file and line for every invalid entry: unknown keys and parameters, duplicate
+// features and stimuli, headings missing in their page, unknown bins. Pages are searched for in the
+// testplan's folder and its parents. Every file may have `coverage` and `unmet` of the whole plan.
 Testplan read_testplan(const std::filesystem::path& file);
 
-// Of each configuration one of so many seeds, at least one, as much less of what must be compared
-// (down to half of that of a feature with random configurations), and of each glob one bin: runs
-// that the whole plan has too. Its name says so.
+// A subset of the runs of the whole plan: of each configuration one seed in `divisor` (at least
+// one). Required comparisons shrink accordingly (for a feature with random configurations down to
+// half), and each glob needs only one bin. The name says so.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tool

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMaxTrendBytes = 64u << 20;
-constexpr double kSlower = 0.8;            // of the speed before
-constexpr double kSecondsOfASpeed = 60.0;  // that a night must take for its speed to count
+constexpr double kSlower = 0.8;            // relative to the earlier speed
+constexpr double kSecondsOfASpeed = 60.0;  // minimum duration of a night whose speed is compared
 
 double share(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -145,7 +145,7 @@ TrendLock::TrendLock(const fs::path& folder)
   }
 }
 
-// A file system without locks is written to without one.
+// On a file system without locks, the file is written without one.
 TrendLock::~TrendLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }

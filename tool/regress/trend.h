@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a testplan over nights: a line each in a file beside its reports.
+// The trend of a testplan over nights: one line per night in a file next to its reports.
 //
-//   OUT/regressions/NAME.jsonl   one of each base seed and commit, the last one at the end
+//   OUT/regressions/NAME.jsonl   one line per base seed and commit, the latest one last
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace deburr::tool {
 
-// A regression of which no run is missing.
+// A regression with no missing runs.
 struct Night {
   std::string date, commit;  // "2026-11-23", the day in UTC
   std::uint64_t seed = 0;
   bool holds = false;
   std::uint64_t runs = 0, passed = 0;
-  std::uint64_t bins = 0, met = 0;  // of all engines, as all runs together met them
-  std::uint64_t cycles = 0;         // that were simulated
+  std::uint64_t bins = 0, met = 0;  // over all engines and all runs together
+  std::uint64_t cycles = 0;         // simulated
   double seconds = 0;               // of simulation
 
   double cycles_a_second() const;
@@ -30,18 +30,19 @@ struct Night {
 Night night_of(const RegressionResult& result, std::uint64_t base_seed);
 nlohmann::ordered_json to_json(const Night& night);
 
-// What is worse than the night before, in words: "pass rate from 100.0 % to 91.7 %". Speed counts
-// from a fifth on, of two nights that each took a minute: shorter ones tell of the machine.
+// Describes what is worse than the night before: "pass rate from 100.0 % to 91.7 %". A loss of
+// speed counts from 20 %, and only between nights of at least a minute: shorter ones measure the
+// machine.
 std::vector<std::string> falls_between(const Night& before, const Night& after);
 
 std::filesystem::path trend_file(const std::filesystem::path& out, const std::string& testplan);
-// None where there is no file. FileError for a line that is no night.
+// Empty if the file does not exist. FileError for an invalid line.
 std::vector<Night> read_trend(const std::filesystem::path& file);
-// With this night at the end, in the place of an earlier one of its seed and commit.
+// Appends this night, replacing an earlier one with its seed and commit.
 std::vector<Night> with_night(std::vector<Night> nights, const Night& night);
 std::string trend_text(const std::vector<Night>& nights);
 
-// Held while the file is read and written, so that two regressions at once lose no night.
+// Held while the file is read and written, so that concurrent regressions lose no night.
 class TrendLock {
  public:
   explicit TrendLock(const std::filesystem::path& folder);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// What an engine is in a composition, which draws a scene into a frame buffer and smooths it there.
-// An engine declares its role here, once; the composition is made of the roles and names no
+// An engine's role in a composition, which draws a scene into a frame buffer and smooths it there.
+// An engine declares its role here, once; the composition is built from the roles and names no
 // engine (docs/howto/add_an_engine.md, "In a composition").
 //
-//   PictureDrawer   draws a picture: a colour a fragment, in whatever order
+//   PictureDrawer   draws a picture: one colour per fragment, in any order
 //   MeshSmoother    smooths along the edges of the mesh: the frame buffer is its memory
-//   RowSmoother     smooths a finished picture: takes its rows, delivers its pixels
+//   RowSmoother     smooths a finished picture: receives its rows, outputs its pixels
 //
-// A role has the parameters of its engine and what follows from them. For a run it builds a stage:
-// the engine with its environment, and what the frame buffer and the engines beside it need of it.
+// A role has its engine's parameters and derives dependent values. For a run it builds a stage: the
+// engine with its environment, and its interfaces to the frame buffer and the adjacent engines.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@
 
 namespace deburr::tool {
 
-// ---- stages: engines that are built -------------------------------------------------------------
+// ---- stages: engines of a composition -----------------------------------------------------------
 
 class Stage {
  public:
@@ -47,113 +47,113 @@ class Stage {
   Stage& operator=(const Stage&) = default;
 };
 
-// A colour as the frame buffer takes it.
+// A colour as accepted by the frame buffer.
 struct DrawnColour {
-  bool inside = false;   // of the frame; what is not is found by the engine's own checks
+  bool inside = false;   // inside the frame; others are reported by the engine's own checks
   bool visible = false;  // the nearest fragment of its pixel
   int x = 0, y = 0;
   tb::Rgba8 colour{};
 };
 
-// A port of the frame buffer, in the beats that the engine before it speaks.
+// A port of the frame buffer that accepts the previous engine's beats.
 class ColoursPort {
  public:
   virtual ~ColoursPort() = default;
   virtual bool can_pop(rtl::Cycle cycle) const = 0;
-  // The engine's environment has seen it too.
+  // The engine's environment has checked it as well.
   virtual DrawnColour take(rtl::Cycle cycle) = 0;
 };
 
 class DrawingStage : public Stage {
  public:
-  // Made in the constructor of the frame buffer, whose port it is; bound.
+  // Creates the bound port; called in the constructor of the frame buffer, which owns it.
   virtual std::unique_ptr<ColoursPort> colours_port(const char* name) = 0;
   // The golden model's picture of the scene.
   virtual tb::Image golden_picture() const = 0;
-  // Cycles that it needs at least.
+  // Lower bound in cycles.
   virtual std::uint64_t cycles_bound() const = 0;
-  // Figures beside those of its environment, under its name, and what a report shows of them.
+  // Adds figures to those of its environment, under its name, and their place in a report.
   virtual void collect(tb::Result& result) const = 0;
   virtual std::vector<tb::Figure> figures() const = 0;
 };
 
 class SmoothingStage : public Stage {
  public:
-  // What was smoothed so far, and what it should be.
+  // The frame as smoothed so far, and the expected frame.
   virtual tb::Image frame() const = 0;
   virtual tb::Image expected_frame() const = 0;
   virtual tb::Latency latency() const = 0;
-  // The unit that the others wait for.
+  // The unit that determines when the others finish.
   virtual std::string_view last_unit() const = 0;
-  // Cycles that it needs at least for this frame.
+  // Lower bound in cycles for this frame.
   virtual std::uint64_t cycles_bound(int width, int height) const = 0;
   virtual std::vector<tb::Figure> work_figures() const = 0;
-  // What a user should know of the run that is over.
+  // Notes for the user after the run.
   virtual std::vector<std::string> notes() const { return {}; }
 };
 
 class MeshStage : public SmoothingStage {
  public:
-  // The frame in memory, without time.
+  // Writes the frame in memory in zero time.
   virtual void put(int x, int y, const tb::Rgba8& colour) = 0;
-  // It is complete: the engine begins in the next clock.
+  // The frame is complete: the engine starts in the next cycle.
   virtual void draw() = 0;
-  // Weights and lines, under names that no other stage has.
+  // Adds pictures of weights and lines, under names unique to the stage.
   virtual void add_pictures(RunContext& context, const tb::Image& before, bool followed) const = 0;
 };
 
-// A port of the frame buffer, in the beats that the engine after it speaks.
+// A port of the frame buffer that outputs the next engine's beats.
 class RowsPort {
  public:
   virtual ~RowsPort() = default;
   virtual bool can_push(rtl::Cycle cycle) const = 0;
-  // A beat of the pixels from (x, y) on; gives how many they were.
+  // Pushes a beat of pixels starting at (x, y); returns their number.
   virtual int push(rtl::Cycle cycle, const tb::Image& image, int x, int y) = 0;
 };
 
 class RowStage : public SmoothingStage {
  public:
-  // The picture that the golden model gets, where it is known later only.
+  // Sets the golden model's input if it is only known during the run.
   virtual void expect(tb::Image image) = 0;
-  // Pixels of frame() that came, and those of all frames.
+  // Delivered pixels of frame(), and of all frames.
   virtual std::size_t delivered() const = 0;
   virtual std::uint64_t delivered_in_all() const = 0;
-  // Of the whole frame, and what else the engine did.
+  // Adds pictures of the whole frame, and of the engine's intermediate results.
   virtual void add_pictures(RunContext& context, const SmoothedFrame& frame) const = 0;
 };
 
 // ---- roles --------------------------------------------------------------------------------------
 
-// What is handed on through the frame buffer, beside colours.
+// Data passed through the frame buffer in addition to colours.
 enum class Handed : std::uint8_t {
   kDepth,
   kMeshEdges,
-  kMarkedPixels,  // bit 0 of alpha: 0 where a pixel was smoothed already
+  kMarkedPixels,  // bit 0 of alpha: 0 for a pixel that is already smoothed
 };
 using HandedOn = std::vector<Handed>;
 
 class CompositionRole {
  public:
   virtual ~CompositionRole() = default;
-  // As engine.h has it, and as a title has it ("texture unit").
+  // The name as in engine.h, and as shown in a title ("texture unit").
   virtual std::string_view name() const = 0;
   virtual std::string_view title() const = 0;
   virtual HandedOn needs() const { return {}; }
   virtual HandedOn hands_on() const { return {}; }
 
-  // What is built, and the memory around it, under names that no other engine of a composition has.
+  // Adds build parameters and memory parameters, under names unique within a composition.
   virtual void add_parameters(tb::ParameterSet& set) = 0;
-  // Beginnings of their names.
+  // Prefixes of these names.
   virtual std::vector<std::string> prefixes() const = 0;
   virtual void apply_preset(tb::ParameterSet& set) = 0;
-  // After every preset: rejects what was given and has no effect, or cannot be.
+  // Called after every preset: rejects settings that have no effect or are invalid.
   virtual void resolve(tb::ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }
-  // Pictures beside those of the frame, and what makes a long run of a composition.
+  // Pictures in addition to those of the frame, and settings for a long run of a composition.
   virtual std::vector<std::string_view> pictures() const { return {}; }
   virtual LongRun long_run() const { return {}; }
-  // ConfigError for a scene that the engine does not take.
+  // ConfigError for a scene that the engine cannot process.
   virtual void check(const tb::DrawnScene& scene) const = 0;
 
  protected:
@@ -162,31 +162,31 @@ class CompositionRole {
   CompositionRole& operator=(const CompositionRole&) = default;
 };
 
-// "texturing": what is said of its cycles.
+// Words for its cycles: "texturing".
 struct DrawingWords {
   std::string_view doing, from;  // "texturing", from the first "quad"
-  std::string_view label;        // of its cycles in a report, beside ...
+  std::string_view label;        // of its cycles in a report, next to ...
   std::string_view bound_label, bound_key, bound_meaning;
 };
 
 class PictureDrawer : public CompositionRole {
  public:
-  // The scene, before any engine's parameters.
+  // Adds the scene's parameters, before those of any engine.
   virtual void add_scene(tb::ParameterSet& set) = 0;
   virtual DrawingWords words() const = 0;
-  // "textured": what a picture of its frame is called, and by what.
+  // "textured": caption of a picture of its frame.
   virtual std::string_view caption() const = 0;
 
-  // What the scene was named.
+  // The scene's name as given.
   virtual const std::string& source() const = 0;
   virtual std::vector<std::filesystem::path> input_files(tb::MeshFiles& meshes) const = 0;
   virtual std::shared_ptr<const tb::DrawnScene> load(std::uint32_t seed,
                                                      const RunContext& context) const = 0;
-  // To elaborate with.
+  // The scene used for elaboration.
   virtual std::shared_ptr<const tb::DrawnScene> smallest() const = 0;
 
-  // The supersampled reference, made once for all runs of a scene, and what results are compared
-  // with, as of compare_with_scene().
+  // The supersampled reference, made once for all runs of a scene, and the pictures that results
+  // are compared with (compare_with_scene()).
   virtual std::string reference_caption() const = 0;
   virtual void prepare_reference(const tb::DrawnScene& scene, const tb::RenderOptions& options,
                                  const RunContext& context) const = 0;
@@ -198,8 +198,8 @@ class PictureDrawer : public CompositionRole {
   virtual std::unique_ptr<DrawingStage> build(tb::Simulation& simulation,
                                               const tb::DrawnScene& scene) const = 0;
 
-  // Of several frames, whose flicker is measured: how many, the scene of one, and without a
-  // simulation what the golden model draws and the reference of it. An engine without them has one.
+  // For flicker over several frames: their number, the scene of each, and (without simulation) the
+  // golden picture and reference of each. Engines without sequences have one frame.
   virtual int frames() const { return 1; }
   virtual std::shared_ptr<const tb::DrawnScene> scene_of(int /*frame*/,
                                                          std::uint32_t /*seed*/) const {
@@ -214,23 +214,23 @@ class PictureDrawer : public CompositionRole {
 
 class PictureSmoother : public CompositionRole {
  public:
-  // What a title says of its rules. After resolve().
+  // The configuration for a title. After resolve().
   virtual std::string label() const = 0;
-  // Whether it blends in linear light, in which coverage is averaged then.
+  // Whether it blends in linear light; coverage is then averaged in linear light too.
   virtual bool linear_light() const = 0;
-  // What the golden model makes of a picture of the scene, without a simulation; empty: it has
-  // none, and no flicker is measured.
+  // The golden model's picture of a scene, without simulation; empty: not available, and no flicker
+  // is measured.
   virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/,
                                    const tb::Image& /*frame*/) const {
     return {};
   }
 };
 
-// `frame` is what its golden model gets; without one only its size counts. Scene and role outlive
-// the stage.
+// `frame` is the golden model's input; without a golden model only its size matters. Scene and role
+// must outlive the stage.
 class MeshSmoother : public PictureSmoother {
  public:
-  // Marks what it smooths, since an engine follows that looks at it.
+  // Enables marking of smoothed pixels for the engine that follows.
   virtual void mark(tb::ParameterSet&, std::string_view /*why*/) {}
   virtual std::unique_ptr<MeshStage> build(tb::Simulation& simulation, const tb::DrawnScene& scene,
                                            tb::Image frame) const = 0;
@@ -238,13 +238,14 @@ class MeshSmoother : public PictureSmoother {
 
 class RowSmoother : public PictureSmoother {
  public:
-  // Whether it looks at Handed::kMarkedPixels where they are.
+  // Whether it reads Handed::kMarkedPixels if present.
   virtual bool looks_at_marks() const { return false; }
-  // Behind an engine that marks what it smooths: the preset where none is given, then the rules
-  // that no preset has.
+  // Called if the previous engine marks what it smooths: sets the preset if none is given, then
+  // settings that no preset has.
   virtual void follow_preset(tb::ParameterSet&, std::string_view /*why*/) {}
   virtual void follow(tb::ParameterSet&, std::string_view /*why*/) {}
-  // Made in the constructor of the frame buffer, whose port it is; build() binds it.
+  // Creates the port; called in the constructor of the frame buffer, which owns it. build() binds
+  // it.
   virtual std::unique_ptr<RowsPort> rows_port(const char* name,
                                               const tb::DrawnScene& scene) const = 0;
   virtual std::unique_ptr<RowStage> build(tb::Simulation& simulation, const tb::DrawnScene& scene,

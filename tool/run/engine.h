@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The command's half of an engine's declaration: how it is run, what its runs leave, and how random
-// and long runs of it are made. The testbench half is tb/env/engine_testbench.h. An engine is
-// declared once; everything around it reads the declaration and names no engine. To add one:
-// implement the halves in tb/engines/NAME and tool/engines/NAME, and add NAME to
-// tb/engines/engines.txt (docs/howto/add_an_engine.md).
+// The command's half of an engine's declaration: how it is run, the files that its runs write, and
+// how its random and long runs are made. The testbench half is tb/env/engine_testbench.h. An engine
+// is declared once; all other code reads the declaration and names no engine. To add one: implement
+// the halves in tb/engines/NAME and tool/engines/NAME, and add NAME to tb/engines/engines.txt
+// (docs/howto/add_an_engine.md).
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace deburr::tool {
 
-// Parameters that every engine's run has, "run.*".
+// Parameters of every engine's runs, "run.*".
 enum class CheckMode : std::uint8_t { kNone, kGolden };
 inline constexpr std::array<std::string_view, 2> kCheckModeNames = {"none", "golden"};
 
@@ -116,17 +116,17 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("images", p.images, "Write pictures, and show them in the report.");
 }
 
-// A command line option that stands for a parameter, or for two that are given as AxB. Without a
-// value it sets a switch to `given`.
+// A command line option that sets one parameter, or two for a value AxB. Without a value it sets a
+// switch to `given`.
 struct Shorthand {
   std::string option, parameter, help;
   std::string second_parameter{}, given = "true";
 };
 
-// What makes a long run of random settings: many frames, or a large one.
+// Settings that make a random run long: many frames, or a large one.
 struct LongRun {
   std::vector<std::pair<std::string, std::string>> settings;
-  // Ends of names that keep their defaults: what is built for small pictures.
+  // Suffixes of parameters that keep their defaults: build parameters for small pictures.
   std::vector<std::string_view> without{};
 };
 
@@ -135,10 +135,10 @@ class CompositionRole;
 class Engine : public virtual tb::EngineTestbench {
  public:
   virtual std::string_view summary() const = 0;
-  // Its role in a composition, with parameters of its own (tool/run/composition.h); null: none.
+  // Its role in a composition, with its own parameters (tool/run/composition.h); null: none.
   virtual std::unique_ptr<CompositionRole> role() const;
-  // Engines that it is composed of, by name. Their maps (with "NAME_" in front), bins and draws are
-  // its own too.
+  // Names of the engines that it is composed of. It inherits their maps (prefixed "NAME_"), bins
+  // and draws.
   virtual std::vector<std::string_view> parts() const { return {}; }
   RunParameters run_parameters() const {
     RunParameters run;
@@ -146,43 +146,43 @@ class Engine : public virtual tb::EngineTestbench {
     return run;
   }
   virtual std::vector<Shorthand> shorthands() const = 0;
-  // Options of runs that are worth a look, for its --help: one at least. What they read is called
-  // mesh.obj or frame.png.
+  // Options of instructive runs for --help: at least one. Input files are called mesh.obj or
+  // frame.png.
   virtual std::vector<std::string_view> examples() const = 0;
-  // After everything that was given has been set: fills in what follows from it (presets), and
-  // rejects what was given and has no effect.
+  // Called after all settings: derives dependent values (presets) and rejects settings without
+  // effect.
   virtual void resolve(tb::ParameterSet&) {}
-  // What run() would reject of its input, a scene that draws nothing or a frame too wide for what
-  // is built, without a simulation. After resolve().
+  // Checks the input as run() does (a scene that draws nothing, a frame too wide for the build),
+  // without simulating. After resolve().
   virtual void check(const RunParameters& run, RunContext& context) = 0;
-  // Simulates and fills the context's images. Errors of the run are exceptions (spec/error.h);
-  // what was measured until then is in `result`.
+  // Simulates and fills the context's images. Errors are thrown (spec/error.h); `result` then holds
+  // what was measured so far.
   virtual void run(const RunParameters& run, RunContext& context, tb::Result& result) = 0;
-  // Makes what run() will take from context.shared(), for all runs that are to share it. It makes
-  // nothing of SystemC, so that a process can run() behind it as often as it forks.
+  // Prepares inputs that run() takes from context.shared(), for all runs that share it. It creates
+  // no SystemC objects, so that the process can fork a run() any number of times afterwards.
   virtual void prepare(const RunParameters&, RunContext&) {}
 
-  // ---- what its runs may leave, by name: NAME.png; map_NAME.png and map_NAME.pfm
+  // ---- files that its runs may write, by name: NAME.png; map_NAME.png and map_NAME.pfm
   virtual std::vector<std::string_view> pictures() const = 0;
   virtual std::vector<std::string_view> maps() const { return {}; }
 
-  // What its history of one pixel shows (run.pixel), in a few words; empty: it keeps none.
+  // A short description of its history of one pixel (run.pixel); empty: none is kept.
   virtual std::string_view pixel_history() const { return {}; }
 
-  // ---- runs that nobody chose
+  // ---- random runs
   virtual RandomDraws random_draws() const { return {}; }
   virtual LongRun long_run() const = 0;
 };
 
-// Those of tb/engines/engines.txt, in its order; which they are, a program says by the list that it
-// is linked with (cmake/Engines.cmake).
+// The engines of tb/engines/engines.txt, in order; the list that a program is linked with selects
+// them (cmake/Engines.cmake).
 std::vector<std::unique_ptr<Engine>> engines();
 
-// ConfigError with near matches for a name that no engine has.
+// ConfigError with near matches for an unknown name.
 std::unique_ptr<Engine> engine_named(const std::string& name);
-// The engine's own maps and those of its parts, as RunContext calls them.
+// The maps of the engine and its parts, under their names in RunContext.
 std::vector<std::string> maps_of(const Engine& engine);
-// The engine or a part of it keeps the history of a pixel.
+// Whether the engine or one of its parts keeps the history of a pixel.
 bool keeps_pixel_history(const Engine& engine);
 
 }  // namespace deburr::tool

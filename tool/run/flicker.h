@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Flicker of a run's frames, by the golden model, whose frames are those of the hardware: how much
-// more or less a pixel changes from frame to frame than its reference does, or, where nobody knows
-// the reference, than what went in.
+// Flicker of a run's frames, by the golden model, whose frames equal the hardware's: how much more
+// or less a pixel changes from frame to frame than its reference does, or than the input if the
+// reference is unknown.
 #pragma once
 
 #include <functional>
@@ -20,23 +20,23 @@ namespace deburr::tool {
 // --frames, --motion.
 std::vector<Shorthand> sequence_shorthands();
 
-// How many frames the run has. ConfigError for a camera that is to move where a list says what the
-// frames are, and for a motion of one frame. In resolve().
+// The number of frames. ConfigError for a camera motion if a list defines the frames or there is
+// only one. Called in resolve().
 int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequence,
               const tb::FrameLists& lists);
-// Which motion of the camera a frame has: none where lists say what it is.
+// The camera motion of a frame: none if lists define the frames.
 inline tb::CameraMove move_of(const tb::SequenceParameters& sequence, const tb::FrameLists& lists,
                               int frame) {
   return {sequence.motion, lists.frames() > 1 ? 0 : frame};
 }
 
 struct SequencePicture {
-  tb::Image before, after;          // what goes in, and what the golden model makes of it
-  tb::Image reference;              // empty: nobody knows it
-  std::optional<tb::Mask> drawn{};  // pixels that are looked at; none: all
+  tb::Image before, after;          // input, and the golden model's output
+  tb::Image reference;              // empty: unknown
+  std::optional<tb::Mask> drawn{};  // measured pixels; nullopt: all
 };
-// Fills the result's work and figures. ConfigError where frames differ in size. Ctrl-C ends it: the
-// result is marked.
+// Adds work and figures to the result. ConfigError if frames differ in size. Ctrl-C cancels it and
+// marks the result.
 void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture);
 

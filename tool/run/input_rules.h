@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is rejected since a run of it would show nothing: an input that draws no pixel, a memory
-// that the watchdog would take for dead, a parameter of a memory without an effect; and how a title
-// says which rules are not the preset's.
+// Rejects inputs that would make a run useless: one that draws no pixel, a memory so slow that the
+// watchdog would report a deadlock, a memory parameter without effect. Also formats a configuration
+// for titles: the preset, and the settings that differ from it.
 #pragma once
 
 #include <string>
@@ -14,18 +14,18 @@
 
 namespace deburr::tool {
 
-// ConfigError each.
+// Each throws ConfigError.
 void reject_nothing_drawn(const tb::Scene& scene, const tb::DepthImage& depth);
 void reject_nothing_drawn(const tb::DepthImage& depth, std::string_view source);
-// Of a mesh that covers no centre of a pixel.
+// For a mesh that covers no pixel centre.
 [[noreturn]] void reject_empty_picture(const tb::Scene& scene, int width, int height);
-// `prefix` names the memory's parameters.
+// `prefix` is that of the memory's parameters.
 void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
                         const tb::MemoryParameters& memory);
-// What a title says of an engine's rules: "preset gpaa", or "preset gpaa, changed: combine" for
-// what was given beside the preset. `prefix` is that of the engine's parameters.
+// The configuration for a title: "preset gpaa", or "preset gpaa, changed: combine" with explicit
+// settings. `prefix` is that of the engine's parameters.
 std::string with_changes(std::string label, const tb::ParameterSet& set, std::string_view prefix);
-// What was given of a memory and has no effect under the rest.
+// Rejects memory parameters that have no effect with the other settings.
 void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
                           const tb::MemoryParameters& memory);
 

@@ -22,7 +22,7 @@ using tb::Image;
 
 namespace {
 
-constexpr int kAnyDifference = 255;  // gain that makes it full scale
+constexpr int kAnyDifference = 255;  // gain that scales any difference to full scale
 
 std::optional<double> value_of(double measure) {
   return std::isnan(measure) ? std::nullopt : std::optional(measure);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures and quality that runs of different engines have in common.
+// Pictures and quality shared by the runs of different engines.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ namespace deburr::tool {
 
 inline constexpr int kDifferenceGain = 4;
 
-// `after` and what went in, `before`, against the reference: PSNR over the frame, over edge pixels
-// and, with a depth, over silhouettes; FLIP and SSIM over the frame.
+// Quality of `after` and of the input `before` against the reference: PSNR over the frame, over
+// edge pixels and, with a depth, over silhouettes; FLIP and SSIM over the frame.
 tb::Quality measure_quality(std::string name, const tb::Image& before, const tb::Image& after,
                             const tb::Image& reference, const tb::DepthImage* depth);
 
-// What became of `before`; where there is a reference, of its right pixels too.
+// Changes to `before`; with a reference, also to its correct pixels.
 tb::Change measure_change(const tb::Image& before, const tb::Image& after,
                           const tb::Image* reference);
 
-// A frame that an engine smoothed, or as much of it as it delivered.
+// A smoothed frame, or the delivered part of it.
 struct SmoothedFrame {
   const tb::Image& before;
   const tb::Image& after;
@@ -34,22 +34,23 @@ struct SmoothedFrame {
   std::string before_caption, reference_caption;
 };
 
-// before, after, golden, difference, reference, error, change. Pixels that were not delivered are
-// grey in `after` and black where pictures are compared.
+// Adds before, after, golden, difference, reference, error, change. Pixels that were not delivered
+// are grey in `after` and black in comparisons.
 void add_frame_pictures(RunContext& context, const SmoothedFrame& frame);
 
-// What stands for a pixel that did not come, and for one that could not be compared.
+// Colours of pixels that were not delivered, and that could not be compared.
 inline constexpr tb::Rgba8 kNotDelivered = {128, 128, 128, 255}, kNotCompared = {0, 0, 0, 255};
 
-// The first `delivered` pixels; `rest` in place of the others.
+// The first `delivered` pixels; the others are `rest`.
 tb::Image delivered_part(const tb::Image& image, std::size_t delivered, const tb::Rgba8& rest);
 
-// What a pixel takes of two neighbours, of 256.
+// Blend weights of a pixel's two neighbours, in 1/256.
 struct Weights {
-  std::uint8_t first = 0, second = 0;  // of the upper or left one, of the lower or right one
-  bool horizontal = false;             // the two are left and right
+  // of the upper or left neighbour, and of the lower or right one
+  std::uint8_t first = 0, second = 0;
+  bool horizontal = false;  // the neighbours are left and right
 };
-// Twice as bright: up or left red, down or right green; blue where the pair is left and right.
+// At double brightness: up or left red, down or right green; blue where the pair is left and right.
 tb::Image weights_picture(int width, int height, const std::vector<Weights>& weights);
 
 }  // namespace deburr::tool

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `deburr run ENGINE --help` says of --preset: "mlaa, smaa or deburr (default)".
+// The text of `deburr run ENGINE --help` for --preset: "mlaa, smaa or deburr (default)".
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace deburr::tool {
 
-// `names` by the values of Preset, and the one that holds where none is given.
+// `names` are indexed by Preset; the default preset is given.
 template <class Preset, std::size_t N>
 std::string preset_help(const std::array<std::string_view, N>& names, Preset by_default) {
   std::string text;

@@ -24,18 +24,18 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// Of every engine.
+// For every engine.
 constexpr std::array<std::string_view, 16> kFixed = {
-    // A run that is not compared, that ends by design, or that leaves pictures and waves.
+    // Runs that are not compared, that end early by design, or that write pictures and waveforms.
     "run.check", "run.max_cycles", "run.fault", "run.reference", "run.images", "run.pixel",
     "run.trace", "run.trace_from", "run.trace_to", "run.timeline_from",
-    // Cameras that mostly see nothing.
+    // Most random cameras see nothing.
     "scene.eye", "scene.target",
-    // References are supersampled, and nothing of the hardware.
+    // References are supersampled, which does not exercise the hardware.
     "scene.reference_samples",
-    // No run that meets an error of memory passes.
+    // Runs with memory errors never pass.
     "memory.error_address", "memory.error_bytes",
-    // Below the patience of a watchdog, memory that is slow and stalls would be a deadlock.
+    // With a short watchdog, slow memory and stalls would count as a deadlock.
     "run.watchdog_cycles"};
 
 std::string word(Random& random) { return std::to_string(random.word()); }
@@ -50,7 +50,7 @@ std::string texture(Random& random) {
   return std::string(names[random.below(static_cast<std::uint32_t>(names.size()))]);
 }
 
-// Of every engine: what runs, scenes and memories are given.
+// For every engine: draws of run, scene and memory parameters.
 const std::map<std::string_view, Draw>& common_draws() {
   static const std::map<std::string_view, Draw> all = {
       {"run.seed", word},
@@ -89,14 +89,14 @@ const std::map<std::string_view, Draw>& common_draws() {
   return all;
 }
 
-// Of every memory the same: "frame_memory.latency" -> "memory.latency".
+// The same for all memories: "frame_memory.latency" -> "memory.latency".
 std::string_view common_name(std::string_view name) {
   const std::size_t dot = name.find('.');
   constexpr std::string_view kMemory = "memory";
   return name.substr(0, dot).ends_with(kMemory) ? name.substr(dot - kMemory.size()) : name;
 }
 
-// Of the engine and of the engines that it is composed of.
+// Draws of the engine and of its parts.
 RandomDraws draws_of(const Engine& engine) {
   RandomDraws all = engine.random_draws();
   for (const std::string_view part : engine.parts()) {
@@ -118,7 +118,7 @@ bool has(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// How many runs of a thousand change it.
+// Number of runs in a thousand that change it.
 std::uint32_t how_often(const RandomDraws& engine, std::string_view name) {
   constexpr std::string_view kRun = "run.";
   if (name.ends_with(".width") || name.ends_with(".height") || name == "scene.texture_size" ||
@@ -140,7 +140,7 @@ std::int64_t number(std::string_view text) {
   return value;
 }
 
-// By its range: "2..4096", "true | false", "lru | fifo | random"; empty for text.
+// A value by range: "2..4096", "true | false", "lru | fifo | random"; empty for text.
 std::string drawn(const RandomDraws& engine, const tb::Parameter& parameter, Random& random) {
   const std::string_view name = common_name(parameter.name);
   for (const auto* const all : {&engine.draws, &common_draws()})
@@ -160,9 +160,9 @@ std::string drawn(const RandomDraws& engine, const tb::Parameter& parameter, Ran
   return std::string(choices[random.below(static_cast<std::uint32_t>(choices.size()))]);
 }
 
-// What would take minutes of any memory.
+// False for memory settings that would take minutes.
 bool is_quick(const tb::ParameterSet& set) {
-  constexpr std::int64_t kMostCycles = 60, kMostBusy = 10;  // of a transaction
+  constexpr std::int64_t kMostCycles = 60, kMostBusy = 10;  // per transaction
   constexpr std::string_view kLatency = "memory.latency", kOfMemory = ".latency";
   for (const tb::Parameter& parameter : set.all()) {
     if (!parameter.name.ends_with(kLatency)) continue;
@@ -176,7 +176,7 @@ bool is_quick(const tb::ParameterSet& set) {
   return true;
 }
 
-// The engine with these settings; null where it, or what is said above, rejects one.
+// The engine with these settings, and whether it and the limits above accept them.
 class DrawnConfiguration {
  public:
   DrawnConfiguration(const std::string& engine, const RandomDraws& draws, const Settings& settings)
@@ -214,8 +214,8 @@ class DrawnConfiguration {
   BoundEngine bound_;
 };
 
-// Those that go with what is given and with each other: one that goes with none of those before it
-// may go with those behind it.
+// The settings that are valid with the given ones and with each other: a setting that is rejected
+// at first may become valid after later ones.
 Settings accepted(const std::string& engine, const RandomDraws& draws, const Settings& given,
                   Settings wanted) {
   Settings settings = given;
@@ -267,7 +267,7 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
       return settings;
     }
   }
-  // Of nothing but draws one is always found, so that it is for what is given that none is.
+  // Random draws alone always succeed, so the given settings are the cause.
   throw spec::ConfigError(
       fmt::format("of {} random configurations of '{}' for seed {} none goes with what is given",
                   kTries, engine, seed));

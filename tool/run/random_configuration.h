@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Settings of an engine's run, drawn from its own parameters: for soaks, regressions and fuzzing.
+// Random settings of an engine's run, drawn from its own parameters: for soak tests, regressions
+// and fuzzing.
 //
-// Frames are small and odd, memories slow and uneven, links stall; each setting has an effect, and
-// the engine takes all of them. What asks for files, spends time on pictures or ends a run by
-// design stays as it is: is_fixed().
+// Frames are small with odd sizes, memories slow and irregular, links stall; each setting has an
+// effect, and the engine accepts all of them. Parameters that need files, spend time on pictures or
+// end a run by design keep their values: is_fixed().
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,14 @@ namespace deburr::tool {
 
 class Engine;
 
-// Names and values for ParameterSet::set(), in an order in which it takes them behind those that
-// are `given`, which stay as they are. The same on every machine. ConfigError for an unknown
-// engine, and where nothing goes with what is given.
+// Names and values for ParameterSet::set(), to be set in this order after the settings in `given`,
+// which are kept. Identical on every machine. ConfigError for an unknown engine, and if no
+// configuration is valid with the given settings.
 std::vector<std::pair<std::string, std::string>> random_configuration(
     const std::string& engine, std::uint64_t seed,
     const std::vector<std::pair<std::string, std::string>>& given = {});
 
-// Whether it never changes this parameter of the engine; in front of a dot, of every memory.
+// Whether this parameter of the engine never changes; a leading dot matches every memory.
 bool is_fixed(const Engine& engine, std::string_view parameter);
 
 }  // namespace deburr::tool

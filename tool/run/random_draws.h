@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How an engine wants its parameters drawn for random configurations (random_configuration.h), and
-// the draws that engines have in common.
+// How an engine's parameters are drawn for random configurations (random_configuration.h), and
+// draws shared by the engines.
 #pragma once
 
 #include <cstddef>
@@ -22,27 +22,28 @@ namespace deburr::tool {
 
 using Draw = std::string (*)(tb::Random&);
 
-// Beside what holds for run.*, scene.* and every memory. By names of parameters.
+// In addition to the draws of run.*, scene.* and every memory. By parameter name.
 struct RandomDraws {
-  // What a range alone would make slow, rejected or the same as ever.
+  // Draws for parameters whose range alone would give slow, rejected or identical runs.
   std::map<std::string_view, Draw> draws{};
-  // What stays as it is: files, what costs time and shows nothing of the hardware.
+  // Parameters that keep their values: files, and settings that cost time without exercising the
+  // hardware.
   std::vector<std::string_view> fixed{};
-  // What decides most, and is drawn as often as a preset.
+  // The most influential parameters, drawn as often as a preset.
   std::vector<std::string_view> frequent{};
-  // What every random run is given.
+  // Settings of every random run.
   std::vector<std::pair<std::string, std::string>> given{};
-  // Each says false of what would take minutes, or show nothing.
+  // Each returns false for a configuration that would take minutes or exercise nothing.
   std::vector<bool (*)(const tb::ParameterSet&)> wanted{};
 };
 
-// What a parameter of integers is set to.
+// The value of an integer parameter.
 std::int64_t number_of(const tb::ParameterSet& set, std::string_view parameter);
 
 // ---- draws --------------------------------------------------------------------------------------
 
 std::string one_of(tb::Random& random, std::initializer_list<std::string_view> values);
-// low..high, of which small numbers are as likely as large ones.
+// A number in low..high, log-uniform.
 std::int64_t by_magnitude(tb::Random& random, std::int64_t low, std::int64_t high);
 
 template <std::int64_t low, std::int64_t high>
@@ -57,7 +58,7 @@ template <std::size_t low, std::size_t high>
 std::string power_of_two(tb::Random& random) {
   return std::to_string(std::size_t{1} << random.between(low, high));
 }
-// Of a picture: mostly odd, and now and then a row or a column alone.
+// The side of a picture: mostly odd, sometimes only 1..5.
 std::string side_of_picture(tb::Random& random);
 std::string name_of_scene(tb::Random& random);
 

@@ -22,7 +22,7 @@
 namespace deburr::tool {
 namespace {
 
-// A table cell must not hold the character that separates cells.
+// Escapes the character that separates table cells.
 std::string cell(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -34,9 +34,8 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-// SystemC keeps the processes of a model that is gone, and warns on standard output that the next
-// model's have to be renamed. The pages do not name processes. What they name is gone with its
-// model.
+// SystemC keeps the processes of a destroyed model and warns on standard output that those of the
+// next model are renamed. The pages do not contain process names.
 class SilentRenaming {
  public:
   SilentRenaming()
@@ -54,7 +53,7 @@ class SilentRenaming {
 
 std::string group_of(const std::string& name) { return name.substr(0, name.find('.')); }
 
-// What the group's hardware can be built with, beyond ranges.
+// Constraints on the group's build parameters, beyond ranges.
 std::string build_rules_of(const tb::ParameterSet& set, const std::string& group) {
   std::string table;
   for (const tb::BuildLimit& limit : set.build_limits()) {
@@ -72,7 +71,7 @@ std::string link_to(std::string_view heading) {
   return fmt::format("[{}](#{})", heading, anchor_of(heading));
 }
 
-// In lines as the pages have them.
+// Wrapped like the pages.
 std::string joined(std::string line, const std::vector<std::string>& links) {
   constexpr std::size_t kColumns = 120;
   std::string text;
@@ -87,7 +86,7 @@ std::string joined(std::string line, const std::vector<std::string>& links) {
   return text + line + "\n";
 }
 
-enum class Contents { kSections, kUnits };  // a line, or one a section with its units
+enum class Contents { kSections, kUnits };  // one line, or one per section with its units
 
 std::string with_contents(std::string page, Contents contents) {
   std::vector<std::string> sections;
@@ -98,10 +97,10 @@ std::string with_contents(std::string page, Contents contents) {
       sections.push_back(link_to(line.substr(3)));
       units.emplace_back();
     } else if (const std::string link = link_to(line.substr(4)); link != sections.back()) {
-      units.back().push_back(link);  // a second heading of one name is no place to link to
+      units.back().push_back(link);  // a repeated heading has no unique anchor
     }
   }
-  if (sections.empty()) return page;  // of engines without registers, say
+  if (sections.empty()) return page;  // for engines without registers
   if (contents == Contents::kSections) units.clear();
   std::string lines = units.empty() ? joined("*", sections) : "Units:\n\n";
   for (std::size_t i = 0; i < units.size(); ++i)
@@ -206,7 +205,7 @@ std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "| key | unit | meaning |\n|---|---|---|\n";
   for (const tb::Statistic& s : tb::interval_statistics())
     page += fmt::format("| `{}` | {} | {} |\n", s.name, cell(s.unit), cell(s.meaning));
-  std::set<std::string> known;  // of parts, as a composition has them
+  std::set<std::string> known;  // from parts of a composition
   for (const auto& engine : engines) {
     const auto parts = engine->parts();
     tb::Result result;
@@ -304,7 +303,7 @@ std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engi
 
 namespace {
 
-// Bins that differ in the last part of their name stand in one row.
+// Bins that differ only in the last part of their name share a row.
 std::string coverage_table(const tb::Coverage& bins, std::span<const tb::CoverageGroup> groups) {
   std::string page = "\n| bins | names | hit by |\n|---|---|---|\n";
   std::size_t printed = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// docs/reference/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md, made
-// from the declarations that the program uses.
+// docs/reference/parameters.md, statistics.md, registers.md, coverage.md and datasheets.md,
+// generated from the declarations that the program uses.
 #pragma once
 
 #include <memory>
@@ -14,23 +14,23 @@
 
 namespace deburr::tool {
 
-// The anchor that GitHub gives a heading of a page, if no heading before has the same text.
+// GitHub's anchor for a heading, if no earlier heading has the same text.
 std::string anchor_of(std::string_view heading);
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// Elaborates every engine's model: at most once a process, and not in one that simulates.
+// Elaborates every engine's model: at most once per process, and not in a process that simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// The registers of all engines that have some, by the names of their modules.
+// Registers of all engines that have any, by module name.
 std::vector<rtl::RegisterSection> register_sections(
     const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// The registers of every engine as macros, for software in C or C++.
+// All engines' registers as macros, for software in C or C++.
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
 // The same as SystemRDL.
 std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// Names of the faults that an engine's environment can plant, as --fault takes them. Elaborates the
-// model, as statistics_page() does.
+// Names of the faults that an engine's environment can inject, as accepted by --fault. Elaborates
+// the model, as statistics_page() does.
 std::vector<std::string> fault_names(Engine& engine);
 // Names of all bins that runs of an engine may have.
 std::set<std::string> coverage_bins(const std::string& engine);

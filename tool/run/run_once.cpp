@@ -98,7 +98,7 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
     end.begun = false;
     return end;
   } catch (const spec::Error& error) {
-    // What was wrong before the simulation has no result; what went wrong in it has a partial one.
+    // Errors before simulation give no result; errors during it give a partial one.
     end.code = static_cast<int>(error.code());
     if (error.code() == ExitCode::kUsage || error.code() == ExitCode::kFile) throw;
     end.kind = error.code() == ExitCode::kDeadlock   ? "deadlock"

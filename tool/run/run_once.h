@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One run of an engine: its parameters bound and checked, and the run from its claim on a directory
-// to a verdict. `deburr run` does it once a process, a sweep's worker once a child.
+// One run of an engine: its parameters bound and checked, and the run from claiming a directory to
+// the verdict. `deburr run` does it once per process, a sweep's worker once per child.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@
 
 namespace deburr::tool {
 
-// An engine with all of its parameters, at their defaults until `set` is given others.
+// An engine with all of its parameters, at their defaults until `set` changes them.
 class BoundEngine {
  public:
   explicit BoundEngine(Engine& engine);
   BoundEngine(const BoundEngine&) = delete;
   BoundEngine& operator=(const BoundEngine&) = delete;
 
-  // Once everything was set: what follows from it. ConfigError for what has no effect, and for
-  // hardware that cannot be built.
+  // Call after all settings: derives dependent values. ConfigError for settings without effect and
+  // for hardware that cannot be built.
   void resolve();
 
   Engine& engine;
@@ -32,15 +32,15 @@ class BoundEngine {
 
 struct RunEnd {
   int code = 0;
-  std::string kind;   // of what failed: "mismatch"
-  bool begun = true;  // false: interrupted before anything was simulated; there is no result
+  std::string kind;   // of the failure: "mismatch"
+  bool begun = true;  // false: interrupted before simulation; there is no result
   tb::Result result{};
 };
 
 // Claims the context's directory, runs and checks; the caller finishes the context with the result.
-// ConfigError and FileError where nothing could be run; every other failure is in the result, and
-// on the error stream. `claimed` is called when the directory is this run's; false from it: there
-// is nothing to do.
+// Throws ConfigError and FileError if the run could not start; every other failure is in the result
+// and on the error stream. `claimed` is called once the directory is claimed; if it returns false,
+// the run is skipped.
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                 const std::function<bool()>& claimed = nullptr);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of the command line that several engines have.
+// Command line options shared by several engines.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace deburr::tool {
 
-// Those of every engine, and this one's own, which may give one of them another meaning.
+// Those of every engine and this one's own, which may redefine a common one.
 std::vector<Shorthand> shorthands_of(const Engine& engine);
 
 std::vector<Shorthand> joined(std::vector<Shorthand> first, const std::vector<Shorthand>& second);

@@ -35,8 +35,8 @@ tb::SimulationOptions simulation_options(const RunParameters& run, const RunCont
   o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
   o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
   if (!run.fault.empty()) o.faults = {run.fault};
-  // Faults on links are seen by the link checkers first; they look away, so that the checks behind
-  // them show that they can fail too, unless the link checkers are what was asked for.
+  // Link checkers would detect an injected link fault first. They are disabled so that the checks
+  // after them show that they can fail too, unless the user asked for link checks.
   if (!run.fault.empty() && !context.parameters().given("run.check_links")) o.check_links = false;
   o.trace_scope = run.trace;
   o.trace_file = context.trace_file().string();
@@ -72,8 +72,8 @@ void reject_empty_trace(tb::Simulation& simulation) {
                     o.trace_from, end));
 }
 
-// What was watched over time, whatever ended the run; only where no cycle was broken off does it
-// add up.
+// Adds the sampling intervals, however the run ended; totals are checked only if no cycle was
+// incomplete.
 void leave_intervals(const tb::Simulation& simulation, RunContext& context,
                      const tb::Result& result, bool whole_cycles) {
   if (simulation.timeline())
@@ -84,7 +84,7 @@ void leave_intervals(const tb::Simulation& simulation, RunContext& context,
   if (whole_cycles) tb::check_intervals(intervals, to_json(result));
 }
 
-// Where something differs from the golden model, or is missing, counts differ too.
+// With mismatches or missing output, counts differ too.
 void leave_maps(const tb::Simulation& simulation, const tb::Environment& environment,
                 RunContext& context, tb::Result& result) {
   const bool right =
@@ -96,7 +96,7 @@ void leave_maps(const tb::Simulation& simulation, const tb::Environment& environ
   }
 }
 
-// nullptr: none is wanted.
+// nullptr: not requested.
 std::unique_ptr<tb::traces::LineTrace> line_trace(const tb::Simulation& simulation,
                                                   const RunContext& context,
                                                   const tb::Result& result) {
@@ -115,7 +115,7 @@ std::unique_ptr<tb::traces::LineTrace> line_trace(const tb::Simulation& simulati
   return std::make_unique<tb::traces::LineTrace>(context.line_trace_file(), options);
 }
 
-// Copies are counted wherever bits are, but so many of a large memory are seldom meant.
+// Copies are counted like all bits, but this many of a large memory are rarely intended.
 void note_copies(RunContext& context) {
   constexpr std::uint32_t kMany = 8;
   constexpr std::uint64_t kLarge = 1'000'000;
@@ -134,8 +134,7 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
   simulation.elaborate(environment);
   const std::unique_ptr<tb::traces::LineTrace> lines = line_trace(simulation, context, result);
   if (context.checking_only()) return;
-  if (tb::interrupted())
-    throw tb::Interrupted();  // while the input was made: there is nothing to keep
+  if (tb::interrupted()) throw tb::Interrupted();  // while the input was prepared: nothing to keep
   note_copies(context);
   try {
     const tb::Amount amount = environment.amount();
@@ -144,10 +143,10 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
       progress.update(delivered, taken);
       return !tb::interrupted();
     });
-  } catch (const spec::FileError&) {  // a wave that could not be written: nothing stays
+  } catch (const spec::FileError&) {  // a waveform that could not be written: nothing is kept
     throw;
   } catch (...) {
-    // What cannot be left of it does not hide why it failed.
+    // A failure to write partial output must not hide why the run failed.
     const auto leave = [&context](auto&& part) {
       try {
         part();
@@ -166,7 +165,8 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
   simulation.collect(result);
   if (lines) lines->finish();
   result.interrupted = !simulation.complete();
-  if (result.interrupted && result.cycles == 0) throw tb::Interrupted();  // while golden worked
+  // while the golden model ran
+  if (result.interrupted && result.cycles == 0) throw tb::Interrupted();
   add_pictures();
   leave_intervals(simulation, context, result, true);
   leave_maps(simulation, environment, context, result);

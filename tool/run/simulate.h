@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the run of every engine has in common: from an environment to a result, whatever ends it.
+// Shared by the runs of all engines: from an environment to a result, however the run ends.
 #pragma once
 
 #include <functional>
@@ -14,17 +14,17 @@
 
 namespace deburr::tool {
 
-// As the parameters `run.*` say.
+// From the parameters `run.*`.
 tb::SimulationOptions simulation_options(const RunParameters& run, const RunContext& context);
 
 // Runs the environment between context.claim() and context.finish(). `add_pictures` is called with
-// what has come until then, also when the run is broken off; Ctrl-C ends it at the next chance.
-// Where the context only checks, it returns before the first clock.
+// the output so far, also if the run is aborted; Ctrl-C ends it at the next poll. If the context
+// only checks, it returns before the first cycle.
 void simulate(tb::Simulation& simulation, tb::Environment& environment, RunContext& context,
               tb::Result& result, const std::function<void()>& add_pictures);
 
-// The text of a failed check, which names its file as the compiler saw it, with the file as users
-// know it: from the root of the repository.
+// Rewrites the source path in a failed check's text, which is the compiler's, relative to the
+// repository.
 std::string from_repository(const std::string& text);
 
 }  // namespace deburr::tool

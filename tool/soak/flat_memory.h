@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether a process that does the same work over and over keeps what it has: its memory, sampled
-// over time, after a beginning in which tables are made and pools fill.
+// Detects memory growth of a process that repeats the same work: samples its memory over time,
+// after a start-up phase in which tables are made and pools fill.
 #pragma once
 
 #include <sys/types.h>
@@ -15,32 +15,31 @@
 
 namespace deburr::tool {
 
-// AddressSanitizer has a heap of its own, and keeps what is freed for a while: leaks are its to
-// find.
+// AddressSanitizer replaces the heap and delays frees; it finds leaks itself.
 inline constexpr bool kCheckMemory = !tb::kSanitized;
 
-// Of the process: resident memory in bytes; 0 where it is gone.
+// Resident memory of the process in bytes; 0 if it has exited.
 std::uint64_t resident_bytes(pid_t process);
-// Seconds of a processor that it has used; 0 where it is gone.
+// CPU seconds used by the process; 0 if it has exited.
 double cpu_seconds(pid_t process);
-// Of this process: bytes on the heap that were not given back.
+// Allocated heap bytes of this process.
 std::uint64_t heap_bytes();
 
-// The largest sample of each tenth of the time.
+// The maximum of each tenth of the samples.
 std::vector<std::uint64_t> tenths(std::span<const std::uint64_t> samples);
 
 struct Allowance {
-  double share;         // of what it had before
-  std::uint64_t bytes;  // and beside that
+  double share;         // relative to the earlier value
+  std::uint64_t bytes;  // plus a constant
 };
-// Pages come and go with the allocator's pools, objects on the heap do not.
+// Pages come and go with the allocator's pools; heap objects do not.
 inline constexpr Allowance kResidentAllowance{0.05, 2'000'000}, kHeapAllowance{0.01, 64'000};
 
-// Fewer samples say nothing.
+// The minimum number of samples for a verdict.
 inline constexpr std::size_t kLeastSamples = 50;
-// Flat: the fourth fifth of the samples has no more than the second, but for the allowance; in the
-// first one a process begins, and in the last one it may write what it found. Empty, or what grew
-// from how much to how much.
+// Memory is flat if the fourth fifth of the samples does not exceed the second by more than the
+// allowance; the first fifth is start-up, the last may write results. Returns empty, or a
+// description of the growth.
 std::string growth(std::span<const std::uint64_t> samples, const Allowance& allowance);
 
 }  // namespace deburr::tool

@@ -44,7 +44,7 @@ std::string megabytes(std::uint64_t bytes) {
   return fmt::format("{:.1f}", static_cast<double>(bytes) / 1e6);
 }
 
-// What a child says of its run.
+// A child's report on its run.
 struct Said {
   int code = 0;
   std::string reason;
@@ -65,7 +65,7 @@ Said said_of(const std::string& text) {
   return said;
 }
 
-// In the child.
+// Runs in the child.
 std::string run(const std::string& engine, const Settings& settings, const fs::path& directory) {
   nlohmann::json said = {
       {"comparisons", 0}, {"mismatches", 0}, {"cycles", 0}, {"frames", 1}, {"reset", false}};
@@ -89,7 +89,7 @@ std::string run(const std::string& engine, const Settings& settings, const fs::p
       if (parameter.kind == tb::ParameterKind::kInput && parameter.name.ends_with(".count"))
         frames = std::stoull(parameter.text());
     said["frames"] = frames;
-    // A run that is over before its reset has had none.
+    // A run that ends before its reset was not reset.
     said["reset"] = bound.run.reset_after > 0 &&
                     static_cast<std::uint64_t>(bound.run.reset_after) < end.result.cycles / frames;
   } catch (const std::exception& error) {
@@ -101,11 +101,11 @@ std::string run(const std::string& engine, const Settings& settings, const fs::p
 
 struct Ended {
   Said said;
-  std::vector<std::uint64_t> resident;  // while it ran
+  std::vector<std::uint64_t> resident;  // sampled during the run
 };
 
 constexpr int kSamplePeriod = 20;        // ms
-constexpr double kLongestSeconds = 600;  // of a run, behind which it hangs
+constexpr double kLongestSeconds = 600;  // per run; beyond it counts as hung
 
 Ended run_in_child(const std::string& engine, const Settings& settings, const fs::path& directory) {
   std::array<int, 2> ends{};
@@ -133,7 +133,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
   Ended ended;
   std::string text;
   const Clock::time_point start = Clock::now();
-  double next_sample = 0;  // seconds of the child's processor
+  double next_sample = 0;  // in CPU seconds of the child
   for (bool open = true; open;) {
     pollfd readable{ends[0], POLLIN, 0};
     if (::poll(&readable, 1, kSamplePeriod) > 0) {
@@ -142,7 +142,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
       if (n <= 0) open = false;
       text.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     } else {
-      // By its processor's time: one that waits for a processor does not work.
+      // Sampled by CPU time: a child waiting for a processor makes no progress.
       if (const double worked = cpu_seconds(child); worked >= next_sample) {
         ended.resident.push_back(resident_bytes(child));
         next_sample = worked + kSamplePeriod * 1e-3;
@@ -219,7 +219,7 @@ class Soak {
            (options_.runs > 0 && runs >= options_.runs);
   }
 
-  // As the engine declares it: a process that works long.
+  // Makes the run long, as its engine declares.
   static void lengthen(const std::string& engine, Settings& settings) {
     const LongRun long_run = engine_named(engine)->long_run();
     std::erase_if(settings, [&](const auto& setting) {
@@ -255,7 +255,7 @@ class Soak {
   static void complain(const std::string& engine, const Settings& settings,
                        const std::string& reason) {
     std::string command = "deburr run " + engine;
-    // The last one given counts; `deburr run` takes each once.
+    // The last setting of a name wins; `deburr run` accepts each once.
     std::map<std::string, std::string> last;
     for (const auto& [name, value] : settings) last[name] = value;
     for (const auto& [name, value] : last) command += fmt::format(" --set '{}={}'", name, value);
@@ -283,7 +283,7 @@ class Soak {
         options_.runs > 0 ? static_cast<double>(runs) / static_cast<double>(options_.runs) : 0;
     const double done = std::max(time, count);
     if (done >= next_sample_) {
-      // What the allocator keeps for later is no leak.
+      // Memory that the allocator retains is not a leak.
       ::malloc_trim(0);
       heap_.push_back(heap_bytes());
       resident_.push_back(resident_bytes(::getpid()));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A soak: random configurations of all engines one after another, each against its golden model,
-// for as long as there is time.
+// A soak test: random configurations of all engines in sequence, each against its golden model,
+// until the time is over.
 //
-// SystemC elaborates once a process, so every run is a child, which this process forks when it has
-// drawn the configuration. Memory is checked twice: this process's, which draws thousands of scenes
-// and configurations, and that of long runs, children that simulate hundreds of frames.
+// SystemC elaborates once per process, so every run is a child, forked after the configuration is
+// drawn. Memory is checked twice: for this process, which draws thousands of scenes and
+// configurations, and for long runs, children that simulate hundreds of frames.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,16 @@
 namespace deburr::tool {
 
 struct SoakOptions {
-  std::vector<std::string> engines;  // none: all
+  std::vector<std::string> engines;  // empty: all
   double seconds = 3600;
-  std::uint64_t runs = 0;  // 0: as many as there is time for
+  std::uint64_t runs = 0;  // 0: as many as time allows
   std::uint64_t seed = 1;
-  std::uint64_t long_every = 100;  // each so-manieth run is a long one; 0: none
-  // Over the random ones: to plant a fault, or to look at one thing.
+  std::uint64_t long_every = 100;  // one run in N is a long one; 0: none
+  // Override the random settings: to inject a fault, or to test one setting.
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
-// Prints as it goes; what it returns is the exit code: 0, 1 for a mismatch, a failure or memory
-// that grew.
+// Prints progress; returns the exit code: 0, or 1 for a mismatch, a failure or memory growth.
 int soak(SoakOptions options);
 
 }  // namespace deburr::tool

@@ -38,7 +38,7 @@ std::string_view state_name(PointState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-// Keys may have dots in their names: of all ways to read a dotted key the first that is there.
+// Names within a dotted key may contain dots: returns the first split that exists.
 const nlohmann::json* find(const nlohmann::json& node, std::string_view key) {
   if (!node.is_object()) return nullptr;
   if (const auto whole = node.find(key); whole != node.end()) return &*whole;
@@ -58,7 +58,7 @@ const nlohmann::json* value_of(const nlohmann::json& result, const std::string& 
   }
 }
 
-// The first of its keys that the result lacks; empty: it has them all.
+// The first of its keys that the result lacks; empty: none.
 std::string missing_key(const nlohmann::json& result, const Metric& metric) {
   for (std::string& key : metric.keys())
     if (!value_of(result, key)) return std::move(key);
@@ -67,7 +67,7 @@ std::string missing_key(const nlohmann::json& result, const Metric& metric) {
 
 struct Measured {
   double value = kNone;
-  std::string reason;  // why it has none
+  std::string reason;  // why it has no value
 };
 
 Measured measured(const nlohmann::json& result, const Metric& metric) {
@@ -245,7 +245,7 @@ class Collector {
       }
       return better;
     };
-    // In this order nobody is dominated by one that comes later, so each front only grows.
+    // In this order no point is dominated by a later one, so fronts only grow.
     std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
       for (std::size_t g = 0; g < goals.size(); ++g)
         if (cost(*a, g) != cost(*b, g)) return cost(*a, g) < cost(*b, g);
@@ -267,7 +267,7 @@ class Collector {
 
   // ---- effects ----------------------------------------------------------------------------------
 
-  // In the order of the file; of a span that was sampled, by value.
+  // In the file's order; for a sampled span, by value.
   std::vector<std::string> labels_of(std::size_t axis) const {
     std::vector<std::string> labels;
     for (const Choice& choice : sweep_.axes[axis].choices)
@@ -305,7 +305,7 @@ class Collector {
   const SweepPlace& place_;
   Collection all_;
   std::vector<bool> found_;
-  nlohmann::json first_result_;  // for the keys that results have
+  nlohmann::json first_result_;  // keys that results have
 };
 
 // ---- writing ------------------------------------------------------------------------------------
@@ -362,8 +362,8 @@ Json json_of(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& p
                     {"front", all.front}};
   json["inputs"] = inputs_of(plan, "definition");
   json["left_out"] = plan.left_out;
-  json["reports"] = plan.reports;  // whether each point that is done has a report.html
-  // As seen from the sweep's directory, where the page is.
+  json["reports"] = plan.reports;  // whether each finished point has a report.html
+  // Relative to the sweep's directory, where the page is.
   json["points_directory"] =
       fs::proximate(fs::absolute(place.points()), fs::absolute(place.directory)).string();
   json["base"] = Json::array();
@@ -431,7 +431,7 @@ std::string cell_text(const Json& value) {
   return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : tb::json_text(value);
 }
 
-// The table without script: rows of the front first, so many.
+// Rows of the table without script; the front comes first.
 constexpr std::size_t kMostRows = 200;
 
 void set_table(const Json& json, mustache::data& page) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a sweep's points show together: a table, the Pareto front over the objectives (one for each
-// value of the axes that are no choice of the design), and what each
-// axis does to each metric on average. Written as CSV, as JSON and as one self-contained page.
+// The evaluation of a sweep's points: a table, the Pareto front over the objectives (one for each
+// value of the axes in for_each), and the mean effect of each axis on each metric. Written as CSV,
+// as JSON and as one self-contained page.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace deburr::tool {
 
-// A metric without a value, and why: "division by zero".
+// A metric without a value, and the reason: "division by zero".
 struct NoValue {
   std::size_t metric = 0;
   std::string reason;
@@ -32,20 +32,20 @@ struct CollectedPoint {
   Sample sample;
   PointState state = PointState::kMissing;
   std::string failure;             // "deadlock: nothing has moved ..."
-  std::vector<double> values;      // one a metric; NaN: it has none, infinity: identical pictures
-  std::vector<NoValue> no_values;  // of a point that is done: why
+  std::vector<double> values;      // one per metric; NaN: no value; infinity: identical pictures
+  std::vector<NoValue> no_values;  // for a finished point: the reason
   bool front = false;
-  std::string beyond;  // the first limit that its values miss
+  std::string beyond;  // the first limit that its values exceed
 };
 
 struct MetricInfo {
   std::string name, key, unit, meaning;
 };
 
-// Mean of a metric over all points with a value of an axis.
+// The mean of a metric over all points with one value of an axis.
 struct MainEffect {
   std::size_t axis = 0, metric = 0;
-  std::vector<std::pair<std::string, double>> means;  // by label, in the order of the axis
+  std::vector<std::pair<std::string, double>> means;  // by label, in axis order
 };
 
 struct Collection {
@@ -53,21 +53,21 @@ struct Collection {
   std::vector<CollectedPoint> points;
   std::vector<MainEffect> effects;
   std::uint64_t done = 0, failed = 0, missing = 0, front = 0;
-  std::uint64_t beyond = 0;                    // done, and beyond a limit
-  std::map<NoValue, std::uint64_t> no_values;  // in how many of the points that are done
+  std::uint64_t beyond = 0;                    // finished, and beyond a limit
+  std::map<NoValue, std::uint64_t> no_values;  // number of finished points affected
 };
 
-// FileError when a result cannot be read; ConfigError for a metric that no result has.
+// FileError if a result cannot be read; ConfigError for a metric that no result has.
 Collection collect(const SweepDefinition& sweep, const SweepPlace& place);
 
-// The metrics of one point that is done, as CollectedPoint::values; empty where it failed.
-// FileError as collect().
+// The metrics of one finished point, as in CollectedPoint::values; empty if it failed. FileError as
+// in collect().
 std::vector<double> values_of(const SweepDefinition& sweep, const std::filesystem::path& directory);
 
-// How far such values are beyond the sweep's limits, all of them together; 0: within.
+// The sum of the amounts by which such values exceed the sweep's limits; 0: within all limits.
 double beyond_limits(const SweepDefinition& sweep, const std::vector<double>& values);
 
-// collected.csv, collected.json and index.html in the sweep's directory.
+// Writes collected.csv, collected.json and index.html to the sweep's directory.
 void write_collection(const SweepDefinition& sweep, const Plan& plan, const SweepPlace& place,
                       const Collection& collection);
 

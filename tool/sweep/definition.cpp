@@ -21,7 +21,7 @@ namespace {
 
 using spec::ConfigError;
 
-constexpr std::size_t kMaxValues = 1'000'000;  // of an axis
+constexpr std::size_t kMaxValues = 1'000'000;  // per axis
 constexpr int kMaxNesting = 16;
 
 class Reader {
@@ -81,7 +81,7 @@ class Reader {
     bound_ = std::make_unique<BoundEngine>(*engine_);
   }
 
-  // What is run, without what is looked at.
+  // Reads the stimuli, without metrics and objectives.
   void read_stimuli(const YAML::Node& root) {
     read_base(root["base"]);
     read_points(root);
@@ -95,7 +95,7 @@ class Reader {
     }
   }
 
-  // Throws where the parameter is unknown or rejects the value.
+  // Throws if the parameter is unknown or rejects the value.
   void try_value(const std::string& name, const std::string& value, const YAML::Node& node) const {
     BoundEngine scratch(*engine_);
     scratch.set.set(name, value, where(node));
@@ -174,7 +174,7 @@ class Reader {
     sweep_.axes.push_back(std::move(axis));
   }
 
-  // What an axis varies is nobody else's.
+  // An axis's parameters may not be set elsewhere.
   void claim_parameters(const Axis& axis, const YAML::Node& key) {
     for (const std::string& parameter : axis.parameters) {
       for (const Axis& other : sweep_.axes)
@@ -282,7 +282,7 @@ class Reader {
                : fmt::format("{:.9g}", value);
   }
 
-  // One axis a parameter; its values are those of the points in order.
+  // One axis per parameter, with the points' values in order.
   void read_listed(const YAML::Node& points) {
     sweep_.sampling = SweepSampling::kListed;
     if (!points.IsSequence() || points.size() == 0)
@@ -404,7 +404,7 @@ class Reader {
     if (text.empty()) fail(node, fmt::format("metric '{}' wants a key of result.json", name));
     Metric metric{name, text, std::nullopt, where(node)};
     if (text.starts_with('/')) return metric;
-    // Which keys there are, the engine knows (require_known_metrics()).
+    // The engine knows the valid keys (require_known_metrics()).
     Expression expression(text, metric.where,
                           {"metric", "a key of result.json",
                            [](const std::string& key) -> std::optional<std::string> {
@@ -415,13 +415,12 @@ class Reader {
                            [](const std::string&) { return std::vector<std::string>(); }});
     if (expression.names().empty())
       fail(node, fmt::format("metric '{}': '{}' has no key of result.json", name, text));
-    expression.number(Trial());  // of which kind it is
+    expression.number(Trial());  // determines its type
     if (expression.names() != std::vector{text}) metric.expression = std::move(expression);
     return metric;
   }
 
-  // Values for a first try of an expression: no two alike, since what is divided by may be a
-  // difference.
+  // Distinct values for a trial evaluation of an expression: a divisor may be a difference.
   struct Trial {
     double next = 1.618;
     Expression::Value operator()(const std::string&) { return next += 0.377; }
@@ -449,7 +448,7 @@ class Reader {
         fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
                                "limits one by one",
                                limit.text()));
-      limit.reference(Trial());  // of which kind it is, and that it does not always divide by zero
+      limit.reference(Trial());  // determines its type, and that it does not always divide by zero
       sweep_.limits.push_back(std::move(limit));
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a sweep's YAML file says (docs/reference/sweeps.md): which engine, what every point has,
-// what is varied, how it is sampled, what is left out, and what is looked at afterwards.
+// The contents of a sweep's YAML file (docs/reference/sweeps.md): engine, settings of every point,
+// axes, sampling, constraints, and metrics.
 #pragma once
 
 #include <cstddef>
@@ -24,18 +24,18 @@ class YamlFile;
 
 namespace deburr::tool {
 
-// What is given to a parameter, and where that was said.
+// A parameter's value, and where it was set.
 struct Setting {
   std::string name, value, where;
 };
 
-// One value of an axis: of a parameter, or a name for values of several.
+// One value of an axis: a parameter's value, or a named set of several parameters' values.
 struct Choice {
   std::string label;
-  std::vector<std::string> values;  // one each of Axis::parameters
+  std::vector<std::string> values;  // one per Axis::parameters
 };
 
-// Between two numbers, for samples only.
+// A range between two numbers, only for sampling.
 struct Span {
   double from = 0, to = 0;
   bool integer = false;
@@ -43,19 +43,18 @@ struct Span {
 
 struct Axis {
   std::string name;
-  std::vector<std::string> parameters;  // `name` itself where it is one parameter
-  std::vector<Choice> choices;          // empty where there is a span
+  std::vector<std::string> parameters;  // just `name` if it is a single parameter
+  std::vector<Choice> choices;          // empty for a span
   std::optional<Span> span;
-  std::optional<Constraint> when;  // it is given only where this holds of the point without it
+  std::optional<Constraint> when;  // the axis applies only if this holds for the point without it
   std::string where;
 };
-inline constexpr const char* kNotGiven = "-";  // the label where it does not
+inline constexpr const char* kNotGiven = "-";  // the label if it does not apply
 
-// What is looked at: a key of result.json, dotted or as JSON pointer, or an expression of dotted
-// keys.
+// A key of result.json, dotted or as JSON pointer, or an expression of dotted keys.
 struct Metric {
   std::string name, key;
-  std::optional<Expression> expression;  // where it is no single key
+  std::optional<Expression> expression;  // if it is not a single key
   std::string where;
 
   // The keys that it reads.
@@ -77,23 +76,23 @@ struct SweepDefinition {
   std::vector<Setting> base;
   std::vector<Axis> axes;
   SweepSampling sampling = SweepSampling::kCartesian;
-  std::uint64_t samples = 0, sample_seed = 1;  // of kRandom and kLatin
+  std::uint64_t samples = 0, sample_seed = 1;  // for kRandom and kLatin
   std::vector<Constraint> constraints;
-  bool skip_rejected = false;  // points that the engine rejects are left out, not an error
+  bool skip_rejected = false;  // points that the engine rejects are omitted instead of an error
   std::vector<Metric> metrics;
-  std::vector<Expression> limits;  // comparisons of metrics: a point beyond one is on no front
+  std::vector<Expression> limits;  // comparisons of metrics: points beyond one are on no front
   std::vector<Objective> objectives;
   std::vector<std::size_t> front_axes;  // only points that agree in these are compared
   bool reports = true;
-  std::uint64_t chunk = 0;  // points a worker; 0: chosen by the number of points
+  std::uint64_t chunk = 0;  // points per worker; 0: chosen by the number of points
 };
 
-// ConfigError with file and line for everything that cannot be meant: unknown keys, engines,
-// parameters and metrics, values out of range, empty axes, constraints that are none.
+// ConfigError with file and line for every invalid entry: unknown keys, engines, parameters and
+// metrics, values out of range, empty axes, invalid constraints.
 SweepDefinition read_sweep(const std::filesystem::path& file);
 
-// The part of it that says what is run: its keys, and how another file with such parts reads one.
-// Without axes and points it is one point, its base. The caller checks the keys of the part.
+// The stimulus part of the definition: its keys, and a reader for other files that contain such
+// parts. Without axes and points it is a single point, the base. The caller checks the part's keys.
 const std::vector<std::string>& stimulus_keys();
 SweepDefinition read_stimuli(const tb::YamlFile& file, const YAML::Node& part);
 

@@ -11,7 +11,7 @@ namespace {
 
 using Entry = Evolution* (*)();
 
-// The program's run path says where to look: beside the program, or where the build puts it.
+// The module is searched for on the program's run path: next to the program, or in the build tree.
 Evolution* load() {
   void* const module = ::dlopen(kEvolutionModule, RTLD_LAZY | RTLD_LOCAL);
   void* const symbol = module != nullptr ? ::dlsym(module, kEvolutionModuleEntry) : nullptr;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The border between the program and pagmo, whose NSGA-II (Deb et al. 2002) breeds the points of a
-// search. Loading pagmo costs as much as starting the rest of the program, so it is behind a module
-// (libdeburr_evolution.so, pagmo_evolution.cpp) that is opened by a search alone. Plain data and
-// virtual functions only cross the border; no exception does.
+// The interface between the program and pagmo, whose NSGA-II (Deb et al. 2002) breeds the points of
+// a search. Loading pagmo takes as long as starting the rest of the program, so it is in a module
+// (libdeburr_evolution.so, pagmo_evolution.cpp) that only a search opens. Only plain data and
+// virtual functions cross the interface; exceptions do not.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 
 namespace deburr::tool {
 
-// One number an axis: which of its choices.
+// One number per axis: the index of its choice.
 using Genes = std::vector<std::uint32_t>;
-// One number an objective, less is better; finite.
+// One finite number per objective; less is better.
 using Costs = std::vector<double>;
 
 struct Individual {
@@ -24,19 +24,18 @@ struct Individual {
 
 class Evolution {
  public:
-  // NSGA-II takes populations of a multiple of this, and of two such groups at least.
+  // NSGA-II needs a population that is a multiple of this, and at least two such groups.
   static constexpr std::size_t kGroup = 4;
   static constexpr std::size_t kLeast = 2 * kGroup;
 
   virtual ~Evolution() = default;
-  // As many children as there are parents: tournaments by rank and crowding, crossover, mutation.
-  // `sizes` has the number of choices of each axis. Empty where pagmo rejects; then error() says
-  // why.
+  // As many children as parents: tournaments by rank and crowding, crossover, mutation. `sizes` is
+  // the number of choices of each axis. Empty if pagmo rejects the input; error() gives the reason.
   virtual std::vector<Genes> children(const std::vector<Individual>& parents,
                                       const std::vector<std::uint32_t>& sizes,
                                       std::uint32_t seed) = 0;
-  // The indices of the best so many, all of them where there are no more: by rank, of the last rank
-  // by crowding. Empty where pagmo rejects.
+  // Indices of the best individuals (all if there are fewer): by rank, within the last rank by
+  // crowding. Empty if pagmo rejects the input.
   virtual std::vector<std::size_t> best(const std::vector<Costs>& all, std::size_t number) = 0;
   virtual std::string error() const = 0;
 };

@@ -37,14 +37,14 @@ std::string_view kind_of(const Value& value) {
   return kKinds[value.index()];
 }
 
-// What a part of the text is, as far as errors and comparisons need it.
+// A parsed part of the text, as needed for errors and comparisons.
 struct Operand {
   Term term;
-  std::string name{}, range{};  // it is this name and nothing else, and what its values are
-  std::string word{};           // it is no name and no number
+  std::string name{}, range{};  // if it is a single name: the name and its range
+  std::string word{};           // neither a name nor a number
 };
 
-// Of what people write; what programs write is a list of conditions.
+// Limits hand-written expressions; generated ones are lists of conditions.
 constexpr std::size_t kMostCharacters = 4000;
 constexpr int kMostInside = 100;
 
@@ -122,7 +122,7 @@ class Expression::Parser {
     return true;
   }
 
-  // A word by itself has no value.
+  // A bare word has no value.
   Term settled(const Operand& operand) const {
     if (operand.word.empty()) return operand.term;
     fail(fmt::format("'{}' is neither {} nor a number{}", operand.word, known_.name,
@@ -161,7 +161,7 @@ class Expression::Parser {
     return left;
   }
 
-  // What an expression has inside of another one: it takes room on the stack.
+  // Nesting of expressions: limited, since it uses the stack.
   struct Inside {
     explicit Inside(Parser& parser) : depth(parser.depth_) {
       if (++depth > kMostInside)
@@ -181,7 +181,7 @@ class Expression::Parser {
     return right;
   }
 
-  // The choice that a word belongs to must have it.
+  // A word must be one of the choices that it is compared with.
   Term compared(const Operand& operand, const Operand& with) const {
     if (operand.word.empty() || with.name.empty()) return settled(operand);
     std::vector<std::string> choices;
@@ -292,7 +292,7 @@ class Expression::Parser {
   int depth_ = 0;
   std::string token_;
   std::vector<std::string> names_;
-  bool is_comparison_ = false;  // of what was parsed last
+  bool is_comparison_ = false;  // for the part parsed last
   std::function<double(const Lookup&)> violation_;
 };
 
@@ -335,7 +335,7 @@ ExpressionNames parameters_of(const tb::ParameterSet& known) {
 
 Constraint::Constraint(std::string text, std::string where, const tb::ParameterSet& known)
     : condition_(std::move(text), std::move(where), parameters_of(known)) {
-  holds(known);  // what cannot be computed shows on the defaults already
+  holds(known);  // evaluation errors already show with the defaults
 }
 
 bool Constraint::holds(const tb::ParameterSet& set) const {

@@ -32,11 +32,11 @@ class DivisionByZero : public spec::ConfigError {
   using ConfigError::ConfigError;
 };
 
-// What an expression may name, and what its errors call things.
+// The names an expression may use, and terms for its errors.
 struct ExpressionNames {
   std::string expression;  // "constraint"
   std::string name;        // "a parameter"
-  // What the values of a name are, as Parameter::range; nothing: it is no name.
+  // The range of a name, as in Parameter::range; nullopt: unknown name.
   std::function<std::optional<std::string>(const std::string&)> range;
   std::function<std::vector<std::string>(const std::string&)> near_matches;
 };
@@ -47,25 +47,25 @@ class Expression {
   using Lookup = std::function<Value(const std::string& name)>;
   using Term = std::function<Value(const Lookup&)>;
 
-  // ConfigError that begins with `where` for what is no expression over the names.
+  // Throws ConfigError that begins with `where` for an invalid expression over the names.
   Expression(std::string text, std::string where, const ExpressionNames& names);
 
-  // DivisionByZero; ConfigError where it is of another kind.
+  // Throws DivisionByZero; ConfigError if it is not a number.
   double number(const Lookup& lookup) const;
   bool reference(const Lookup& lookup) const;
-  // How far a comparison by < <= > >= is from what it demands, over the absolute value of its right
-  // side; 0: it holds. Infinite where a side has no value.
+  // The amount by which a comparison with < <= > >= is missed, relative to the absolute value of
+  // its right side; 0: it holds. Infinite if a side has no value.
   double violation(const Lookup& lookup) const;
-  // ... which this is.
+  // Whether violation() applies.
   bool is_comparison() const { return violation_ != nullptr; }
 
   const std::string& text() const { return origin_->text; }
   const std::string& where() const { return origin_->where; }
-  // In the order in which they are first named.
+  // In the order of first use.
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  // For errors, which terms too may end with.
+  // For errors, including those of terms.
   struct Origin {
     std::string text, where, kind;
     std::string message(const std::string& what) const;
@@ -84,7 +84,8 @@ class Expression {
 // A condition that every point of a sweep must meet.
 class Constraint {
  public:
-  // ConfigError that begins with `where` for what is no condition over the parameters of `known`.
+  // Throws ConfigError that begins with `where` for an invalid condition over the parameters of
+  // `known`.
   Constraint(std::string text, std::string where, const tb::ParameterSet& known);
   bool holds(const tb::ParameterSet& set) const;
   const std::string& text() const { return condition_.text(); }

@@ -27,7 +27,7 @@ std::vector<std::string> faults_of(const std::string& engine) {
   return names;
 }
 
-// Of a part of an engine by its own name, too: "ENGINE.flip-bit" by "flip-bit".
+// Accepts a part's fault by its short name too: "ENGINE.flip-bit" by "flip-bit".
 bool is_named(std::string_view known, std::string_view given) {
   return known == given || (known.ends_with(given) && known.size() > given.size() &&
                             known[known.size() - given.size() - 1] == '.');

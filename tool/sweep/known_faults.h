@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which faults runs of an engine can plant, known before there is one: a name that no run takes is
-// said by `plan`, not by every run.
+// The faults that runs of an engine can inject, known before any run, so that `plan` rejects an
+// unknown name.
 #pragma once
 
 #include <map>
@@ -11,9 +11,9 @@ namespace deburr::tool {
 
 class KnownFaults {
  public:
-  // ConfigError for a name that no run of the engine takes (run.fault; empty: none is injected). A
-  // link and what a fault needs are seen by the run alone. The first name of an engine elaborates
-  // its model, in a process of its own.
+  // ConfigError for a name that no run of the engine accepts (run.fault; empty: none is injected).
+  // Links and preconditions of a fault are checked only by the run. The first name of an engine
+  // elaborates its model in its own process.
   void require(const std::string& engine, const std::string& fault);
 
  private:

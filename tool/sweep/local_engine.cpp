@@ -31,9 +31,9 @@ namespace fs = std::filesystem;
 using spec::FileError;
 
 constexpr std::uint64_t kMostInChunk = 64;
-constexpr std::uint64_t kChunksPerJob = 4;  // so that nobody waits long for the last one
+constexpr std::uint64_t kChunksPerJob = 4;  // so that the last one does not take long
 
-// As the value of a variable. In a path a '|' could not be written: paths are such values.
+// Escaped as a variable's value, since '|' cannot be written in a path.
 std::string ninja_value(const std::string& value) {
   std::string text;
   for (const char c : value) {
@@ -65,7 +65,7 @@ class Sorter {
       ++pending_.failed;
     } else {
       if (state == PointState::kFailed) {
-        // Its result, if it has one, does not count.
+        // A result, if present, is not counted.
         std::error_code error;
         fs::remove(directory / "result.json", error);
         remove_failure(directory);
@@ -148,7 +148,7 @@ std::uint64_t write_tasks(const Plan& plan, const SweepPlace& place, const fs::p
   for (std::uint64_t chunk = 0; chunk < chunks; ++chunk) {
     const std::size_t from = chunk * size;
     const std::size_t to = std::min<std::size_t>(points.size(), from + size);
-    // Neighbours, which have their input in common, stay in one task.
+    // Consecutive points share inputs and stay in one task.
     ninja[chunk * tasks / chunks] += fmt::format("build $folder/chunk_{}: chunk\n  lines = {} {}\n",
                                                  chunk, lines.size(), to - from);
     for (std::size_t i = from; i < to; ++i) lines += line_of(points[i]) + "\n";
@@ -166,7 +166,7 @@ int run_ninja(const SweepPlace& place, std::uint64_t points, const RunSettings& 
   if (ninja == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) ::_exit(tb::kInterruptedExit);
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);  // the standard output is the command's own
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output belongs to the command
     const std::string jobs = std::to_string(std::max(1u, settings.jobs));
     const std::string file = (place.directory / "task_0.ninja").string();
     ::execlp("ninja", "ninja", "--quiet", "-k", "0", "-j", jobs.c_str(), "-f", file.c_str(),

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kUnits = "units.*.", kStalls = "stalls.";
 
-// A line each. What the engine declares of its own stands by its name.
+// One per line. Keys declared by the engine are listed by name.
 std::string described_keys(const std::string& name) {
   tb::Result result;
   engine_named(name)->describe_statistics(result);

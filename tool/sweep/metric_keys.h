@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which keys results of an engine can have, known before there is one: a metric that no result will
-// have is said by `plan`, not after the last run.
+// The keys that results of an engine can have, known before any run, so that `plan` rejects an
+// unknown metric.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace deburr::tool {
 
-// Keys of result.json, dotted, in which * stands for names that go with the build or the run.
-// Elaborates the model, in a process of its own.
+// Keys of result.json, dotted; * stands for names that depend on the build or the run. Elaborates
+// the model in its own process.
 std::vector<std::string> result_keys(const std::string& engine);
 bool is_key_of(std::string_view key, std::string_view pattern);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The module libdeburr_evolution.so: the only part of the program that is linked with pagmo.
+// The module libdeburr_evolution.so: the only part of the program that links pagmo.
 #include <algorithm>
 #include <exception>
 #include <pagmo/algorithms/nsga2.hpp>
@@ -15,10 +15,10 @@ namespace deburr::tool {
 namespace {
 
 constexpr double kCrossover = 0.9;
-constexpr double kDistribution = 10;  // of crossover and mutation; integers do not ask for it
+constexpr double kDistribution = 10;  // of crossover and mutation; not used for integers
 
-// Axes as pagmo sees them: integers, all of them. It evaluates nothing itself: what it wants
-// evaluated is taken from it.
+// The axes as a pagmo problem with only integers. It evaluates nothing itself: the batches to
+// evaluate are taken from it.
 struct Axes {
   std::vector<std::uint32_t> sizes;
   std::size_t objectives = 1;
@@ -28,7 +28,7 @@ struct Axes {
   }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     pagmo::vector_double most;
-    // It rejects bounds that leave one value.
+    // pagmo rejects bounds with a single value.
     for (const std::uint32_t size : sizes) most.push_back(std::max(size, 2u) - 1.0);
     return {pagmo::vector_double(sizes.size(), 0.0), most};
   }
@@ -36,7 +36,7 @@ struct Axes {
   pagmo::vector_double::size_type get_nix() const { return sizes.size(); }
 };
 
-// Stands where a generation is evaluated as one batch, and keeps it.
+// Replaces the batch evaluator of a generation and stores the batch.
 struct Catcher {
   pagmo::vector_double* caught = nullptr;
 

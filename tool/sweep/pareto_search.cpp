@@ -36,7 +36,7 @@ class Search {
            all_.size() + generation.size() >= settings_.runs;
   }
 
-  // Takes it if it is a point, and a new one.
+  // Accepts it if it is a valid and new point.
   bool take(std::vector<Candidate>& generation, Genes genes) {
     if (full(generation)) return false;
     std::optional<std::string> name = space_.name(genes);
@@ -64,7 +64,7 @@ class Search {
     return generation;
   }
 
-  // NSGA-II wants whole groups; where there are too few parents, the first ones fill up.
+  // NSGA-II needs whole groups; if there are too few parents, the first ones are repeated.
   std::vector<Genes> children_of(std::vector<Individual> parents) {
     for (std::size_t i = 0;
          parents.size() < Evolution::kLeast || parents.size() % Evolution::kGroup != 0; ++i)
@@ -87,7 +87,7 @@ class Search {
     return chosen;
   }
 
-  // Returns how many there were.
+  // Returns their number.
   std::size_t ask(const std::vector<Candidate>& generation) {
     if (generation.empty()) return 0;
     const std::vector<Costs> costs = evaluate_(generation);

@@ -48,7 +48,7 @@ void make_folder(const fs::path& folder) {
                                 folder.string(), error.message()));
 }
 
-// A file that grows line by line and takes its name when it is complete.
+// A file written line by line that is renamed to its final name when complete.
 class LineFile {
  public:
   explicit LineFile(fs::path file) : file_(std::move(file)), draft_(file_.string() + ".tmp") {
@@ -140,7 +140,8 @@ class Planner {
     const std::optional<PlannedPoint> point = check_.check(sample);
     if (!point) return false;
     if (!names_.insert(point->name).second) {
-      if (point->sample == sample) ++twice_;  // else it is told by an axis that is not given
+      // else only inapplicable axes differ
+      if (point->sample == sample) ++twice_;
       return false;
     }
     lines_.add(line_of(*point));
@@ -196,7 +197,7 @@ void PointNamer::tell(Plan& plan) const {
 PointChecker::PointChecker(const SweepDefinition& sweep, const Plan& plan)
     : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
 
-// Axes that have no effect on this point are not given.
+// Removes axes that have no effect on this point.
 Sample PointChecker::without_idle_axes(const Sample& sample) const {
   Sample bare = sample, given = sample;
   for (std::size_t i = 0; i < sample.size(); ++i)
@@ -205,7 +206,7 @@ Sample PointChecker::without_idle_axes(const Sample& sample) const {
   PointEngine point(plan_.engine, plan_.settings_of(bare));
   try {
     point.bound.resolve();
-  } catch (const ConfigError&) {  // what is given may mend it
+  } catch (const ConfigError&) {  // later settings may fix it
   }
   for (std::size_t i = 0; i < sample.size(); ++i)
     if (sweep_.axes[i].when && !sweep_.axes[i].when->holds(point.bound.set)) given[i] = kNotGiven;
@@ -222,7 +223,7 @@ std::optional<PlannedPoint> PointChecker::check(const Sample& all) {
   } catch (const ConfigError& error) {
     rejection = error.what();
   }
-  // What a constraint leaves out need not make sense.
+  // Excluded points need not be valid, so constraints come first.
   for (std::size_t i = 0; i < sweep_.constraints.size(); ++i)
     if (!sweep_.constraints[i].holds(point.bound.set)) {
       ++excluded_[i];
@@ -331,7 +332,7 @@ Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place) {
   make_folder(place.directory);
   Plan plan = plan_without_points(sweep);
   std::error_code ignored;
-  fs::remove(plan_file(place.directory), ignored);  // it would name points of another
+  fs::remove(plan_file(place.directory), ignored);  // it would name another plan's points
   LineFile lines(points_file(place.directory));
   Planner(sweep, plan, lines).run();
   lines.finish();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A sweep's points, expanded and named: what its workers, `status` and `collect` go by.
+// A sweep's expanded and named points, as used by its workers, `status` and `collect`.
 //
-//   OUT/sweeps/NAME/plan.json      engine, base, axes, how many points, what was left out
-//   OUT/sweeps/NAME/points.jsonl   a line a point: its name, the numbers of its input and of its
-//                                  golden result, a text an axis
+//   OUT/sweeps/NAME/plan.json      engine, base, axes, number of points, omitted points
+//   OUT/sweeps/NAME/points.jsonl   one line per point: its name, the numbers of its input and
+//                                  of its golden result, one text per axis
 //   OUT/points/, OUT/cache/        shared by all sweeps under OUT
 //
-// A point is never held: the file is written and read line by line.
+// Points are not kept in memory: the file is written and read line by line.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ namespace deburr::tool {
 
 inline constexpr std::uint64_t kMostPoints = 1'000'000;
 
-// Where everything of a sweep is.
+// The paths of a sweep's files.
 struct SweepPlace {
   std::filesystem::path out, directory;
   std::filesystem::path points() const { return out / "points"; }
@@ -41,34 +41,34 @@ SweepPlace place_of(const std::filesystem::path& out, const std::string& name);
 struct PlanAxis {
   std::string name;
   std::vector<std::string> parameters;
-  std::map<std::string, std::vector<std::string>> choices;  // by label; of a named axis only
-  bool conditional = false;  // points with the label kNotGiven are not given it
+  std::map<std::string, std::vector<std::string>> choices;  // by label; only for a named axis
+  bool conditional = false;  // the axis does not apply to points with the label kNotGiven
 };
 
 struct PlannedPoint {
   std::string name;
-  std::uint64_t input = 0;   // points with the same number have the same input
+  std::uint64_t input = 0;   // points with the same number share their input
   std::uint64_t golden = 0;  // and the same golden result
   Sample sample;
-  // Of a point that has neither the plan's engine nor its axes (a run of a regression), and whose
-  // sample is only what it is called: its own.
+  // For a point with its own engine instead of the plan's engine and axes (a run of a regression),
+  // whose sample is only its name.
   std::string engine{};
   std::vector<Setting> settings{};
 };
 
 struct Plan {
   std::string engine, title, file;
-  std::string digest, model;  // of the file, SHA-256, and of the program that it was made by
+  std::string digest, model;  // of the file (SHA-256), and of the program that made the plan
   std::vector<Setting> base;
   std::vector<PlanAxis> axes;
   std::uint64_t points = 0, inputs = 0;
-  std::vector<std::string> left_out;         // in words, with how many
-  std::map<std::string, std::string> parts;  // that the file includes, and what they hold
-  std::map<std::string, std::string> files;  // the same of files that the points read
+  std::vector<std::string> left_out;         // reasons, with counts
+  std::map<std::string, std::string> parts;  // included files and their contents
+  std::map<std::string, std::string> files;  // the same for files that the points read
   bool reports = true;
   std::uint64_t chunk = 0;
 
-  // What a sample is given: the base, and its own.
+  // Settings of a sample: the base's, and its own.
   std::vector<Setting> settings_of(const Sample& sample) const;
   const std::string& engine_of(const PlannedPoint& point) const {
     return point.engine.empty() ? engine : point.engine;
@@ -78,33 +78,34 @@ struct Plan {
   }
 };
 
-// Expands the definition into the place, unless the plan there was made from the same. ConfigError
-// for too many points, for none, and for points that the engine rejects.
+// Expands the definition into the place, unless an identical plan is there. ConfigError for too
+// many points, for none, and for points that the engine rejects.
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
 // A plan of the definition without its points.
 Plan plan_without_points(const SweepDefinition& sweep);
-// Puts the points of a plan that expands nothing into its place. FileError where that cannot be.
+// Stores the points of a plan that was not expanded from a definition. FileError if they cannot be
+// written.
 void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place);
-// Says what the plan was made from, and puts it into its place, where its points are already.
+// Records the plan's inputs and stores it in its place, which already has its points.
 void write_plan(Plan& plan, const SweepPlace& place);
-// What is not any more as it was when the plan was made, in words: the file, the model, files that
-// points read. Nothing where the plan is current.
+// Describes what has changed since the plan was made: the file, the model, files that points read.
+// Empty if the plan is current.
 std::vector<std::string> changes_since(const Plan& plan, const std::filesystem::path& file);
-// What it was made from: the file as the `role` that it has, and what the points read.
+// The plan's inputs: its file with this `role`, and the files that the points read.
 nlohmann::ordered_json inputs_of(const Plan& plan, std::string_view role);
-// Results of another one count for nothing.
+// Results of another model are not counted.
 bool is_of_this_model(const Plan& plan);
-// FileError where there is none.
+// FileError if there is none.
 Plan read_plan(const std::filesystem::path& directory);
-// None where there is no plan, or none of this version.
+// nullopt if there is no plan of this version.
 std::optional<Plan> find_plan(const std::filesystem::path& directory);
 
-// Names points, and numbers what they have in common.
+// Names points, and numbers their shared inputs.
 class PointNamer {
  public:
-  // Behind resolve().
+  // Call after resolve().
   PlannedPoint name(const BoundEngine& bound, Sample sample);
-  // For the plan: files that the points so far read, and how many inputs.
+  // Adds to the plan: files read by the points so far, and the number of inputs.
   void tell(Plan& plan) const;
 
  private:
@@ -112,15 +113,15 @@ class PointNamer {
   std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
 };
 
-// Tells which samples are points, names these, and counts the others.
+// Decides which samples are points, names these, and counts the others.
 class PointChecker {
  public:
   // Both must outlive it.
   PointChecker(const SweepDefinition& sweep, const Plan& plan);
-  // None for what a constraint or the engine leaves out. ConfigError for what the engine rejects
-  // where the sweep does not say `refused: skip`.
+  // nullopt for a sample that a constraint or the engine excludes. ConfigError if the engine
+  // rejects it and the sweep does not have `refused: skip`.
   std::optional<PlannedPoint> check(const Sample& sample);
-  // For the plan: files that the points so far read, how many inputs, what was left out.
+  // Adds to the plan: files read by the points so far, the number of inputs, and excluded samples.
   void tell(Plan& plan) const;
   // Why no sample was a point.
   std::string reasons() const;
@@ -139,7 +140,7 @@ class PointChecker {
 
 std::filesystem::path points_file(const std::filesystem::path& directory);
 std::string line_of(const PlannedPoint& point);
-// Some lines of such a file: from a byte on, so many.
+// A number of lines of such a file, from a byte offset.
 struct PointLines {
   std::uint64_t offset = 0, count = ~std::uint64_t{0};
 };

@@ -29,7 +29,7 @@ constexpr const char* kFailure = "failure.json";
 constexpr std::size_t kMaxFailureBytes = 1 << 20;
 constexpr std::size_t kDigits = 24;
 
-// Whether a living run has the directory.
+// Whether a running process holds the directory.
 bool is_taken(const fs::path& directory) {
   const fs::path claim = directory / ".deburr_run" / "claim.json";
   const int descriptor = ::open(claim.c_str(), O_RDWR | O_CLOEXEC);
@@ -39,7 +39,7 @@ bool is_taken(const fs::path& directory) {
   return taken;
 }
 
-// Its verdict stands in front of all that grows, so that nobody reads the whole of a result for it.
+// The verdict comes before all lists, so that the whole result need not be read.
 bool says_fail(const fs::path& result) {
   std::array<char, 256> head{};
   std::ifstream file(result);
@@ -109,7 +109,7 @@ void write_failure(const fs::path& directory, const Failure& failure) {
   std::error_code error;
   fs::create_directories(directory, error);
   const Json json = {{"kind", failure.kind}, {"reason", failure.reason}, {"again", failure.again}};
-  // A reason may hold bytes of a file that was not understood.
+  // A reason may contain bytes of an invalid file.
   tb::write_file_atomically(directory / kFailure,
                             tb::json_text(json, 2, tb::NotUtf8::kReplace) + "\n");
 }

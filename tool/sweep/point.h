@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A point of a sweep: a directory whose name says everything that its result depends on, so that
-// whoever asks for the same point finds it, from any sweep.
+// A point of a sweep: a directory named by a hash of everything that its result depends on, so that
+// every sweep with the same point finds it.
 //
-//   OUT/points/3f/3f09.../   result.json, manifest.json, report.html: as every run leaves them
-//                            failure.json: why there is no result that counts
+//   OUT/points/3f/3f09.../   result.json, manifest.json, report.html: as written by every run
+//                            failure.json: why there is no valid result
 //
-// What counts is what is there: result.json and manifest.json, which a run puts in place when they
-// are complete. No scheduler's word does. A result that failed counts for nothing without
-// failure.json: the point is run again.
+// A point is done if result.json and manifest.json are present, which a run moves into place when
+// they are complete; the scheduler's state is not used. A failed result without failure.json is
+// ignored: the point is run again.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@
 
 namespace deburr::tool {
 
-// An engine with the parameters of one point. It is made anew for each, since engines remember.
+// An engine with the parameters of one point. A new one is made for each point, since engines keep
+// state.
 class PointEngine {
  public:
   PointEngine(const std::string& engine, const std::vector<Setting>& settings);
@@ -32,26 +33,25 @@ class PointEngine {
   BoundEngine bound;
 };
 
-// The directory's name: a hash of the resolved configuration, of what all files hold that the run
-// reads, and of the model version. Call it behind resolve().
+// The directory's name: a hash of the resolved configuration, the contents of all files that the
+// run reads, and the model version. Call it after resolve().
 std::string point_name(const BoundEngine& bound, InputFiles& files);
-// Of what points have in common before they are simulated: points with the same one are run in
-// turn.
+// Hash of what points share before simulation: points with the same hash are run in sequence.
 std::string input_name(const BoundEngine& bound);
-// The same of what their golden results depend on.
+// The same for the dependencies of their golden results.
 std::string golden_name(const BoundEngine& bound);
 
 std::filesystem::path point_directory(const std::filesystem::path& points, std::string_view name);
 
 enum class PointState : std::uint8_t { kMissing, kRunning, kDone, kFailed };
 PointState state_of(const std::filesystem::path& directory);
-// Whether a complete result that did not fail is in place. For who has claimed the directory, or
-// does not mind that another one is at it.
+// Whether a complete result that did not fail is present. The caller has claimed the directory or
+// tolerates concurrent runs.
 bool has_result(const std::filesystem::path& directory);
-// Whether one that failed is, and the reason beside it.
+// Whether a failed result and its reason are present.
 bool has_failed_result(const std::filesystem::path& directory);
 
-// Why a point has no result that counts. `again`: running it again may well help (it was killed).
+// Why a point has no valid result. `again`: a retry may succeed (it was killed).
 struct Failure {
   std::string kind, reason;
   bool again = false;
@@ -60,9 +60,9 @@ Failure read_failure(const std::filesystem::path& directory);
 void write_failure(const std::filesystem::path& directory, const Failure& failure);
 void remove_failure(const std::filesystem::path& directory);
 
-// `run ENGINE --set ...`, without --out: what `deburr` runs the point alone with.
+// `run ENGINE --set ...`, without --out: the arguments of `deburr` that run the point by itself.
 std::string arguments_of(const std::string& engine, const std::vector<Setting>& settings);
-// The same with the program's name in front.
+// The same preceded by the program's name.
 std::string command_of(const std::string& engine, const std::vector<Setting>& settings);
 
 }  // namespace deburr::tool

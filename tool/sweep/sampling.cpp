@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kDrawsPerSample = 100;
 
-// Of the unit interval.
+// A position in the unit interval.
 std::string value_at(const Axis& axis, double position) {
   if (!axis.span) {
     const auto size = static_cast<double>(axis.choices.size());

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 using spec::ConfigError;
 using spec::FileError;
 
-constexpr double kWorst = 1e30;  // of a point that failed or lacks the metric
-// Of a point beyond the limits, in each objective, and more the further it is: worse than all that
-// are within, so that the search first looks for its way there.
+constexpr double kWorst = 1e30;  // for a point that failed or lacks the metric
+// Cost of a point beyond the limits in each objective, growing with the distance: worse than all
+// points within, so that the search first finds its way there.
 constexpr double kBeyond = 1e20;
 
 void reject_what_cannot_be_searched(const SweepDefinition& sweep) {
@@ -80,8 +80,8 @@ class SweepSearch {
       throw ConfigError(sweep_.file.string() +
                         ": every axis is one of 'for_each': nothing is left "
                         "to search");
-    evolution();  // that it is missing is said before anything is run
-    write();      // what was there is of another search
+    evolution();  // reports a missing module before anything is run
+    write();      // the old file is from another search
     SearchEnd end;
     try {
       for (std::size_t i = 0; i < fronts.size(); ++i)
@@ -99,7 +99,7 @@ class SweepSearch {
   }
 
  private:
-  // Every combination of the axes that are no choice.
+  // Every combination of the axes that are not searched.
   std::vector<Sample> circumstances() const {
     std::vector<Sample> all = {{}};
     for (const std::size_t axis : sweep_.front_axes) {
@@ -159,7 +159,7 @@ class SweepSearch {
   Costs costs_of(const PlannedPoint& point) const {
     const fs::path directory = point_directory(place_.points(), point.name);
     const PointState state = state_of(directory);
-    // One that was killed says nothing of the design.
+    // A killed run does not describe the design.
     if (state != PointState::kDone &&
         (state != PointState::kFailed || read_failure(directory).again))
       throw Missing();

@@ -43,14 +43,14 @@ using std::chrono::steady_clock;
 constexpr std::size_t kMaxProfileBytes = 1 << 20;
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kMostProcessors = 4096, kMostTasks = 1000;
-constexpr int kLooksASecond = 10;  // for Ctrl-C, while a job is waited for
+constexpr int kLooksASecond = 10;  // checks for Ctrl-C while waiting for a job
 
 fs::path folder_of(const SweepPlace& place) { return place.directory / "slurm"; }
 fs::path job_file(const SweepPlace& place) { return folder_of(place) / "job.json"; }
 
 struct Answer {
   int code = 0;
-  bool late = false;  // it did not end in time, and was ended
+  bool late = false;  // it timed out and was killed
   std::string text;   // of both streams
 };
 
@@ -98,7 +98,7 @@ Answer ask(const std::vector<std::string>& words, const std::string& conf) {
   return answer;
 }
 
-// Clients hang for a minute where their configuration is wrong, so it is looked at first.
+// Clients hang for a minute if the configuration is wrong, so it is checked first.
 void require_slurm(const std::string& conf) {
   std::string file = conf;
   const char* given = std::getenv("SLURM_CONF");
@@ -209,7 +209,7 @@ SlurmJob submit(const Plan& plan, const SweepPlace& place, const std::vector<Pla
   for (const std::string& line : profile.options) option(line);
   script += fmt::format("cd {} || exit 1\n", tb::shell_quoted(fs::current_path().string()));
   for (const std::string& line : profile.setup) script += line + "\n";
-  // Ninja says by its code that a point failed, which is no failure of the task.
+  // Ninja's exit code reports a failed point, which is not a failure of the task.
   script += fmt::format("ninja --quiet -k 0 -j {} -f {}/task_$SLURM_ARRAY_TASK_ID.ninja\nexit 0\n",
                         profile.cpus, tb::shell_quoted(folder.string()));
   const fs::path file = folder / "submit.sh";
@@ -230,7 +230,7 @@ SlurmStatus ask_slurm(const SlurmJob& job) {
   require_slurm(job.conf);
   const auto rows = [&](const std::vector<std::string>& words) {
     const Answer answer = ask(words, job.conf);
-    // A job that is over and forgotten is none that is queued.
+    // A finished job that Slurm has forgotten is not queued.
     return table_of(answer.code == 0 ? answer.text : "");
   };
   SlurmStatus status;

@@ -34,7 +34,7 @@ std::string in_words(double time) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-// At the pace of the run that began last.
+// At the rate of the most recently started run.
 std::string time_left(const SweepPlace& place) {
   std::error_code error;
   const auto ended = static_cast<double>(read_progress(place.directory).ended());

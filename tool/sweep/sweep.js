@@ -20,11 +20,11 @@
       reason: (p) => noValue(p, i) ?? '',
     })),
   ];
-  // JSON has no infinity: that a picture is identical stands beside its values.
+  // JSON has no infinity: identical pictures are flagged next to their values.
   function valueOf(p, i) {
     return p.identical?.includes(data.metrics[i].name) ? Infinity : p.values[i];
   }
-  // Why a point that is done has no value of a metric.
+  // Why a finished point has no value of a metric.
   const noValue = (p, i) => p.no_value?.[data.metrics[i].name];
   const columnOf = (name) => columns.find((c) => c.name === name);
   const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;
@@ -83,7 +83,7 @@
     data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
     (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '') +
     (limits.length > 0 ? `; limits: ${limits.join(', ')}` : '');
-  // The fronts, one for each circumstance that points must agree in, by what tells them apart.
+  // One front for each combination of the for_each axes, named by what distinguishes them.
   const frontAxes = data.for_each.map((name) => data.axes.findIndex((axis) => axis.name === name));
   const fronts = new Map();
   for (const p of done.filter((q) => q.front)) {
@@ -153,7 +153,7 @@
     effectCharts = [];
     byId('effects').replaceChildren();
     const effects = data.effects.filter((e) => e.metric === name);
-    // One scale, so that axes can be compared.
+    // A common scale makes axes comparable.
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
     if (effects.length === 0)
@@ -252,10 +252,10 @@
   // ---- parallel coordinates ----
   function drawParallel() {
     const canvas = byId('parallel'), ratio = window.devicePixelRatio || 1;
-    // What never changes says nothing.
+    // Constant columns are omitted.
     const used = columns.filter((c) => c.axis !== undefined ? c.labels.length > 1
                                                             : new Set(done.map(c.value)).size > 1);
-    canvas.style.minWidth = `${80 * used.length}px`;  // room for what stands at each of them
+    canvas.style.minWidth = `${80 * used.length}px`;  // room for the labels of each
     const width = canvas.clientWidth, height = canvas.clientHeight;
     canvas.width = width * ratio;
     canvas.height = height * ratio;
@@ -275,7 +275,7 @@
     const level = (i, p) => {
       const v = used[i].value(p), [low, high] = ranges[i];
       if (Number.isNaN(v)) return null;
-      // Values of an axis at even distances, whatever they are.
+      // Values of an axis at equal distances.
       if (used[i].axis !== undefined && used[i].labels.length <= 30) {
         const order = used[i].numeric ? [...used[i].labels].sort((a, b) => a - b) : used[i].labels;
         return bottom - (bottom - top) * order.indexOf(p.at[used[i].axis]) / (order.length - 1);

@@ -39,8 +39,8 @@ namespace fs = std::filesystem;
 using spec::ExitCode;
 
 struct Ended {
-  int status = 0;    // of waitpid
-  std::string text;  // what the child said last
+  int status = 0;    // from waitpid
+  std::string text;  // the child's last output
 };
 
 class Worker {
@@ -103,7 +103,7 @@ class Worker {
     tick(failure ? kPointFailed : kPointDone);
   }
 
-  // An input that cannot be read is a matter of the points that want it.
+  // An unreadable input fails only the points that use it.
   static std::optional<Failure> prepare(BoundEngine& bound, RunContext& context) {
     try {
       bound.engine.prepare(bound.run, context);
@@ -113,17 +113,17 @@ class Worker {
     }
   }
 
-  // In the child: what it says is the reason of a failure.
+  // Runs in the child: its output is the reason of a failure.
   static std::pair<int, std::string> simulate(BoundEngine& bound, RunContext& context) {
     try {
       const fs::path& directory = context.directory();
       const RunEnd end = run_once(bound, context, IfTaken::kWait, [&] {
         return !has_result(directory) && !has_failed_result(directory);
       });
-      // Part of a run is no point of a sweep.
+      // A partial run is not a point of a sweep.
       if (end.result.interrupted) return {tb::kInterruptedExit, "interrupted"};
-      if (!end.begun) return {0, ""};  // someone else has done it meanwhile
-      // Before the directory is free, so that no failed result is ever there without a reason.
+      if (!end.begun) return {0, ""};  // another worker has done it meanwhile
+      // Written before the directory is released, so that a failed result always has a reason.
       if (end.code != 0)
         write_failure(directory, {end.kind, headline(end.result.reason), true});
       else
@@ -147,7 +147,7 @@ class Worker {
     const pid_t child = ::fork();
     if (child < 0) fail("fork");
     if (child == 0) {
-      // A point outlives no worker: what it would leave, the next one does again.
+      // A point ends with its worker; the next worker repeats it.
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (::getppid() != parent) ::_exit(tb::kInterruptedExit);
       ::close(ends[0]);
@@ -155,7 +155,7 @@ class Worker {
       ::dup2(nowhere, STDOUT_FILENO);
       ::dup2(nowhere, STDERR_FILENO);
       const auto [code, text] = work();
-      // What does not fit into the pipe is not worth waiting for.
+      // Output beyond the pipe's capacity is dropped.
       [[maybe_unused]] const ssize_t written =
           ::write(ends[1], text.data(), std::min<std::size_t>(text.size(), 4000));
       ::_exit(code);
@@ -198,7 +198,7 @@ class Worker {
       case static_cast<int>(ExitCode::kDeadlock):
         return Failure{"deadlock", ended.text, false};
       case static_cast<int>(ExitCode::kFile):
-        // The next point would fare no better.
+        // The next point would fail in the same way.
         throw spec::FileError(fmt::format("point '{}': {}", directory.string(), ended.text));
       default:
         return Failure{"simulation", ended.text, false};
@@ -239,7 +239,7 @@ PointCounts read_progress(const fs::path& sweep) {
 
 int run_chunk(const WorkerOptions& options) {
   tb::catch_interrupts();
-  // Ninja may be killed: its workers go with it.
+  // If Ninja is killed, its workers end too.
   const pid_t parent = ::getppid();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) return tb::kInterruptedExit;

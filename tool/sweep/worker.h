@@ -2,9 +2,9 @@
 // A chunk of a sweep in one process: `deburr sweep-worker OUT SWEEP POINTS OFFSET COUNT`, started
 // by Ninja.
 //
-// Scene, mip chain and reference are made once; for each point a child is forked before anything of
-// SystemC is made, inherits them, simulates and leaves its results. So a point pays for no start of
-// a program and no input.
+// Scene, mip chain and reference are prepared once. For each point a child is forked before any
+// SystemC object is created; it inherits them, simulates and writes its results. Points therefore
+// share the cost of program start and input preparation.
 #pragma once
 
 #include <cstdint>
@@ -17,22 +17,22 @@ namespace deburr::tool {
 struct WorkerOptions {
   std::filesystem::path out, sweep;
   std::filesystem::path points;  // a file like points.jsonl
-  PointLines lines;              // of it
+  PointLines lines;              // lines of that file
 };
 
-// Runs every point of the chunk that has no result yet. A point that fails leaves failure.json and
-// does not stop the others. ConfigError where an input is not what was planned; FileError where
-// results cannot be written. Returns the exit code: 0, or kInterruptedExit.
+// Runs every point of the chunk that has no result yet. A failed point writes failure.json and does
+// not stop the others. ConfigError if an input differs from the plan; FileError if results cannot
+// be written. Returns the exit code: 0, or kInterruptedExit.
 int run_chunk(const WorkerOptions& options);
 
-// A byte for each point that any worker begins, and another one for how it ends.
+// One byte per point started by any worker, and one for its outcome.
 std::filesystem::path progress_file(const std::filesystem::path& sweep);
 inline constexpr char kPointBegun = '>', kPointDone = '.', kPointFailed = 'x';
 struct PointCounts {
   std::uint64_t begun = 0, done = 0, failed = 0;
   std::uint64_t ended() const { return done + failed; }
 };
-// Nothing where nobody has begun.
+// Zero if no point has started.
 PointCounts read_progress(const std::filesystem::path& sweep);
 
 }  // namespace deburr::tool

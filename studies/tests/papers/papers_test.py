@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""`deburr papers`: is every table there, and does every verdict say what the docs say?
+"""`deburr papers`: every table exists, and every verdict is the documented one.
 
-The verdicts that speak against a paper or against us are listed below; any other one is a change
-that somebody must look at.
+The verdicts that contradict a paper or our own results are listed below; any other one is a change
+to be reviewed.
 
 usage: papers_test.py DEBURR
 """
@@ -16,7 +16,7 @@ import sys
 import tempfile
 import unittest
 
-# Table (its beginning): verdict of its rows, and the rows (their beginning) with another one.
+# By table (prefix): the verdict of its rows, and the rows (prefix) with another verdict.
 EXPECTED_000 = {
     "Theorem 1": ("right", {"two steps of the rarer": "never", "random sequences of L": "insufficient"}),
     "Pseudo-code": ("right", {"as printed": "misprint"}),
@@ -34,11 +34,12 @@ EXPECTED_000 = {
         "tunnel deburr-line": "fourth", "plane deburr-line": "last", "cylinders deburr": "best",
         "object deburr": "best", "road deburr": "best", "quad deburr": "best",
         "tunnel deburr": "second", "plane deburr": "best"}),
-    # On silhouettes of signs mlaa is better by 0.6 dB at 512 pixels; on their edges, and at 256 on both, deburr is best.
+    # On silhouettes of signs mlaa is better by 0.6 dB at 512 pixels; on their edges, and at 256 on both, deburr is
+    # best.
     "Learned shares on frames": ("best", {"signs901_0": "third"}),
     "Cost of one more loop": ("less", {}),
 }
-# Few lines in a quick run: these rows lie close to what is asked.
+# A quick run has few lines, so these rows lie close to their bounds.
 MAY_DIFFER_000 = {
     "Complexity: corners": {"fewer", "more"},
     "RMSE": {"right", "worse", "-"},
@@ -61,7 +62,7 @@ EXPECTED_002 = {
         "sphere deburr": "best", "object deburr": "best", "terrain deburr": "second"}),
     "The order of edges": ("matters", {}),
 }
-# The same of paper 004, and the figures as the paper prints them.
+# The same for paper 004, and the figures as printed in the paper.
 EXPECTED_004 = {
     "Equation 7": ("right", {}, ["1/3", "0.219", "0.0377", "0.3284"]),
     "Table 1": ("right", {}, ["1.16", "0.38", "0.18"]),
@@ -110,12 +111,12 @@ class Papers(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done
 
-    def test_ends_well(self):
+    def test_all_papers_pass(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
         self.assertIn("RESULT: PASS papers: 4 reproduced", self.done.stdout)
         self.assertEqual(set(self.papers), {"000", "002", "003", "004"})
 
-    def test_every_picture_and_table_is_there(self):
+    def test_page_has_every_picture_and_table(self):
         with open(os.path.join(self.scratch.name, "index.html")) as file:
             page = html.unescape(file.read())
         pictures = [name for name in os.listdir(self.scratch.name) if name.endswith(".png")]
@@ -129,7 +130,7 @@ class Papers(unittest.TestCase):
                 self.assertTrue(table["title"] in page, table["title"])
 
     def assert_expected(self, paper, tables, may_differ=None):
-        """Each verdict, and no table that nobody expects, nor a row that is not there."""
+        """Checks each verdict, and that there are no unexpected tables or missing rows."""
         found, excepted = set(), set()
         for title, row, verdict in verdicts(self.papers[paper]):
             free = next((words for t, words in (may_differ or {}).items() if title.startswith(t)), None)
@@ -143,14 +144,15 @@ class Papers(unittest.TestCase):
         self.assertEqual(found, set(tables))
         self.assertEqual(excepted, {(t, other) for t in tables for other in tables[t][1]})
 
-    def test_000_says_what_is_known(self):
+    def test_000_has_expected_verdicts(self):
         self.assert_expected("000", EXPECTED_000, MAY_DIFFER_000)
 
-    def test_002_says_what_is_known(self):
+    def test_002_has_expected_verdicts(self):
         self.assert_expected("002", EXPECTED_002)
 
-    def test_savings_of_002_are_what_each_part_can_save(self):
-        """Of records at most half; of lines by one lane nearly nothing, by two half; of pixels most, but for the copy."""
+    def test_002_savings_stay_within_their_bounds(self):
+        """Saved records: at most half. Saved lines: nearly none with one lane, half with two. Saved pixels: most,
+        except for the copy."""
         rows = {(row["model"], row["edges drawn"]): row for table in self.papers["002"]["tables"]
                 if table["title"].startswith("Table 1") for row in table["rows"]}
         self.assertEqual(len(rows), 4 * 3 + 2)
@@ -169,16 +171,16 @@ class Papers(unittest.TestCase):
             copy = {int(r["cycles (c), with the copy"]) for r in (row, whole)}
             self.assertGreater(min(copy), 2 * 1280 * 720 / 16)
 
-    def test_004_says_what_is_known(self):
+    def test_004_has_expected_verdicts(self):
         self.assert_expected("004", EXPECTED_004)
 
-    def test_004_is_quoted_as_it_is_printed(self):
+    def test_004_quotes_the_printed_figures(self):
         for table in self.papers["004"]["tables"]:
             printed = next(e[2] for t, e in EXPECTED_004.items() if table["title"].startswith(t))
             with self.subTest(table["title"]):
                 self.assertEqual([row["paper"] for row in table["rows"]], printed)
 
-    def test_what_is_not_reproduced_says_why(self):
+    def test_rows_not_reproduced_give_a_reason(self):
         rows = [row for table in self.papers["004"]["tables"]
                 if table["title"].startswith("Tables 3 and 4") for row in table["rows"]]
         for row in rows:
@@ -189,7 +191,7 @@ class Papers(unittest.TestCase):
                 self.assertEqual(row["why"], "-")
                 self.assertNotEqual(row["ours"], "-")
 
-    def test_fans_check_every_row_but_none_and_those_of_the_contract(self):
+    def test_fans_have_verdicts_except_open_ended_rows(self):
         tables = [t for t in self.papers["000"]["tables"] if t["title"].startswith("RMSE")]
         self.assertEqual(len(tables), 2)
         for table in tables:
@@ -201,7 +203,7 @@ class Papers(unittest.TestCase):
             rows = {row["line"]: row for row in table["rows"]}
             self.assertEqual(list(rows["chord N = 0"].values())[1:-1], list(rows["mlaa"].values())[1:-1])
 
-    def test_003_is_right_but_where_it_merges_with_offsets(self):
+    def test_003_is_right_except_merging_with_offsets(self):
         found = list(verdicts(self.papers["003"]))
         for title, row, verdict in found:
             if title.startswith("What merging"):
@@ -217,7 +219,7 @@ class Papers(unittest.TestCase):
         for row in floor:
             self.assertLess(1.2 * float(row["dynamic, floor 2/255"]), float(row["dynamic"]))
 
-    def test_deburr_is_below_every_preset_on_lines(self):
+    def test_deburr_beats_every_preset_on_lines(self):
         rows = {row["rules"]: row for table in self.papers["003"]["tables"]
                 if table["title"].startswith("Quality matrix: lines") for row in table["rows"]}
         self.assertEqual(len(rows), 17)
@@ -225,7 +227,7 @@ class Papers(unittest.TestCase):
             if not name.startswith("deburr"):
                 self.assertEqual(row["verdict"], "behind", name)
 
-    def test_every_rule_takes_a_pixel_a_clock(self):
+    def test_every_configuration_takes_a_pixel_per_cycle(self):
         rows = [row for table in self.papers["003"]["tables"]
                 if table["title"].startswith("Quality matrix: cost") for row in table["rows"]]
         self.assertEqual(len(rows), 14)
@@ -233,14 +235,14 @@ class Papers(unittest.TestCase):
             self.assertEqual(row["verdict"], "right", row)
             self.assertGreaterEqual(float(row["37 %"]), 1, row)
 
-    def test_every_rule_is_shown(self):
+    def test_every_option_has_a_row(self):
         rows = [row["rules"] for table in self.papers["000"]["tables"]
                 if table["title"].startswith("The rules") for row in table["rows"]]
         self.assertEqual(rows[0], "mlaa")
         self.assertIn("+ trim", rows)
         self.assertEqual(len(rows), 14)
 
-    def test_quiet_says_the_result_alone(self):
+    def test_quiet_prints_only_the_result(self):
         for paper in self.papers:
             done = self.run_small("--quiet", only=paper)
             self.assertRegex(done.stdout, r"\ARESULT: PASS papers: 1 reproduced[^\n]*\n\Z")
@@ -255,8 +257,8 @@ class Papers(unittest.TestCase):
             self.assertEqual(answer["result"], json.load(file))
         self.assertEqual([paper["id"] for paper in answer["result"]["papers"]], ["004"])
 
-    def test_progress_is_shown_while_scenes_are_rendered(self):
-        """On a terminal, where it comes at once: the error stream is one."""
+    def test_terminal_shows_progress_while_rendering(self):
+        """A terminal gets progress at once: the error stream is one here."""
         leader, follower = pty.openpty()
         process = subprocess.Popen([DEBURR, "papers", "--quick", "--size", "64", "--only", "000", "--out",
                                     os.path.join(self.scratch.name, "small")],

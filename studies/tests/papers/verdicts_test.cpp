@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each verdict with figures that speak for the paper and with figures that speak against it.
+// Tests each verdict with figures that agree with the paper and figures that contradict it.
 #include "studies/papers/verdicts.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ using testing::ElementsAre;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Verdict, IsRightToTheLastPrintedDigitAndNoFurther) {
+TEST(Verdict, RoundsToThePrintedDigits) {
   EXPECT_EQ(verdict(1.16, 2, 1.1604, "wrong"), "right");
   EXPECT_EQ(verdict(1.16, 2, 1.1649, "wrong"), "right");
   EXPECT_EQ(verdict(1.16, 2, 1.1652, "wrong"), "wrong");
@@ -30,12 +30,12 @@ TEST(Verdict, IsRightToTheLastPrintedDigitAndNoFurther) {
   EXPECT_EQ(verdict(672, 0, 673, "other"), "other");
 }
 
-TEST(Papers, IdenticalPicturesAreCalledSo) {
+TEST(Papers, IdenticalPicturesAreLabelled) {
   EXPECT_EQ(decimals(41.256, 2), "41.26");
   EXPECT_EQ(decimals(std::numeric_limits<double>::infinity(), 2), "identical");
 }
 
-TEST(Verdict, TakesTheFigureAsItIsPrinted) {
+TEST(Verdict, ParsesThePrintedFigure) {
   EXPECT_EQ(verdict("0.219", 0.218951, "wrong"), "right");
   EXPECT_EQ(verdict("0.219", 0.2194, "wrong"), "right");
   EXPECT_EQ(verdict("0.219", 0.2196, "wrong"), "wrong");
@@ -51,12 +51,12 @@ TEST(Verdict, TakesTheFigureAsItIsPrinted) {
   EXPECT_THROW(verdict("", 3, "wrong"), spec::CheckFailed);
 }
 
-TEST(Verdict, SaysWhatOneOfTheTwoLacks) {
+TEST(Verdict, ReportsMissingFigure) {
   EXPECT_EQ(verdict("-", 3, "wrong"), "added");
   EXPECT_EQ(verdict("672", std::nullopt, "other"), "not reproduced");
 }
 
-TEST(Verdict, OfARowIsThatOfWhatItShows) {
+TEST(Verdict, RowIsCheckedAsDisplayed) {
   EXPECT_THAT(checked_row("c1", "0.219", 0.218951, 6, "wrong"),
               ElementsAre("c1", "0.219", "0.218951", "right"));
   EXPECT_THAT(checked_row("c1", "0.229", 0.218951, 4, "wrong"),
@@ -64,7 +64,7 @@ TEST(Verdict, OfARowIsThatOfWhatItShows) {
   EXPECT_THAT(checked_row("L", "-", 1.625, 3, "wrong"), ElementsAre("L", "-", "1.625", "added"));
 }
 
-TEST(Verdict, OfAClaimFallsWithTheFirstCaseAgainstIt) {
+TEST(Verdict, OneCounterexampleRefutesAClaim) {
   EXPECT_EQ(claim(0), "right");
   EXPECT_EQ(claim(1), "wrong");
   EXPECT_EQ(claim(0, "never", "happens"), "never");
@@ -82,7 +82,7 @@ TEST(Verdict, BelowIsStrictAndAtMostIsNot) {
   EXPECT_EQ(at_most(3, 2, "harmless", "misprint"), "misprint");
 }
 
-TEST(Methods, BeatOthersOnBothCounts) {
+TEST(Methods, BeatOthersOnEdgesAndSilhouettes) {
   EXPECT_TRUE(beats({30, 20}, {29, 19}));
   EXPECT_FALSE(beats({30, 19}, {29, 19})) << "no better on silhouettes";
   EXPECT_FALSE(beats({30, 18}, {29, 19}));
@@ -93,7 +93,7 @@ TEST(Methods, BeatOthersOnBothCounts) {
 }
 
 // none, MSAA, mlaa, mlaa-slope, deburr.
-TEST(Methods, AreBestOnlyIfTheyBeatNoneAndMsaaToo) {
+TEST(Methods, BestBeatsNoFilterAndMsaaToo) {
   constexpr std::size_t kDeburr = 4;
   std::array<Scores, 5> all = {{{22, 16}, {26, 20}, {28, 24}, {27, 23}, {32, 30}}};
   EXPECT_EQ(place(all, kDeburr), "best");
@@ -101,10 +101,10 @@ TEST(Methods, AreBestOnlyIfTheyBeatNoneAndMsaaToo) {
   EXPECT_EQ(place(all, 3), "third");
   EXPECT_EQ(place(all, 1), "fourth");
   EXPECT_EQ(place(all, 0), "last");
-  all[1] = {33, 20};  // MSAA, on edges alone
+  all[1] = {33, 20};  // MSAA, on edges only
   EXPECT_EQ(place(all, kDeburr), "second");
   all[1] = {26, 20};
-  all[0] = {33, 16};  // no anti-aliasing at all
+  all[0] = {33, 16};  // no anti-aliasing
   EXPECT_EQ(place(all, kDeburr), "second");
   all[1] = {33, 33};
   EXPECT_EQ(place(all, kDeburr), "third");
@@ -114,7 +114,7 @@ TEST(Methods, AreBestOnlyIfTheyBeatNoneAndMsaaToo) {
   EXPECT_EQ(place(alone, 0), "best");
 }
 
-TEST(Configuration, BringWhatIsShown) {
+TEST(Configuration, EffectIsJudgedAsDisplayed) {
   const Figures before = {{10.0, 5.0}, {30.00, 20.00}};
   EXPECT_EQ(brings(before, {{10.0, 5.0}, {30.00, 20.00}}, 1, 2), "same");
   EXPECT_EQ(brings(before, {{9.9, 5.0}, {30.00, 20.00}}, 1, 2), "better");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the rules outermost, area, crease_depth and cull are worth: on scenes that the project
-// knows, and on meshes and cameras that nothing was tuned on
-// (docs/measurements/geometric_quality.md).
+// Gain of the options outermost, area, crease_depth and cull: on scenes of the project, and on
+// meshes and cameras that nothing was tuned on (docs/measurements/geometric_quality.md).
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
@@ -31,16 +30,16 @@ using tb::geometric::Checker;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-// ---- the rules, one after the other -------------------------------------------------------------
+// ---- one option at a time -----------------------------------------------------------------------
 
-// `deburr` without what this test is about.
+// Preset `deburr` without the options under test.
 Parameters plain() {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.cull = Cull::kBack;
   p.coverage = CoverageRule::kDistance;
   p.crease_depth = 0;
   p.combine = Combine::kMax;
-  p.face_limit = 1 << 17;  // of what is far and fine
+  p.face_limit = 1 << 17;  // for distant, fine meshes
   return p;
 }
 
@@ -77,7 +76,7 @@ struct Measured {
   Figures none, msaa;
   std::vector<Figures> ways;
   std::vector<std::uint64_t> lines;    // of memory, read and written
-  std::vector<std::uint64_t> columns;  // walked
+  std::vector<std::uint64_t> columns;  // columns walked
 };
 
 std::uint64_t lines_of_memory(const golden::geometric::Traffic& traffic) {
@@ -139,7 +138,7 @@ void print_gains(const char* which, const std::vector<Measured>& all) {
   }
 }
 
-// What is asked: silhouettes, in the mean; edges nowhere worse; lines of memory, in the mean.
+// Requires the mean gain on silhouettes, no loss on any scene's edges, and the mean memory traffic.
 void expect_gain(const std::vector<Measured>& all, double silhouettes) {
   EXPECT_GE(gain_of(all, kAll, &Figures::silhouettes).mean, silhouettes);
   EXPECT_GE(gain_of(all, kAll, &Figures::edges).worst, -0.2);
@@ -151,9 +150,9 @@ void expect_gain(const std::vector<Measured>& all, double silhouettes) {
   EXPECT_LE(lines, 1.05 * static_cast<double>(all.size()));
 }
 
-// ---- scenes that the project knows --------------------------------------------------------------
+// ---- scenes of the project ----------------------------------------------------------------------
 
-TEST(LineConfiguration, GainOnKnownScenes) {
+TEST(LineConfiguration, GainsOnProjectScenes) {
   std::vector<Measured> all;
   for (const char* name :
        {"cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "road", "terrain"})
@@ -162,9 +161,9 @@ TEST(LineConfiguration, GainOnKnownScenes) {
   expect_gain(all, 3);
 }
 
-// ---- and that it does not -----------------------------------------------------------------------
+// ---- scenes that nothing was tuned on -----------------------------------------------------------
 
-TEST(LineConfiguration, GainOnOtherSolids) {
+TEST(LineConfiguration, GainsOnOtherSolids) {
   std::vector<Measured> all;
   for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {1u, 2u})
@@ -173,7 +172,7 @@ TEST(LineConfiguration, GainOnOtherSolids) {
   expect_gain(all, 1.5);
 }
 
-TEST(LineConfiguration, GainOnOthersMeshes) {
+TEST(LineConfiguration, GainsOnThirdPartyMeshes) {
   DEBURR_REQUIRE_DATA(data);
   std::vector<Measured> all;
   for (const char* name : {"kenney_truck", "teapot", "wing_open", "sphere32"}) {
@@ -186,8 +185,8 @@ TEST(LineConfiguration, GainOnOthersMeshes) {
   expect_gain(all, 2);
 }
 
-// Drawn once the rules stood.
-TEST(LineConfiguration, GainOnWhatNothingWasTunedOn) {
+// First rendered after the options were final.
+TEST(LineConfiguration, GainsOnHeldOutScenes) {
   std::vector<Measured> all;
   for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {11u, 12u})
@@ -205,14 +204,14 @@ TEST(LineConfiguration, GainOnWhatNothingWasTunedOn) {
   expect_gain(all, 2);
 }
 
-// ---- the preset against the one before ----------------------------------------------------------
+// ---- the preset against its predecessor ---------------------------------------------------------
 
 struct Presets {
   std::string name;
   Figures before, after;
-  // Of memory, without crossing lines: before, with the three rules, and with both sides drawn.
+  // Memory lines without crossing lines: before, with the three options, and with both sides drawn.
   std::uint64_t lines_before = 0, lines_of_configuration = 0, lines_after = 0;
-  std::size_t crossing = 0;  // lines along which surfaces cross
+  std::size_t crossing = 0;  // lines where surfaces intersect
 };
 
 Presets measure_presets(const tb::Scene& scene, const std::string& name) {
@@ -249,7 +248,7 @@ Presets measure_presets(const tb::Scene& scene, const std::string& name) {
   return m;
 }
 
-// Gains in the mean, edges nowhere worse, and lines of memory that the rules take.
+// Checks mean gains, no loss on edges, and memory lines added by the options.
 void check_presets(const char* which, const std::vector<Presets>& all, double silhouettes) {
   Figures mean, worst{1e9, 1e9};
   double configuration = 0, after = 0, through = 0;
@@ -290,11 +289,11 @@ void check_views(const char* which, Half half) {
   check_presets(fmt::format("{}, other meshes", which).c_str(), others, 2);
 }
 
-TEST(Presets, GainOnOneHalf) { check_views("one half", Half::kChosenBy); }
-TEST(Presets, GainOnTheOther) { check_views("the other", Half::kHeldOut); }
+TEST(Presets, GainOnSelectionViews) { check_views("one half", Half::kChosenBy); }
+TEST(Presets, GainOnHeldOutViews) { check_views("the other", Half::kHeldOut); }
 
-// Drawn once crease_depth was 3, which was chosen by views of both halves.
-TEST(Presets, GainOnWhatCreaseDepthWasNotChosenBy) {
+// First rendered after crease_depth = 3 was chosen with views of both halves.
+TEST(Presets, GainOnViewsUnusedForCreaseDepth) {
   std::vector<Presets> all;
   for (const double degrees : {0.0, 53.0}) {
     all.push_back(measure_presets(turned(make_solids("plates", 41), degrees),
@@ -306,8 +305,8 @@ TEST(Presets, GainOnWhatCreaseDepthWasNotChosenBy) {
   check_presets("never looked at", all, 1);
 }
 
-// Where every face is turned away.
-TEST(Presets, SmoothInsideOfACube) {
+// Every face is turned away from the camera.
+TEST(Presets, SmoothInsideACube) {
   for (const double degrees : {0.0, 33.0, 71.0, 118.0}) {
     const Checker checker(inside_a_cube(degrees), kWidth, kHeight, 8);
     const Image before = tb::geometric::smoothed(checker.frame, plain()).image,
@@ -321,9 +320,9 @@ TEST(Presets, SmoothInsideOfACube) {
   }
 }
 
-// ---- surfaces through each other ----------------------------------------------------------------
+// ---- intersecting surfaces ----------------------------------------------------------------------
 
-TEST(Crossings, AreWorthMoreThanAllRules) {
+TEST(Crossings, GainFourDecibelsOnAverage) {
   double mean = 0, worst = 1e9;
   std::size_t views = 0;
   for (const char* kind : {"crossing", "floor"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which way of joining the geometric and the morphological engine smooths best? Every way on every
-// scene from its own camera and from others that nothing was tuned on, against supersampling
+// Compares ways of combining the geometric and the morphological engine: on every scene from its
+// own camera and from others that nothing was tuned on, against supersampling
 // (docs/measurements/geometric_quality.md, "Both engines").
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ Parameters configuration(Preset preset, Bypass bypass = Bypass::kNone) {
   return p;
 }
 
-// Edges of luma where depth has one, by the fitted line.
+// Luma edges at depth edges, blended by the fitted line.
 Parameters at_depth(Bypass bypass) {
   Parameters p = configuration(Preset::kDeburrLine, bypass);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
@@ -79,7 +79,7 @@ std::vector<NearestEdges> channels_of(const GeometricGolden& golden) {
   return golden::ideal::nearest_edges(weights);
 }
 
-// Blended by the channels alone, in the light of the engine's tables.
+// Blends by the channels only, in the light of the engine's tables.
 Image blended_by(const std::vector<NearestEdges>& channels, const Image& frame) {
   std::vector<Light> light;
   for (const tb::Rgba8& pixel : frame.pixels) {
@@ -98,9 +98,9 @@ Image blended_by(const std::vector<NearestEdges>& channels, const Image& frame) 
   return image;
 }
 
-// The channels as edges between pixels: between a pixel and the neighbour that it would take from.
-// A line gives one such edge a column; where it goes on a row further the edge across, at which
-// runs end, is missing, and is put in.
+// Converts the channels to edges between pixels: between a pixel and the neighbour that it blends
+// with. A line gives one such edge per column. Where the line moves on by one row, the crossing
+// edge that ends a run is missing and is added.
 EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int height) {
   EdgePlanes edges;
   for (auto* plane : {&edges.left, &edges.top}) plane->resize(width, height);
@@ -130,7 +130,7 @@ EdgePlanes edges_of(const std::vector<NearestEdges>& channels, int width, int he
   return result;
 }
 
-// Luma's edges where one of the two pixels has a channel.
+// Luma edges where one of the two pixels has a channel.
 EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image& frame) {
   MorphologicalGolden golden(configuration(Preset::kDeburrLine),
                              MorphologicalGolden::Detail::kPixels);
@@ -152,7 +152,7 @@ EdgePlanes luma_edges_at(const std::vector<NearestEdges>& channels, const Image&
   return result;
 }
 
-// ---- all ways -----------------------------------------------------------------------------------
+// ---- all combinations ---------------------------------------------------------------------------
 
 struct Figures {
   double edges = 0, silhouettes = 0;  // RMSE
@@ -161,7 +161,7 @@ using Table = std::map<std::string, Figures>;
 
 double better_by(double a, double than) { return 20 * std::log10(than / a); }  // dB
 
-// By learned weights and their own edges.
+// Learned weights with their own edges.
 constexpr std::pair<const char*, Bypass> kFollowers[] = {{"nothing left", Bypass::kNone},
                                                          {"marked", Bypass::kMarked},
                                                          {"beside", Bypass::kBeside},
@@ -207,8 +207,8 @@ Table measure(const tb::Scene& scene, const std::string& name, int width, int he
   return table;
 }
 
-// What is asked of every scene and camera. Where lines that are not seen lie within a pixel of
-// those that are (terrain), the geometric engine's own weights are wrong.
+// Checked for every scene and camera. Where hidden lines lie within a pixel of visible ones
+// (terrain), the geometric engine's own weights are wrong.
 void check_ways(const Table& t, bool lines_are_apart) {
   const auto gain = [&](const char* way, const char* than) {
     return Figures{better_by(t.at(way).edges, t.at(than).edges),
@@ -219,19 +219,19 @@ void check_ways(const Table& t, bool lines_are_apart) {
     EXPECT_GT(gain(way, "geometric").silhouettes, -0.02) << way;
   }
   EXPECT_GT(gain("as built", "nothing left").silhouettes, 0.6);
-  // The channels say less than the four weights.
+  // The channels carry less information than the four weights.
   EXPECT_LT(gain("two channels", "geometric").edges, 0.2);
   if (!lines_are_apart) return;
   EXPECT_GT(gain("as built", "msaa4").silhouettes, 0);
   EXPECT_GT(gain("as built", "morphological").silhouettes, 1);
-  // Runs of edges say less than distances, whoever found the edges.
+  // Runs of edges carry less information than distances, regardless of who found the edges.
   EXPECT_LT(gain("channels as edges", "as built").silhouettes, -0.5);
   EXPECT_LT(gain("luma edges at channels", "as built").silhouettes, -0.4);
 }
 
 class Joined : public testing::TestWithParam<const char*> {};
 
-TEST_P(Joined, IsBestAsBuilt) {
+TEST_P(Joined, ImplementedCombinationIsBest) {
   const std::string name = GetParam();
   for (const int degrees : {0, 25, -50, 77}) {
     SCOPED_TRACE(degrees);
@@ -245,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Joined,
                          testing::Values("cube", "sphere", "wheelcover", "wing", "canopy",
                                          "cylinders", "object", "road", "terrain"));
 
-TEST(Joined, TracksToo) {
+TEST(Joined, ImplementedCombinationIsBestOnTrack) {
   DEBURR_REQUIRE_DATA(data);
   const tb::Camera cameras[] = {{{4.6, 2.6, 12.5}, {-0.6, 0.4, -4}, {0, 1, 0}, 1.0, 0.1},
                                 {{-4, 1.5, 10}, {2, 0.5, -4}, {0, 1, 0}, 1.0, 0.1},
@@ -259,7 +259,7 @@ TEST(Joined, TracksToo) {
   }
 }
 
-// ---- what follows, on views of every kind -------------------------------------------------------
+// ---- consequences, on views of every kind -------------------------------------------------------
 
 struct Way {
   const char* name;
@@ -294,7 +294,7 @@ struct Gain {
   std::string view;
 };
 
-// Each way's gain over the geometric engine alone, and over the better of the two engines alone.
+// Gain of each combination over the geometric engine alone, and over the better single engine.
 struct Gains {
   // edges, silhouettes
   std::array<Gain, 2> over_geometric, over_better;
@@ -342,7 +342,8 @@ std::map<std::string, Gains> gains_of_followers(Half half, const std::filesystem
   return gains;
 }
 
-// What is built takes nothing from the geometric engine, on any view; so does no other that gains.
+// On every view, the implemented combination loses nothing against the geometric engine; the same
+// holds for every other combination that gains.
 void check_followers(const std::map<std::string, Gains>& gains) {
   const Gains& built = gains.at("as built");
   for (std::size_t i = 0; i < 2; ++i) {
@@ -351,28 +352,28 @@ void check_followers(const std::map<std::string, Gains>& gains) {
     for (const char* other : {"half, line, luma at depth", "marked", "half"})
       EXPECT_GT(built.over_geometric[i].worst, gains.at(other).over_geometric[i].worst) << other;
   }
-  // Edges of textures that nothing has filtered: there the morphological engine alone is better.
+  // Edges of unfiltered textures: here the morphological engine alone is better.
   EXPECT_LT(built.over_better[0].worst, -2);
   EXPECT_GT(gains.at("masked").over_better[0].worst, -0.5);
 }
 
-// Rules were chosen by these.
-TEST(Followers, TakeNothingWhereRulesWereChosen) {
+// The views that the configuration was chosen on.
+TEST(Followers, LoseNothingOnSelectionViews) {
   DEBURR_REQUIRE_DATA(data);
   check_followers(gains_of_followers(Half::kChosenBy, data));
 }
 
-// And nothing by these.
-TEST(Followers, TakeNothingOnTheOtherHalf) {
+// Held-out views.
+TEST(Followers, LoseNothingOnHeldOutViews) {
   DEBURR_REQUIRE_DATA(data);
   check_followers(gains_of_followers(Half::kHeldOut, data));
 }
 
 // ---- the outermost line -------------------------------------------------------------------------
 
-TEST(Outermost, MendsHiddenLines) {
+TEST(Outermost, ReducesErrorsOfHiddenLines) {
   spec::geometric::Parameters p = marking();
-  p.coverage = spec::geometric::CoverageRule::kDistance;  // this rule alone
+  p.coverage = spec::geometric::CoverageRule::kDistance;  // only this option
   p.crease_depth = 0;
   for (const char* name : {"wheelcover", "canopy", "cylinders", "object", "terrain"}) {
     for (const int degrees : {0, 25, -50, 77}) {
@@ -399,7 +400,7 @@ TEST(Outermost, MendsHiddenLines) {
   }
 }
 
-// ---- of the channels alone ----------------------------------------------------------------------
+// ---- the channels by themselves -----------------------------------------------------------------
 
 // The nearer side of each axis, and the neighbour across the nearer edge of both.
 TEST(NearestEdges, KeepTheNearerSide) {

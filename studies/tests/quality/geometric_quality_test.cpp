@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the geometric engine smooth edges as well as the contract asks, does selection pay, and
-// where is the method weak? Against supersampling (docs/measurements/geometric_quality.md).
+// The geometric engine's quality against supersampling: the contract's goals, the gain by
+// selection, and known weaknesses (docs/measurements/geometric_quality.md).
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ using tb::geometric::Smoothed;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-// The morphological engine behind the geometric one. More ways of joining the two:
+// The morphological engine after the geometric one. Other combinations:
 // geometric_morphological_test.cpp.
 Image morphological_after(const Image& geometric, Bypass bypass) {
   spec::morphological::Parameters configuration =
@@ -91,9 +91,8 @@ Table measure(const tb::Scene& scene, int width, int height, int samples) {
 
 // ---- the table ----------------------------------------------------------------------------------
 
-// RMSE on edge pixels over that of the aliased frame: the contract's columns, whose scenes had
-// other colours; its wing has none. `kept`: edges that the paper's selection leaves, by the
-// contract.
+// RMSE on edge pixels relative to the aliased frame: the contract's columns, whose scenes had other
+// colours; it has no wing. `kept`: edges left by the paper's selection, by the contract.
 struct Goal {
   const char* scene;
   double of_aliased;
@@ -109,7 +108,7 @@ void PrintTo(const Goal& goal, std::ostream* out) { *out << goal.scene; }
 
 class Goals : public testing::TestWithParam<Goal> {};
 
-TEST_P(Goals, AreKept) {
+TEST_P(Goals, EverySceneMeetsItsGoals) {
   const Goal& goal = GetParam();
   Table t = measure(tb::make_scene(goal.scene), kWidth, kHeight, 16);
   const auto rmse = [&](const char* row) { return t.rows.at(row).edges; };
@@ -118,12 +117,12 @@ TEST_P(Goals, AreKept) {
   EXPECT_LT(rmse("gpaa-optimised"), rmse("gpaa"));
   EXPECT_LE(rmse("deburr"), 1.05 * rmse("gpaa-optimised"));
   EXPECT_LT(rmse("gpaa"), rmse("none"));
-  // Above MSAA 4x, on silhouettes too, alone and with the morphological engine behind it.
+  // Above MSAA 4x, also on silhouettes, both alone and followed by the morphological engine.
   for (const char* row : {"deburr", "both", "both, beside"}) {
     EXPECT_GT(t.rows.at(row).edge_psnr, t.rows.at("msaa4").edge_psnr) << row;
     EXPECT_GT(t.rows.at(row).silhouette_psnr, t.rows.at("msaa4").silhouette_psnr) << row;
   }
-  // What lies beside blended pixels must stay, or silhouettes are smoothed twice.
+  // Neighbours of blended pixels must stay unchanged, or silhouettes are smoothed twice.
   EXPECT_GE(t.rows.at("both, beside").silhouette_psnr, t.rows.at("deburr").silhouette_psnr - 0.005);
   EXPECT_EQ(t.table_edges, goal.all);
   if (goal.kept != 0) {
@@ -136,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Goals, testing::ValuesIn(kGoals));
 
 class Others : public testing::TestWithParam<const char*> {};
 
-TEST_P(Others, AreBetterThanTheFrame) {
+TEST_P(Others, HalveTheSilhouetteError) {
   const Table t = measure(tb::make_scene(GetParam()), kWidth, kHeight, 16);
   EXPECT_LT(t.rows.at("deburr").silhouettes, 0.5 * t.rows.at("none").silhouettes);
   EXPECT_LT(t.rows.at("deburr").edges, t.rows.at("gpaa").edges);
@@ -144,8 +143,8 @@ TEST_P(Others, AreBetterThanTheFrame) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Others, testing::Values("canopy", "terrain", "road", "cylinders"));
 
-// The second textured scene of the contract is a mesh of someone else's.
-TEST(Goals, TheTrackIsKept) {
+// The second textured scene of the contract is a third-party mesh.
+TEST(Goals, TrackMeetsItsGoals) {
   DEBURR_REQUIRE_DATA(data);
   tb::SceneOptions options;
   options.camera = tb::Camera{{4.6, 2.6, 12.5}, {-0.6, 0.4, -4}, {0, 1, 0}, 1.0, 0.1};
@@ -157,15 +156,15 @@ TEST(Goals, TheTrackIsKept) {
   EXPECT_EQ(t.work[Preset::kDeburr].kept_edges, 13875u);
 }
 
-// ---- what the rules are for ---------------------------------------------------------------------
+// ---- the purpose of each option -----------------------------------------------------------------
 
-// The checks above can fail: each rule that is taken away costs what the page says.
-TEST(Configuration, EachPays) {
+// Injected faults: removing an option costs what the page says.
+TEST(Configuration, RemovingAnOptionCostsQuality) {
   struct Case {
     const char* scene;
     const char* name;
     void (*change)(Parameters&);
-    double at_least;  // of the error with the rule
+    double at_least;  // relative to the error with the option
   };
   const Case cases[] = {
       {"sphere", "depth_test own", [](Parameters& p) { p.depth_test = DepthTest::kOwn; }, 3.0},
@@ -182,7 +181,7 @@ TEST(Configuration, EachPays) {
         checks.try_emplace(c.scene, tb::make_scene(c.scene), kWidth, kHeight, 8).first;
     const Checker& checker = found->second;
     Parameters p = preset_parameters(Preset::kDeburr);
-    // Outermost lines and limited creases hide what another rule leaves out.
+    // Outermost lines and limited creases would mask the effect of another option.
     p.combine = spec::geometric::Combine::kMax;
     p.coverage = spec::geometric::CoverageRule::kDistance;
     p.crease_depth = 0;
@@ -194,9 +193,9 @@ TEST(Configuration, EachPays) {
   }
 }
 
-// ---- the weak spot ------------------------------------------------------------------------------
+// ---- known weakness -----------------------------------------------------------------------------
 
-// White bars of a width, slightly turned, on black.
+// White bars of one width, slightly rotated, on black.
 tb::Scene bars(double width) {
   tb::test::FlatScreen screen(256);
   for (int i = 0; i < 8; ++i) {
@@ -211,10 +210,10 @@ tb::Scene bars(double width) {
   return screen.scene();
 }
 
-// Two edges within a pixel: each blends with the neighbour across it as if the other were not
-// there, and what has no pixel of its own cannot be blended at all.
-TEST(WeakSpot, TwoEdgesWithinAPixel) {
-  std::map<double, double> left;  // of the aliased error
+// Two edges within a pixel: each blends with the neighbour across it as if the other did not exist,
+// and a part without a pixel of its own cannot be blended at all.
+TEST(WeakSpot, LinesThinnerThanAPixelStayAliased) {
+  std::map<double, double> left;  // relative to the aliased error
   for (const double width : {0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 6.0}) {
     const Checker checker(bars(width), 256, 256, 16);
     const double none = checker.edge_rmse(checker.frame.image);
@@ -228,9 +227,9 @@ TEST(WeakSpot, TwoEdgesWithinAPixel) {
   for (const double thin : {0.25, 0.5, 0.75}) EXPECT_GT(left.at(thin), 0.5);
 }
 
-// What a texture draws is no edge of the mesh: leaves and fences that its alpha cuts out look so,
-// too. The morphological engine behind it finds them.
-TEST(WeakSpot, EdgesOfATexture) {
+// Edges within a texture are not edges of the mesh; alpha-tested leaves and fences behave the same
+// way. The morphological engine after it finds them.
+TEST(WeakSpot, TextureEdgesNeedTheMorphologicalEngine) {
   tb::test::FlatScreen screen(256);
   screen.rectangle(8, 8, 248, 248);
   Image& leaves = screen.scene().mesh.textures[0].image;

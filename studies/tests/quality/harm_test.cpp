@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the tables of harm in docs/measurements/morphological_harm.md, and of FLIP and SSIM in
-// morphological_quality.md beside it, what is measured today? And are the frames what the page says
-// of them?
+// The tables in docs/measurements/morphological_harm.md, and those of FLIP and SSIM in
+// morphological_quality.md, are up to date; the frames have the properties that the page states.
 #include "studies/quality/harm.h"
 
 #include <gtest/gtest.h>
@@ -31,52 +30,53 @@ using harm::Text;
 
 constexpr const char *kPage = "measurements/morphological_harm.md",
                      *kQualityPage = "measurements/morphological_quality.md",
-                     *kFormula = "MorphologicalHarm.OfFramesByFormula",
-                     *kGuard = "MorphologicalHarm.OfTheTextGuard",
-                     *kData = "MorphologicalHarm.OfFramesOfOthers";
+                     *kFormula = "MorphologicalHarm.ProceduralFramesMatchPage",
+                     *kGuard = "MorphologicalHarm.TextGuardMatchesPage",
+                     *kData = "MorphologicalHarm.ThirdPartyFramesMatchPage";
 
-TEST(MorphologicalHarm, OfFramesByFormula) {
+TEST(MorphologicalHarm, ProceduralFramesMatchPage) {
   expect_generated(kPage, kFormula, harm::formula_tables());
 }
 
-TEST(MorphologicalHarm, OfFramesOfOthers) {
+TEST(MorphologicalHarm, ThirdPartyFramesMatchPage) {
   if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
     GTEST_SKIP() << "no " << missing
                  << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
   expect_generated(kPage, kData, harm::data_tables(data_folder()));
 }
 
-TEST(MorphologicalHarm, OfFramesWithTruth) {
-  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesWithTruth",
+TEST(MorphologicalHarm, ProceduralReferencesMatchPage) {
+  expect_generated(kQualityPage, "MorphologicalHarm.ProceduralReferencesMatchPage",
                    harm::formula_frames_with_reference());
 }
 
-TEST(MorphologicalHarm, OfFramesOfOthersWithTruth) {
+TEST(MorphologicalHarm, ThirdPartyReferencesMatchPage) {
   if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
     GTEST_SKIP() << "no " << missing
                  << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
-  expect_generated(kQualityPage, "MorphologicalHarm.OfFramesOfOthersWithTruth",
+  expect_generated(kQualityPage, "MorphologicalHarm.ThirdPartyReferencesMatchPage",
                    harm::data_frames_with_reference(data_folder()));
 }
 
-TEST(MorphologicalHarm, OfTheTextGuard) { expect_generated(kPage, kGuard, harm::guard_tables()); }
-
-TEST(MorphologicalHarm, OfTheTextGuardOnWires) {
-  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnWires", harm::wires_table());
+TEST(MorphologicalHarm, TextGuardMatchesPage) {
+  expect_generated(kPage, kGuard, harm::guard_tables());
 }
 
-TEST(MorphologicalHarm, OfTheTextGuardOnFramesOfOthers) {
+TEST(MorphologicalHarm, TextGuardOnWiresMatchesPage) {
+  expect_generated(kPage, "MorphologicalHarm.TextGuardOnWiresMatchesPage", harm::wires_table());
+}
+
+TEST(MorphologicalHarm, ThirdPartyTextGuardMatchesPage) {
   if (const std::string missing = harm::missing_data(data_folder()); !missing.empty())
     GTEST_SKIP() << "no " << missing
                  << ": set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/";
-  expect_generated(kPage, "MorphologicalHarm.OfTheTextGuardOnFramesOfOthers",
+  expect_generated(kPage, "MorphologicalHarm.ThirdPartyTextGuardMatchesPage",
                    harm::data_guard_table(data_folder()));
 }
 
-// What it is for: of aliased text at most a fifth of the pixels change that changed before, also on
-// pages smaller than those of the tables.
-// Smoothed text it does not find.
-TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {
+// Purpose of the guard: at most a fifth as many pixels of aliased text change, also on pages
+// smaller than those of the tables. The guard does not find smoothed text.
+TEST(MorphologicalHarm, GuardCutsChangedTextToAFifth) {
   for (const harm::GuardedText& page : harm::guarded_text(240, 180)) {
     const int kind = static_cast<int>(page.kind);
     EXPECT_GT(page.without, 20) << kind;
@@ -87,14 +87,14 @@ TEST(MorphologicalHarm, OfTextIsAFifthWithTheGuard) {
   }
 }
 
-// The last line of a table, and the one above which its rows begin.
+// The last line of a table, and the header line above its rows.
 std::pair<std::string, std::string> head_and_last_row(const std::string& table) {
   const std::size_t head = table.find("\n| |"), last = table.rfind("\n| ");
   return {table.substr(head + 1, table.find('\n', head + 1) - head),
           table.substr(last + 1, table.find('\n', last + 1) - last)};
 }
 
-// One row of a large table, which takes seconds.
+// Checks one row of a large table in seconds.
 void expect_row(const char* generated, std::string (*table)(Text)) {
   std::ifstream file(tb::source_folder() / "docs" / kPage, std::ios::binary);
   const std::string part =
@@ -108,27 +108,28 @@ void expect_row(const char* generated, std::string (*table)(Text)) {
   EXPECT_EQ(part.find(other_row), std::string::npos) << other_row;
 }
 
-TEST(MorphologicalHarm, OfAliasedText) { expect_row(kFormula, harm::text_table); }
+TEST(MorphologicalHarm, AliasedTextRowMatchesPage) { expect_row(kFormula, harm::text_table); }
 
-TEST(MorphologicalHarm, OfAliasedTextWithTheGuard) { expect_row(kGuard, harm::guarded_text_table); }
+TEST(MorphologicalHarm, GuardedAliasedTextRowMatchesPage) {
+  expect_row(kGuard, harm::guarded_text_table);
+}
 
 std::set<tb::Rgba8> colours(const Image& image) {
   return {image.pixels.begin(), image.pixels.end()};
 }
 
-TEST(HarmFrames, OfTextHaveTwoColoursUnlessSmoothed) {
+TEST(HarmFrames, OnlySmoothedTextHasMoreThanTwoColours) {
   for (const Text kind : {Text::kAliased, Text::kLightOnDark, Text::kBitmapFont})
     EXPECT_EQ(colours(text_page(kind, 160, 120)).size(), 2u) << static_cast<int>(kind);
   const Image smoothed = text_page(Text::kSmoothed, 160, 120);
   EXPECT_GT(colours(smoothed).size(), 20u);
-  // Ink where at least half of the pixel is ink: the aliased page is the smoothed one by a
-  // threshold.
+  // A pixel is ink if at least half of it is ink: the aliased page is the thresholded smoothed one.
   const Image aliased = text_page(Text::kAliased, 160, 120);
   for (std::size_t i = 0; i < aliased.pixels.size(); ++i)
     ASSERT_EQ(aliased.pixels[i][0] == 255, smoothed.pixels[i][0] > 138) << i;
 }
 
-TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
+TEST(HarmFrames, TextOverSceneHasLettersAndScene) {
   const Image frame = harm::text_over_scene(160, 120), scene = harm::landscape_photo(160, 120),
               page = text_page(Text::kAliased, 160, 120);
   int letters = 0;
@@ -140,11 +141,11 @@ TEST(HarmFrames, OfTextOverASceneHaveLettersAndTheScene) {
   EXPECT_GT(letters, 1000);
 }
 
-// Both have two colours, and the reference between them what a wire covers of a pixel: its mean is
-// that of the wires' area.
-TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
+// Both pictures have two colours, and the reference blends them by the wire's coverage: its mean
+// equals that of the wires' area.
+TEST(HarmFrames, WireReferenceBlendsByCoverage) {
   const Image upright = harm::wires(2, 90, 80, 40).frame;
-  // Wires at multiples of 40 pixels take the pixel on either side.
+  // Wires at multiples of 40 pixels cover the pixel on either side.
   for (int x = 0; x < 80; ++x)
     EXPECT_EQ(upright.at(x, 7)[0] == 40, x == 0 || x == 39 || x == 40 || x == 79) << x;
   for (const double thickness : {1.0, 1.5, 3.0}) {
@@ -166,7 +167,7 @@ TEST(HarmFrames, OfWiresAreTheWiresAndTheirCoverage) {
   }
 }
 
-TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
+TEST(HarmFrames, PixelArtHasSixteenColoursInBlocks) {
   const Image art = harm::pixel_art(1, 240, 160), large = harm::pixel_art(4, 240, 160);
   EXPECT_LE(colours(art).size(), 16u);
   EXPECT_GT(colours(art).size(), 10u);
@@ -175,7 +176,7 @@ TEST(HarmFrames, OfPixelArtHaveSixteenColoursAndBlocks) {
       ASSERT_EQ(large.at(x, y), large.at(x / 4 * 4, y / 4 * 4)) << x << ", " << y;
 }
 
-TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
+TEST(HarmFrames, TexturedFramesMatchReferenceExceptAtEdges) {
   for (int view = 0; view < 3; ++view) {
     const harm::Textured t = harm::textured_frame(view, 240, 180);
     const double edges =
@@ -185,7 +186,7 @@ TEST(HarmFrames, OfTexturesAreRightButAtEdges) {
   }
 }
 
-TEST(HarmFrames, ComeBackFromJpegChangedByItsQuality) {
+TEST(HarmFrames, JpegQualityDeterminesTheError) {
   const Image photo = harm::landscape_photo(160, 120), good = harm::compressed(photo, 90),
               poor = harm::compressed(photo, 50);
   EXPECT_GT(psnr(good, photo), 34);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Does deburr come nearer to supersampled reference than every other preset and than no filter, on
-// edges and on silhouettes, on every frame? On frames and meshes that others made (DEBURR_DATA, or
-// data beside the repository) and on the scenes that every clone has. Where it does not, is that
-// said (docs/measurements/morphological_quality.md, "Frames with a reference")?
+// Deburr is closer to the supersampled reference than every other preset and than no filter, on
+// edges and on silhouettes of every frame; exceptions must be listed
+// (docs/measurements/morphological_quality.md, "Learned weights"). Uses third-party frames and
+// meshes (DEBURR_DATA, or the data folder next to the repository) and the scenes in every clone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -89,7 +89,7 @@ class Checker {
   std::optional<tb::Mask> silhouettes_;
 };
 
-// SMAA in its qualities, and with the dynamic threshold of paper 003.
+// SMAA at each quality, and with the dynamic threshold of paper 003.
 std::vector<std::pair<std::string, spec::morphological::Parameters>> smaa_configuration() {
   std::vector<std::pair<std::string, spec::morphological::Parameters>> all;
   for (const auto quality :
@@ -132,15 +132,15 @@ std::vector<std::pair<std::string, spec::morphological::Parameters>> mixed_confi
   return all;
 }
 
-// Where another method is ahead of deburr, by how much at most, in dB. The quality page has the
-// same list.
+// Cases where another method is better than deburr, with the largest allowed difference in dB. The
+// quality page has the same list.
 struct Behind {
   std::string_view frame, method;
   double edges, silhouettes;
 };
 constexpr std::array<Behind, 1> kBehind = {{{"vehicle 2", "smaa medium", 0, 0.3}}};
 
-// Deburr is ahead of a method, or stands in kBehind. NaN: not compared.
+// Deburr beats the method, or the pair is listed in kBehind. NaN: not compared.
 void expect_ahead(const std::string& frame, const std::string& method, const Figures& deburr,
                   const Figures& other) {
   Behind said{frame, method, 0, 0};
@@ -157,7 +157,7 @@ void expect_ahead(const std::string& frame, const std::string& method, const Fig
   expect(deburr.silhouettes, other.silhouettes, said.silhouettes, "silhouettes");
 }
 
-// Above no filter and above every other preset; above mlaa by more than `margin` dB.
+// Better than no filter and than every other preset; better than mlaa by more than `margin` dB.
 void expect_deburr_best(const Checker& checker, double margin) {
   const Figures deburr = checker.check(Preset::kDeburr), mlaa = checker.check(Preset::kMlaa);
   EXPECT_GT(deburr.edges, mlaa.edges + margin);
@@ -199,7 +199,7 @@ TEST(MorphologicalFrames, DeburrIsBestOnTrackAt1080p) {
 }
 
 // The same scene from four other cameras.
-TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherSides) {
+TEST(MorphologicalFrames, DeburrIsBestOnTrackFromOtherCameras) {
   const std::filesystem::path mesh = data("meshes/scene_track.obj");
   if (!std::filesystem::exists(mesh))
     GTEST_SKIP() << "no " << mesh << ": set DEBURR_DATA to the folder that holds meshes/";
@@ -254,7 +254,7 @@ std::string name_of(const testing::TestParamInfo<Rendered>& info) {
   return name + "_" + std::to_string(info.param.width);
 }
 
-// Every clone has these. The weights were learned on them too.
+// Available in every clone. The weights were trained on them too.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, DeburrIsBest,
     testing::Values(Rendered{"cylinders", 640, 480, 3}, Rendered{"cylinders", 512, 512, 3},
@@ -263,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"quad", 512, 512, 0}),
     name_of);
 
-// Meshes that others made, from the camera that frames them. The weights were learned on them too.
+// Third-party meshes, from the camera that frames them. The weights were trained on them too.
 INSTANTIATE_TEST_SUITE_P(
     Meshes, DeburrIsBest,
     testing::Values(Rendered{"meshes/teapot.obj", 512, 512, 0.2},
@@ -286,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Rendered{"kenney/racing/models/decoration-forest.glb", 512, 512, 1}),
     name_of);
 
-// Not looked at before the rules were settled, and never learned from.
+// Held out: first evaluated after the configuration was final, and never trained on.
 INSTANTIATE_TEST_SUITE_P(
     HeldOut, DeburrIsBest,
     testing::Values(Rendered{"kenney/city/models/building-small-b.glb", 512, 512, 1},
@@ -317,7 +317,7 @@ struct StandIn {
 void PrintTo(const StandIn& s, std::ostream* out) { *out << s.kind << ' ' << s.seed; }
 
 class StandIns : public testing::TestWithParam<StandIn> {};
-TEST_P(StandIns, DeburrIsBestToo) {
+TEST_P(StandIns, DeburrIsBestOnStandIns) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("deburr_stand_in_{}", ::getpid());
   std::filesystem::create_directories(folder);
@@ -336,15 +336,15 @@ INSTANTIATE_TEST_SUITE_P(
                     StandIn{"forest", 1}, StandIn{"forest", 2}, StandIn{"forest", 3}),
     [](const auto& p) { return fmt::format("{}_{}", p.param.kind, p.param.seed); });
 
-// Nearly all edges are texture, which every analytic preset blends to its loss.
+// Nearly all edges are texture, which every analytic preset blends at a loss.
 INSTANTIATE_TEST_SUITE_P(Texture, DeburrIsBest,
                          testing::Values(Rendered{"tunnel", 512, 512, 1},
                                          Rendered{"plane", 512, 512, 4},
                                          Rendered{"meshes/terrain_open.obj", 512, 512, 2}),
                          name_of);
 
-// What is asked of weights that were learned without these frames.
-TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
+// Required of weights that were trained without these frames.
+TEST(MorphologicalFrames, LearnedWeightsMeetTheirBoundsOutOfSample) {
   if (!std::filesystem::exists(data("frames/track_720p_noaa.png")))
     GTEST_SKIP() << "no " << data("frames/track_720p_noaa.png")
                  << ": set DEBURR_DATA to the folder that holds frames/";
@@ -362,8 +362,8 @@ TEST(MorphologicalFrames, LearnedSharesKeepTheirFiguresOutOfSample) {
       31.5);
 }
 
-// The check can fail: without the line fit and its edges there is nothing to be better by.
-TEST(MorphologicalFrames, AWorseFilterIsCaught) {
+// Injected fault: without the line fit and its edges the gain is gone.
+TEST(MorphologicalFrames, DetectsWorseFilter) {
   const tb::LitFrames lit = tb::render_lit_frames(tb::make_scene("cylinders"), 320, 240, 8);
   const Checker checker("cylinders", lit.noaa, lit.reference, lit.depth);
   spec::morphological::Parameters worse = preset_parameters(Preset::kDeburrLine);

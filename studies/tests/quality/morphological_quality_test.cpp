@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the engine smooth straight edges as well as the contract asks? Fans of lines, three seeds,
-// against analytic coverage; both distributions of u are printed; and discs
+// The engine smooths straight edges as well as the contract requires: fans of lines, three seeds,
+// against analytic coverage, with both distributions of u printed; and discs
 // (docs/measurements/morphological_quality.md).
 #include <gmock/gmock.h>
 
@@ -39,19 +39,19 @@ std::map<std::string, FanFigures, std::less<>> table(const char* title, const Fa
   return result;
 }
 
-TEST(MorphologicalQuality, NoRowIsWorseThanTheContracts) {
+TEST(MorphologicalQuality, EveryRowMeetsTheContract) {
   using tb::stimuli::asked_of_ours;
   const auto figures =
       table("u in [0.05, 0.95]", {}, {"deburr-line", "deburr", "fit N = 4", "fit N = 16"});
   for (const char* ours : {"deburr-line", "deburr", "fit N = 16"})
     EXPECT_THAT(exceeded(asked_of_ours(), figures.find(ours)->second), testing::IsEmpty()) << ours;
-  // Four steps a side: the jump is 4.0 where the contract's program found 3.7.
+  // Four steps per side: the jump is 4.0 where the contract's program found 3.7.
   EXPECT_THAT(exceeded(asked_of_ours(), figures.at("fit N = 4")), testing::ElementsAre("jump"));
   EXPECT_THAT(exceeded(asked_of_ours(), figures.at("fit N = 4"), 0.1), testing::IsEmpty());
 }
 
-// The same measure as the contract's: what is not ours agrees with it by class.
-TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
+// The same measure as the contract's: methods other than ours agree with it by class.
+TEST(MorphologicalQuality, MeasureAgreesWithTheContract) {
   const auto figures = table("u in [0, 1], one seed", {.u_low = 0, .u_high = 1, .seeds = 1});
   for (FanLimit row : tb::stimuli::contract_figures()) {
     if (row.name == tb::stimuli::asked_of_ours().name) continue;
@@ -61,8 +61,8 @@ TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
     EXPECT_EQ(exceeded(row, figures.find(row.name)->second).size(),
               tb::stimuli::kSlopeClasses.size());
   }
-  // Lines near 1 / n are included: the fit has nothing to hold on to there. It stays better than
-  // chord and plain runs in every class; with N = 16 it keeps what the contract asks even so.
+  // Lines near 1 / n are included, where the fit has no reference points. It stays better than
+  // chord and plain runs in every class; with N = 16 it still meets the contract.
   const FanFigures &deburr = figures.at("deburr-line"), &chord = figures.at("chord N = 4"),
                    &mlaa = figures.at("mlaa");
   for (std::size_t c = 0; c < deburr.by_class.size(); ++c) {
@@ -74,7 +74,7 @@ TEST(MorphologicalQuality, TheMeasureIsTheContracts) {
   EXPECT_THAT(exceeded(asked, deburr), testing::ElementsAre("n = 2", "undulation"));
 }
 
-TEST(MorphologicalQuality, SteepLinesAreBoundByTheWindow) {
+TEST(MorphologicalQuality, DeburrBeatsMlaaOnSteepLines) {
   const auto figures = table("transposed, window_rows = 66",
                              {.lines = 16, .seeds = 1, .transposed = true}, {"deburr", "mlaa"});
   const FanFigures& deburr = figures.at("deburr");
@@ -94,8 +94,8 @@ FanRow rule_row(std::string_view name) {
   return {};
 }
 
-// An extension that a bend refutes must not cost what it won on straight lines.
-TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
+// An extension that a bend refutes must not cost what it gained on straight lines.
+TEST(MorphologicalQuality, FitDoesNotHarmCurves) {
   using tb::stimuli::DiscFigures;
   std::map<std::string, DiscFigures, std::less<>> figures;
   std::cout << "radius =      ";
@@ -110,18 +110,18 @@ TEST(MorphologicalQuality, CurvesLoseNothingByTheFit) {
                     &untrimmed = figures["+ N = 8"], &deburr = figures["+ trim"];
   EXPECT_LT(deburr.all, mlaa.all);
   EXPECT_LT(deburr.all, untrimmed.all);
-  // Learned weights leave curves no worse.
+  // Learned weights do not make curves worse.
   EXPECT_LT(figures["+ learned weights = deburr"].all, figures["+ T = 0.03 = deburr-line"].all);
   for (std::size_t i = 0; i < deburr.by_radius.size(); ++i) {
     EXPECT_LT(deburr.by_radius[i], paper.by_radius[i]);
     EXPECT_LT(deburr.by_radius[i], 1.08 * mlaa.by_radius[i]);  // small discs: 6 %
   }
-  // The check can fail: the paper's rules lose to plain runs on every radius.
+  // Injected fault: the paper's configuration loses to plain runs on every radius.
   for (std::size_t i = 0; i < paper.by_radius.size(); ++i)
     EXPECT_GT(paper.by_radius[i], 1.08 * mlaa.by_radius[i]);
 }
 
-TEST(MorphologicalQuality, AWorseFilterIsCaught) {
+TEST(MorphologicalQuality, DetectsWorseFilter) {
   FanRow row = tb::stimuli::fan_rows().back();
   row.parameters.predictor = spec::morphological::Predictor::kChord;  // the injected fault
   const FanFigures figures = measure_fans(smoothing_of(row), {.lines = 8, .seeds = 1});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The texture unit sees equally well in every direction: on photographs (those of the data folder,
-// or the one that ships) under a camera that turns, against a supersampled reference and beside the
-// exact ellipse. The paper's two axes do not, and show that the check can fail.
+// The texture unit filters equally well in every direction: on photographs (from the data folder,
+// or the one that ships) with a rotating camera, against a supersampled reference and the exact
+// ellipse. The paper's two axes do not, which shows that the check can fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,11 +30,11 @@ using spec::texture::Parameters;
 using spec::texture::Preset;
 using spec::texture::preset_parameters;
 
-// The candidates of eight axes, of four, and the directions between that are farthest from both.
+// The candidates of eight axes, of four, and the directions midway, farthest from both.
 constexpr double kDegrees[] = {0,    7.5, 11.25, 15, 22.5, 30,    33.75,
                                37.5, 45,  56.25, 60, 75,   78.75, 90};
 
-// By name; "stones" ships, so there is always one.
+// By name; "stones" ships with the project, so at least one exists.
 const std::map<std::string, PhotoTexture>& photos() {
   static const auto all = [] {
     std::map<std::string, PhotoTexture> result;
@@ -75,7 +75,7 @@ void print(const char* name, const std::vector<FilterFigures>& all) {
               worst.detail);
 }
 
-// By the name of a photograph.
+// The parameter is the name of a photograph.
 class TextureDirection : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Photographs, TextureDirection,
                          testing::Values("stones", "brick", "grass", "gravel"),
                          [](const auto& photo) { return std::string(photo.param); });
 
-TEST_P(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
+TEST_P(TextureDirection, EveryDirectionMatchesTheEllipse) {
   const PhotoTexture& photo = photos().at(name);
   std::vector<TurnedPhoto> views;
   for (const double degrees : kDegrees) views.emplace_back(photo, Turn{.degrees = degrees});
@@ -107,7 +107,7 @@ TEST_P(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
   };
   const Parameters paper = preset_parameters(Preset::kPaper);
   const Worst trilinear = show("trilinear", paper, 0), blind = show("the paper", paper);
-  // It can fail: turned by 45 degrees the paper's unit is a trilinear one.
+  // Injected fault: at 45 degrees the paper's unit degrades to a trilinear one.
   EXPECT_LT(blind.psnr, 36) << name;
   EXPECT_LT(blind.psnr, trilinear.psnr + 2) << name;
   EXPECT_LT(blind.detail, 0.25) << name;
@@ -129,7 +129,7 @@ TEST_P(TextureDirection, EveryDirectionIsAsGoodAsTheEllipse) {
 }
 
 // Vulkan's count follows the ratio; the paper's jumps by a level at powers of two.
-TEST_P(TextureDirection, AnyCountHasNoStepInTheRatio) {
+TEST_P(TextureDirection, AnyCountIsSmoothInTheRatio) {
   const PhotoTexture& photo = photos().at(name);
   for (const auto& [below, above] : {std::pair{3.9, 4.1}, std::pair{7.9, 8.1}}) {
     for (const double degrees : {0.0, 11.25, 22.5, 45.0, 70.0}) {
@@ -153,7 +153,7 @@ bool falls_strictly(const std::array<double, 5>& psnr) {
   return true;
 }
 
-TEST_P(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
+TEST_P(TextureDirection, MoreSamplesReduceAliasingAtEveryRoll) {
   const PhotoTexture& photo = photos().at(name);
   bool paper_falls = true;
   for (const double degrees : kDegrees) {
@@ -171,11 +171,10 @@ TEST_P(TextureDirection, AliasingFallsWithEverySampleMoreAtEveryRoll) {
   EXPECT_FALSE(paper_falls) << name;
 }
 
-// ---- injected faults
-// -----------------------------------------------------------------------------
+// ---- injected faults ----------------------------------------------------------------------------
 
-// The samples along P_x cos - P_y sin instead of P_x cos + P_y sin, in real arithmetic: what a sine
-// of the wrong sign, or the partner taken for the major axis, does at 45 degrees.
+// Samples along P_x cos - P_y sin instead of P_x cos + P_y sin, in real arithmetic: the effect at
+// 45 degrees of a sine with the wrong sign, or of taking the partner for the major axis.
 FilterFigures with_wrong_sine(const TurnedPhoto& view, const PhotoTexture& photo, bool wrong) {
   namespace ideal = golden::ideal;
   const double half = std::sqrt(0.5);
@@ -199,7 +198,7 @@ FilterFigures with_wrong_sine(const TurnedPhoto& view, const PhotoTexture& photo
   return view.check(rgba);
 }
 
-TEST(TextureDirectionFault, AWrongSineAndMissingSpreadAreSeen) {
+TEST(TextureDirectionFault, DetectsWrongSineAndMissingSpread) {
   const PhotoTexture& photo = photos().at("stones");
   const TurnedPhoto view(photo, {.degrees = 45});
   const Parameters own = preset_parameters(Preset::kDeburr);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A camera that zooms, rolls and pans over a photograph: how much the filtered pictures flicker
-// more than their reference. The paper's rules flicker most on roll, where its axes come and go.
+// A camera zooms, rolls and pans over a photograph: measures how much more the filtered pictures
+// flicker than their reference. The paper's configuration flickers most on roll, where its axes
+// switch.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,8 +64,8 @@ std::vector<Row> rows() {
           {"ellipse, any", configuration(Axes::kEight, CountRule::kAny), true}};
 }
 
-// The picture with the true ellipse of every pixel, in real arithmetic: what candidate axes and
-// fixed-point logarithms stand in for. Of scenes with one texture.
+// The picture filtered with the exact ellipse of every pixel in real arithmetic, which candidate
+// axes and fixed-point logarithms approximate. For scenes with one texture.
 tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& configuration) {
   namespace ideal = golden::ideal;
   const tb::Image& image = scene.scene().mesh.textures.front().image;
@@ -89,7 +90,7 @@ tb::Image ellipse_frame(const tb::TextureScene& scene, const Parameters& configu
   return frame.frame();
 }
 
-// By Which.
+// Indexed by Which.
 std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int frames,
                                  std::int32_t lod_bias = 0) {
   tb::SceneParameters scene;
@@ -118,7 +119,7 @@ std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int 
   return result;
 }
 
-TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
+TEST(TextureFlicker, IsBelowThePapersInEveryMotion) {
   const auto roll = flicker("stones", Motion::kRoll, 16),
              zoom = flicker("stones", Motion::kZoom, 8), pan = flicker("stones", Motion::kPan, 8);
   for (const std::size_t ours : {kFourCeil, kFourAny, kEightAny, kEightCeil}) {
@@ -128,14 +129,14 @@ TEST(TextureFlicker, OnRollIsThatOfTheOtherMotions) {
     EXPECT_LE(zoom[ours].mean, 0.85 * zoom[kPaper].mean) << rows()[ours].name;
     EXPECT_LE(pan[ours].mean, 0.85 * pan[kPaper].mean) << rows()[ours].name;
   }
-  // It can fail: the paper's rules, and two axes with any count of samples.
+  // Injected faults: the paper's configuration, and two axes with any sample count.
   EXPECT_GT(roll[kPaper].mean, 5);
   EXPECT_GT(roll[kTwoCeil].mean, 2.5);
 }
 
-// How much is left to flicker depends on the picture: filters of finite width pass what a
-// supersampled pixel does not. So a photograph is compared with the true ellipse with the same
-// number of samples.
+// The remaining flicker depends on the picture: filters of finite width pass frequencies that a
+// supersampled pixel does not. A photograph is therefore compared with the exact ellipse at the
+// same sample count.
 class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
  protected:
   std::string photo() const {
@@ -144,7 +145,7 @@ class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(TextureFlickerOnPhotographs, OnRollIsThatOfTheEllipse) {
+TEST_P(TextureFlickerOnPhotographs, RollIsWithinTenPercentOfTheEllipse) {
   if (photo().empty())
     GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data beside the repository";
   const auto roll = flicker(photo(), Motion::kRoll, 16);
@@ -156,10 +157,10 @@ TEST_P(TextureFlickerOnPhotographs, OnRollIsThatOfTheEllipse) {
   within(kEightCeil, kEllipseCeil);
   within(kFourAny, kEllipseAny);
   within(kEightAny, kEllipseAny);
-  // It can fail: the paper's axes with the same lengths and count.
+  // Injected fault: the paper's axes with the same lengths and count.
   EXPECT_GT(roll[kTwoCeil].mean, 1.5 * roll[kEllipseCeil].mean);
-  // `any` takes the level that the minor axis asks for, `ceil` half a level less on average: with
-  // the bias that makes them even, fewer samples do.
+  // `any` takes the level of the minor axis, `ceil` half a level less on average. With the bias
+  // that compensates this, fewer samples suffice.
   const auto biased = flicker(photo(), Motion::kRoll, 16, -96);
   EXPECT_LE(biased[kFourAny].mean, 0.9 * roll[kFourAny].mean);
   EXPECT_LE(biased[kFourAny].mean, 1.01 * roll[kFourCeil].mean);
@@ -167,7 +168,7 @@ TEST_P(TextureFlickerOnPhotographs, OnRollIsThatOfTheEllipse) {
     EXPECT_LE(roll[kEightCeil].mean, 2.5);
     EXPECT_LE(biased[kFourAny].mean, 2.5);
   } else {
-    // The picture's own (docs/reference/texture/index.md, "Choosing rules").
+    // Flicker of the picture itself (docs/reference/texture/index.md, "Choosing rules").
     EXPECT_GT(roll[kEllipseCeil].mean, 2.5);
   }
 }
@@ -176,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Photographs, TextureFlickerOnPhotographs,
                          testing::Values("brick", "grass", "gravel", "road_512"),
                          [](const auto& photo) { return std::string(photo.param); });
 
-TEST(TextureFlicker, OfPicturesThatChangeAsTheirTruthDoesIsNone) {
+TEST(TextureFlicker, IsZeroIfPictureFollowsItsReference) {
   tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "gradient";

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""`deburr train`: its file is loaded by a run and gains there; what cannot be learned from is rejected by name, and
-nothing is written then. See --help of unittest."""
+"""`deburr train`: a run loads the trained file and gains from it; unusable input is rejected by name, and then no file
+is written. See --help of unittest.
+"""
 import json
 import os
 import resource
@@ -20,7 +21,7 @@ class Base(CommandTest):
     QUICK = ("--batches", "60")
 
     def rendered(self, name, *arguments, size="192x144"):
-        """A scene without and with supersampling, as a run leaves it."""
+        """A scene without and with supersampling, as written by a run."""
         self.expect(0, "run", "morphological", "--size", size, "--check", "none", "--quiet", "--out", self.path(name),
                     *arguments)
         return self.path(f"{name}/before.png"), self.path(f"{name}/reference.png")
@@ -34,9 +35,9 @@ class Base(CommandTest):
 
 
 class Trains(Base):
-    """What it writes, and what a run makes of it."""
+    """Trained files, and runs with them."""
 
-    def test_a_frame_of_textures_gains_on_its_kept_back_half(self):
+    def test_textured_frame_gains_on_kept_back_half(self):
         frame, reference = self.rendered("tunnel", "--scene", "tunnel", size="384x288")
         done = self.train(0, frame, reference, "--batches", "200",
                           says=["kept back: ", "right half: edges ", "RESULT: PASS train: +"])
@@ -52,14 +53,14 @@ class Trains(Base):
         with open(self.path("title.weights")) as first, open(self.path("again")) as second:
             self.assertEqual(first.read(), second.read())
 
-        # Golden and hardware agree on them, and the run gains what was said.
+        # Golden and hardware agree on the weights, and the run shows the reported gain.
         quality = {}
         for name, more in (("shipped", ()), ("title", ("--shares", self.path("title.weights")))):
             self.expect(0, "run", "morphological", "--in", frame, "--truth", reference, "--out", self.path("out"), *more)
             quality[name] = self.result()["quality"]["psnr_edge_db"]
         self.assertGreater(quality["title"], quality["shipped"] + 0.5)
 
-    def test_several_frames_and_another_run_of_its_own_file(self):
+    def test_several_frames_and_overwriting_own_file(self):
         for i in range(4):
             frame, reference = self.rendered(f"run{i}", "--scene", "tunnel", "--seed", str(i + 1))
             for folder, file in (("plain", frame), ("smooth", reference)):
@@ -73,9 +74,9 @@ class Trains(Base):
             text = file.read()
         for i, trained_on in enumerate((True, False, True, False)):
             self.assertEqual(f"# trained on {self.path('plain')}/f{i}.png\n" in text, trained_on)
-        self.train(0, *given, *self.QUICK)  # in its place
+        self.train(0, *given, *self.QUICK)  # overwrites it
 
-    def test_where_it_does_not_gain_nothing_is_written(self):
+    def test_no_file_without_gain(self):
         frame, reference = self.rendered("road", "--scene", "road")
         self.train(1, frame, reference, *self.QUICK, says=["RESULT: FAIL no gain: -", "no weights were written",
                                                        "expected at least +0.05"])
@@ -86,7 +87,7 @@ class Trains(Base):
         self.assertLess(said["training"]["gain_db"], 0.05)
         self.nothing_written("x")
 
-    def test_an_interrupt_ends_it_without_a_file(self):
+    def test_interrupt_writes_no_file(self):
         frame, reference = self.rendered("tunnel", "--scene", "tunnel")
         process = subprocess.Popen([DEBURR, "train", "--in", frame, "--truth", reference, "--out", self.path("title.weights"),
                                     "--batches", "100000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -104,12 +105,12 @@ class Trains(Base):
         picture = b"".join(rows[y // 3 % 2][:3 * side] for y in range(side))
         return self.write(name, b"P6 %d %d 255\n" % (side, side) + picture)
 
-    def test_an_interrupt_after_the_last_batch_does_too(self):
-        """One batch of a small picture, then the large one that is kept back is measured, for seconds."""
+    def test_interrupt_during_measurement_writes_no_file(self):
+        """Trains one batch on a small picture; the large kept-back picture is then measured for seconds."""
         pairs = [";".join(self.checkers(f"{what}{side}.ppm", side, codes) for side in (64, 1536))
                  for what, codes in (("plain", (20, 230)), ("smooth", (30, 220)))]
         wait = 0.5
-        while True:  # a fast machine has ended by then
+        while True:  # a fast machine has finished by then
             process = subprocess.Popen([DEBURR, "train", "--in", pairs[0], "--truth", pairs[1], "--out",
                                         self.path("title.weights"), "--batches", "1"], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, text=True)
@@ -126,7 +127,7 @@ class Trains(Base):
         self.nothing_written()
 
     def wait_until_caught(self, process):
-        """Until it has taken over SIGINT."""
+        """Waits until it handles SIGINT."""
         while process.poll() is None:
             with open(f"/proc/{process.pid}/status") as status:
                 caught = next(line for line in status if line.startswith("SigCgt:"))
@@ -137,13 +138,13 @@ class Trains(Base):
 
 
 class Rejects(Base):
-    """Bad input."""
+    """Invalid input."""
 
     def setUp(self):
         super().setUp()
         self.frame, self.reference = self.rendered("tunnel", "--scene", "tunnel", size="96x64")
 
-    def test_names(self):
+    def test_rejects_invalid_options(self):
         self.expect(2, "train", "--truth", self.reference, "--out", "x", says="--in is required")
         self.expect(2, "train", "--in", self.frame, "--out", "x", says="--truth is required")
         self.expect(2, "train", "--in", self.frame, "--truth", self.reference, says="--out is required")
@@ -151,7 +152,7 @@ class Rejects(Base):
         self.train(2, self.frame, self.reference, "--seed", "x", says="--seed")
         self.train(2, self.frame, self.reference, "--frobnicate", says="unknown option '--frobnicate'")
 
-    def test_pictures(self):
+    def test_rejects_invalid_pictures(self):
         self.train(5, self.path("missing.png"), self.reference, says="missing.png")
         self.train(5, self.frame, self.path("missing.png"), says="missing.png")
         self.train(5, self.write("text.png", b"no picture"), self.reference, says="text.png")
@@ -162,7 +163,7 @@ class Rejects(Base):
         self.train(2, self.frame, self.frame, says="is its reference within 2 codes")
         self.nothing_written()
 
-    def test_output(self):
+    def test_rejects_invalid_output(self):
         self.train(2, self.frame, self.reference, out="tunnel/before.png", says="is read, too")
         self.write("mine.txt", "a letter\n")
         self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "holds no weights"])
@@ -171,12 +172,12 @@ class Rejects(Base):
         self.train(5, self.frame, self.reference, out="nowhere/x", says="there is no folder")
         self.train(5, self.frame, self.reference, out="tunnel", says="it is a folder")
 
-    def test_where_nothing_can_be_written_it_says_so_before_the_work(self):
+    def test_unwritable_output_fails_before_training(self):
         done = self.expect(5, "train", "--in", self.frame, "--truth", self.reference, "--out", "/proc/title.weights",
                            says="cannot create a file in the folder of '/proc/title.weights'")
         self.assertNotIn("kept back: ", done.stdout)
 
-    def test_a_full_disk_leaves_the_file_of_before(self):
+    def test_full_disk_keeps_the_old_file(self):
         self.rendered("gains", "--scene", "tunnel", size="384x288")
         self.train(0, self.path("gains/before.png"), self.path("gains/reference.png"), "--batches", "200")
         with open(self.path("title.weights")) as file:
@@ -190,7 +191,7 @@ class Rejects(Base):
                 self.assertEqual(file.read(), before)
         self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".tmp")], [])
 
-    def test_a_run_of_a_file_that_holds_no_shares(self):
+    def test_run_rejects_invalid_weights_file(self):
         run = ("run", "morphological", "--in", self.frame, "--out", self.path("out"))
         self.expect(5, *run, "--shares", self.path("missing"), says="missing")
         self.expect(5, *run, "--shares", self.write("spoilt", "deburr-weights 1\ncodes 1024\n1 2 x\n"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the ROMs those of their recipe, and is the recipe that of this trainer and these frames?
-// Whether a training gives them, byte for byte, takes minutes: weights_from_their_recipe.
+// The ROMs match their recipe, and the recipe matches this trainer and these frames. Retraining
+// byte for byte takes minutes: weights_from_their_recipe.
 #include "studies/training/recipe.h"
 
 #include <gmock/gmock.h>
@@ -21,18 +21,18 @@ namespace {
 std::string text_of(const char* file) { return tb::read_file(tb::source_folder() / file, 1 << 20); }
 std::string kept() { return text_of("studies/training/recipe.txt"); }
 
-TEST(Recipe, IsTheOneThatTheRomsWereTrainedBy) {
+TEST(Recipe, MatchesTheRoms) {
   EXPECT_EQ(hash_of(kept()), spec::morphological::kWeightsRecipe);
   EXPECT_EQ(header_of(golden::morphological::WeightTables(), kept()),
             text_of("spec/morphological/learned_weights.h"));
 }
 
-// Version, options and rules.
-TEST(Recipe, IsThatOfThisTrainer) {
+// Version, options and configuration.
+TEST(Recipe, MatchesThisTrainer) {
   EXPECT_EQ(recipe_text(Recipe(), FrameOptions(), frames_of_recipe(kept())), kept());
 }
 
-TEST(Recipe, HasTheFramesOfTheTraining) {
+TEST(Recipe, ListsTheTrainingFrames) {
   std::vector<std::string> names, expected;
   for (const HashedFrame& frame : frames_of_recipe(kept())) names.push_back(frame.first);
   for (const FrameSource& source : training_set({})) expected.push_back(source.name);
@@ -41,13 +41,13 @@ TEST(Recipe, HasTheFramesOfTheTraining) {
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
-// A few of each sort; all of them: weights_from_their_recipe.
-TEST(Recipe, HashesThePixelsOfItsFrames) {
+// A few frames of each kind; weights_from_their_recipe checks all.
+TEST(Recipe, FrameHashesMatch) {
   const std::vector<HashedFrame> frames = frames_of_recipe(kept());
   const std::vector<FrameSource> sources = training_set({});
   ASSERT_EQ(frames.size(), sources.size());
   std::vector<std::string> names = {"shapes100", "wires2_1"};
-  // Sanitizers would take half a minute for these two.
+  // With sanitizers these two take half a minute.
   if (!tb::kSanitized) names.insert(names.end(), {"cube_512x512", "vehicle11_512x512_1"});
   for (const std::string& name : names) {
     const auto found = std::find_if(sources.begin(), sources.end(),
@@ -60,7 +60,7 @@ TEST(Recipe, HashesThePixelsOfItsFrames) {
   }
 }
 
-TEST(Recipe, AnotherPixelNameOrSizeIsAnotherFrame) {
+TEST(Recipe, PixelNameAndSizeChangeTheFrameHash) {
   const ReferenceFrame frame = shapes_frame(40, 30, 2, 1);
   const std::uint64_t hash = hash_of(frame);
   ReferenceFrame other = frame;
@@ -77,7 +77,7 @@ TEST(Recipe, AnotherPixelNameOrSizeIsAnotherFrame) {
   EXPECT_NE(hash_of(other), hash);
 }
 
-TEST(Recipe, AnotherOptionIsAnotherRecipe) {
+TEST(Recipe, EveryOptionChangesTheRecipe) {
   const std::vector<HashedFrame> frames = {{"a", 1}, {"b", 2}};
   const std::string text = recipe_text(Recipe(), FrameOptions(), frames);
   Recipe recipe;
@@ -90,8 +90,8 @@ TEST(Recipe, AnotherOptionIsAnotherRecipe) {
   EXPECT_THROW(frames_of_recipe("frame a\n"), spec::FileError);
 }
 
-// What is named and not there is an error, never a smaller set.
-TEST(TrainingFrames, AMissingOneIsAnError) {
+// A named frame that is missing is an error; the set never shrinks silently.
+TEST(TrainingFrames, RejectsMissingFrame) {
   FrameOptions options;
   options.data = "/nowhere";
   EXPECT_THROW(mesh_set(options), spec::FileError);
@@ -101,8 +101,8 @@ TEST(TrainingFrames, AMissingOneIsAnError) {
   EXPECT_FALSE(held_out_set(options).empty());
 }
 
-// No frame, and no scene, is both trained on and held out.
-TEST(TrainingFrames, HeldOutOnesAreNotTrainedOn) {
+// No frame or scene is both trained on and held out.
+TEST(TrainingFrames, HeldOutFramesAreNotTrainedOn) {
   std::vector<std::string> groups;
   for (const FrameSource& source : training_set({})) groups.push_back(source.group);
   for (const FrameSource& source : held_out_set({}))

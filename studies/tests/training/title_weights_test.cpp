@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Do weights for a title gain on what was kept back, and is nothing measured on what they were
-// trained on?
+// Weights for a title gain on kept-back pixels, and are never measured on pixels that they were
+// trained on.
 #include "studies/training/title_weights.h"
 
 #include <gmock/gmock.h>
@@ -48,8 +48,8 @@ std::string complaint(const std::vector<TitlePair>& pairs) {
   return "taken";
 }
 
-// Half of one frame of textures teaches what the other half gains by.
-TEST(TitleWeights, GainOnTheHalfOfAFrameOfTexturesThatWasKeptBack) {
+// Training on half of a textured frame must gain on the other half.
+TEST(TitleWeights, GainOnKeptBackHalfOfTexturedFrame) {
   const TitleWeights weights = train_title({rendered("tunnel", 512, 384)}, quick(300));
   EXPECT_THAT(weights.trained_on, ElementsAre("tunnel, left half"));
   ASSERT_EQ(weights.kept_back.size(), 1u);
@@ -59,7 +59,7 @@ TEST(TitleWeights, GainOnTheHalfOfAFrameOfTexturesThatWasKeptBack) {
   EXPECT_GT(weights.kept_back[0].trained, weights.kept_back[0].none);
 }
 
-TEST(TitleWeights, KeepEverySecondPairBack) {
+TEST(TitleWeights, EverySecondPairIsKeptBack) {
   const TitleWeights weights = train_title({shapes(1), shapes(2), shapes(3), shapes(4)}, quick());
   EXPECT_THAT(weights.trained_on, ElementsAre("shapes1", "shapes3"));
   ASSERT_EQ(weights.kept_back.size(), 2u);
@@ -67,8 +67,8 @@ TEST(TitleWeights, KeepEverySecondPairBack) {
   EXPECT_EQ(weights.kept_back[1].name, "shapes4");
 }
 
-// What is kept back changes no entry.
-TEST(TitleWeights, AreNotTrainedOnWhatIsKeptBack) {
+// Kept-back pixels change no entry.
+TEST(TitleWeights, KeptBackPixelsDoNotAffectTables) {
   const TitleWeights one = train_title({shapes(1), shapes(2)}, quick()),
                      other = train_title({shapes(1), shapes(5)}, quick());
   EXPECT_EQ(entries_of(one.tables), entries_of(other.tables));
@@ -79,7 +79,7 @@ TEST(TitleWeights, AreNotTrainedOnWhatIsKeptBack) {
   EXPECT_EQ(entries_of(half.tables), entries_of(train_title({pair}, quick()).tables));
 }
 
-TEST(TitleWeights, AreTheSameAgainAndOthersByAnotherSeed) {
+TEST(TitleWeights, SeedDeterminesTheTables) {
   TitleOptions options = quick();
   const TitleWeights first = train_title({shapes(1), shapes(2)}, options);
   EXPECT_EQ(entries_of(first.tables),
@@ -89,7 +89,7 @@ TEST(TitleWeights, AreTheSameAgainAndOthersByAnotherSeed) {
             entries_of(train_title({shapes(1), shapes(2)}, options).tables));
 }
 
-TEST(TitleWeights, SayHowFarTheyAre) {
+TEST(TitleWeights, ReportEveryBatch) {
   TitleOptions options = quick();
   std::vector<int> told;
   options.batch_done = [&](int done) { told.push_back(done); };
@@ -97,8 +97,8 @@ TEST(TitleWeights, SayHowFarTheyAre) {
   EXPECT_THAT(told, ElementsAre(1, 2, 3, 4));
 }
 
-// So work that was given up ends there.
-TEST(TitleWeights, AskBeforeEveryPicture) {
+// An interrupted training stops there.
+TEST(TitleWeights, CallBackBeforeEveryPicture) {
   TitleOptions options = quick();
   std::string order;
   options.batch_done = [&](int) { order += 'b'; };
@@ -107,7 +107,7 @@ TEST(TitleWeights, AskBeforeEveryPicture) {
   EXPECT_EQ(order, "ppbbbbpp");
 }
 
-TEST(TitleWeights, RejectWhatTeachesNothing) {
+TEST(TitleWeights, RejectUnusablePairs) {
   EXPECT_THAT(complaint({}), HasSubstr("no pairs"));
   TitlePair wide = shapes(1);
   wide.reference = tb::Image(97, 96);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does training give the same tables every time, do they smooth better than what it began with, and
-// are its features and its error those of the engine?
+// Training is deterministic, improves on its initial tables, and uses the engine's features and
+// error.
 #include "studies/training/weight_trainer.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ bool same(const WeightTables& a, const WeightTables& b) {
   return a.of_codes == b.of_codes && a.of_near == b.of_near && a.of_far == b.of_far;
 }
 
-TEST(WeightTrainer, GivesTheSameTablesAgain) {
+TEST(WeightTrainer, IsDeterministic) {
   const auto samples = small_set(2);
   const WeightTables tables = train(samples, small_recipe());
   EXPECT_TRUE(same(tables, train(samples, small_recipe())));
@@ -59,9 +59,10 @@ TEST(WeightTrainer, GivesTheSameTablesAgain) {
   EXPECT_FALSE(same(tables, train(samples, other)));
 }
 
-// Byte for byte, on every machine. Another hash: raise kTrainerVersion (studies/training/recipe.h),
-// train again (scripts/train-weights --write) and record it here.
-TEST(WeightTrainer, GivesTheTablesOfItsVersion) {
+// Identical bytes on every machine. If the hash changes: raise kTrainerVersion
+// (studies/training/recipe.h), train again (scripts/train-weights --write) and record the hash
+// here.
+TEST(WeightTrainer, ReproducesTheTablesOfItsVersion) {
   EXPECT_EQ(kTrainerVersion, 2);
   tb::FnvHash hash;
   for (const std::int8_t entry : tb::stimuli::entries_of(train(small_set(), small_recipe())))
@@ -69,7 +70,7 @@ TEST(WeightTrainer, GivesTheTablesOfItsVersion) {
   EXPECT_EQ(hash.value(), 0x02408f72aad20a3du);
 }
 
-TEST(WeightTrainer, BeginsWithTheTablesThatItIsGiven) {
+TEST(WeightTrainer, StartsFromTheGivenTables) {
   Recipe none = small_recipe();
   none.batches = 0;
   const std::vector<std::vector<WeightSample>> samples = {
@@ -78,7 +79,7 @@ TEST(WeightTrainer, BeginsWithTheTablesThatItIsGiven) {
   EXPECT_TRUE(same(train(samples, none), first_guess()));
 }
 
-TEST(WeightTrainer, TablesAreBetterThanTheFirstGuessOnFramesThatTheyDidNotSee) {
+TEST(WeightTrainer, TrainedTablesBeatFirstGuessOnHeldOutFrames) {
   const WeightTables tables = train(small_set(), small_recipe());
   double gain = 0;
   for (const std::uint64_t seed : {31, 32, 33, 34, 35, 36}) {
@@ -88,7 +89,7 @@ TEST(WeightTrainer, TablesAreBetterThanTheFirstGuessOnFramesThatTheyDidNotSee) {
   EXPECT_GT(gain / 6, 0.2);
 }
 
-TEST(WeightTrainer, AnotherRecipeHasAnotherHash) {
+TEST(WeightTrainer, HashDependsOnTheRecipe) {
   Recipe recipe = small_recipe();
   const std::uint64_t hash = hash_of(recipe.text());
   recipe.batch = 1025;
@@ -96,13 +97,13 @@ TEST(WeightTrainer, AnotherRecipeHasAnotherHash) {
   EXPECT_EQ(hash_of(""), 0xCBF29CE484222325u);
 }
 
-TEST(WeightTrainer, RejectsNoSamples) {
+TEST(WeightTrainer, RejectsEmptySampleSet) {
   EXPECT_THROW(train({}, small_recipe()), spec::CheckFailed);
   EXPECT_THROW(train({{}}, small_recipe()), spec::CheckFailed);
 }
 
-// What the engine makes of a pixel follows from its sample, to the bit: weights, axis, neighbours.
-TEST(WeightSamples, AreWhatTheEngineBlends) {
+// The engine's output for a pixel follows from its sample bit for bit: weights, axis, neighbours.
+TEST(WeightSamples, MatchTheEngineExactly) {
   const ReferenceFrame frame = shapes_frame(kSize, kSize, kSamples, 41);
   MorphologicalGolden golden(
       golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr));

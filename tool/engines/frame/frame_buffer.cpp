@@ -42,7 +42,7 @@ void FrameBuffer::reset() {
   last_colour_ = first_beat_ = 0;
 }
 
-// Fragments of one pixel come in the order of their triangles; only the nearest one is shown.
+// Fragments of one pixel arrive in the order of their triangles; only the nearest one is visible.
 void FrameBuffer::store(rtl::Cycle cycle, const DrawnColour& drawn) {
   last_colour_ = cycle;
   bytes_written += kPixelBytes;

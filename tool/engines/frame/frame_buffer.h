@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The frame buffer of a composition: takes the colours of an engine that draws, gives complete rows
-// to one that smooths a finished picture, as they come or once the engine between is done.
+// The frame buffer of a composition: accepts the colours of a drawing engine, and outputs complete
+// rows to an engine that smooths a finished picture, either as they are completed or once the
+// engine between them is done.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +17,17 @@
 
 namespace deburr::tool {
 
-// The engines around a frame buffer: who draws, and of those who smooth the ones that there are.
+// The engines connected to a frame buffer: the drawing engine, and the smoothing engines present.
 struct BufferEnds {
   std::string_view drawer, mesh;  // names
   std::function<std::unique_ptr<ColoursPort>(const char*)> colours;
-  std::function<std::unique_ptr<RowsPort>(const char*)> rows;  // none: rows never go out
+  std::function<std::unique_ptr<RowsPort>(const char*)> rows;  // null: rows are never output
 };
 
-// Takes a colour a clock, gives a beat of a complete row a clock. Its memory is not modelled in
-// time. Stalls: by the name of who draws (the next row, or any, still lacks fragments), of who
-// smooths along edges (the frame is complete and not yet released), `downstream`.
+// Interval  One colour in and one beat of a complete row out per cycle; its memory is not timed.
+// Stalls    DRAWER      The next row lacks fragments; if rows wait for release(), any row does.
+//           MESH        The frame is complete and not yet released.
+//           downstream
 class FrameBuffer final : public rtl::Unit {
  public:
   FrameBuffer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock,
@@ -33,16 +35,16 @@ class FrameBuffer final : public rtl::Unit {
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override;
 
-  // Null if rows never go out.
+  // Null if rows are never output.
   RowsPort* rows() const { return pixels_out_.get(); }
   bool done() const { return pixels_out_ ? y_ == image_.height : complete(); }
-  // Every fragment has come.
+  // Every fragment has arrived.
   bool complete() const { return all_missing_ == 0; }
-  // Rows of this frame go out from the next clock on, instead of what has come.
+  // Outputs the rows of this frame from the next cycle on, instead of the received one.
   void release(tb::Image frame);
-  // What has come, over the sky.
+  // The received colours over the sky.
   const tb::Image& frame() const { return released_ ? before_ : image_; }
-  std::function<void(int x, int y, const tb::Rgba8&)> on_pixel;  // that is seen
+  std::function<void(int x, int y, const tb::Rgba8&)> on_pixel;  // visible
   rtl::Cycle last_colour() const { return last_colour_; }
   rtl::Cycle first_beat() const { return first_beat_; }
   static constexpr std::uint32_t kPixelBytes = sizeof(tb::Rgba8);
@@ -58,9 +60,9 @@ class FrameBuffer final : public rtl::Unit {
   std::unique_ptr<RowsPort> pixels_out_;
   bool when_released_;  // rows wait for release()
   rtl::Activity waiting_, held_{};
-  tb::Image image_;  // what goes out
+  tb::Image image_;  // the output frame
   tb::Image sky_, before_;
-  std::vector<std::uint32_t> missing_;  // fragments that each row still lacks
+  std::vector<std::uint32_t> missing_;  // missing fragments per row
   std::uint64_t all_missing_ = 0;
   bool released_ = false;
   int x_ = 0, y_ = 0;

@@ -54,8 +54,8 @@ FrameComposition::FrameComposition(tb::Simulation& simulation, const tb::DrawnSc
   }
   buffer_ = std::make_unique<FrameBuffer>("frame_buffer", simulation.clock(), scene, ends);
 
-  // What the first engine behind the buffer should get; without a golden model only its size
-  // counts. The second one gets it when the first is done.
+  // The expected input of the first engine after the buffer; without a golden model only its size
+  // matters. The second engine receives its input when the first is done.
   tb::Image first = golden() ? drawing_stage_->golden_picture() : tb::Image(width_, height_);
   for (tb::Rgba8& pixel : first.pixels) pixel = unmarked(pixel);
   for (const MeshSmoother* smoother : mesh)
@@ -113,7 +113,7 @@ bool FrameComposition::begin(std::size_t piece) {
   return true;
 }
 
-// Nothing else has come yet.
+// Only the sky so far.
 void FrameComposition::put_sky() {
   const tb::Image& sky = buffer_->frame();
   for (int y = 0; y < height_; ++y)
@@ -154,7 +154,7 @@ void FrameComposition::end() {
   for (Environment* part : parts()) part->end();
 }
 
-// The engines begin by themselves, so answers of memory that are on their way go by during reset.
+// The engines start by themselves, so outstanding memory responses drain during reset.
 void FrameComposition::restart() {
   simulation().clock().set_reset_n(false);
   drain_memory();
@@ -189,8 +189,7 @@ bool FrameComposition::memory_at_rest() const {
   return at_rest;
 }
 
-// ---- checking
-// ------------------------------------------------------------------------------------
+// ---- checking -----------------------------------------------------------------------------------
 
 Environment::Boards FrameComposition::boards(Boards (Environment::*of)() const) const {
   Boards all;

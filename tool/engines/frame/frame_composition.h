@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
-// A whole frame: a scene is drawn into a frame buffer, and smoothed there by one engine or two. All
-// with their environments, on one clock; which they are, their roles say (tool/run/composition.h).
+// A whole frame: a scene is drawn into a frame buffer, and smoothed there by one or two engines.
+// All of them and their environments share one clock; the roles determine the engines
+// (tool/run/composition.h).
 //
 //   DrawingStage ─► colours ─► FrameBuffer ─► rows ─► RowStage
 //                               │       ▲ rows
 //                               ▼       │
 //                              MeshStage: its memory is the frame buffer then
 //
-// Rows alone: the two overlap: the frame buffer hands on a row as soon as every fragment of it and
-// of the rows above has come. Mesh alone: the engine begins in the clock in which the last fragment
-// has come. Both: and rows go out when it is done. Where the second looks at what the first one
-// marks, the frame buffer sets bit 0 of every alpha as it comes, so that only what is blended is
-// marked.
+// Only rows: both engines overlap; the frame buffer outputs a row as soon as every fragment of it
+// and of the rows above has arrived. Only mesh: the engine starts in the cycle in which the last
+// fragment arrives. Both: rows are output when the mesh engine is done. If the second engine reads
+// the marks of the first, the frame buffer sets bit 0 of every received alpha, so that only blended
+// pixels are marked.
 //
-// Each engine is checked against its golden model, which gets what the golden model before it made.
+// Each engine is checked against its golden model, whose input is the output of the previous golden
+// model.
 #pragma once
 
 #include <cstddef>
@@ -32,10 +34,10 @@ namespace deburr::tool {
 
 class FrameComposition final : public tb::Environment {
  public:
-  // Of what is chosen. Scene and roles must outlive it. ConfigError for wrong parameters.
+  // The selected engines. Scene and roles must outlive it. ConfigError for wrong parameters.
   FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene,
                    const FrameRoles& roles);
-  // Of every engine that smooths, for what is built of each: it never runs.
+  // Every smoothing engine, to describe the hardware of each; it is never run.
   static std::unique_ptr<FrameComposition> of_all(tb::Simulation& simulation,
                                                   const tb::DrawnScene& scene,
                                                   const FrameRoles& roles);
@@ -61,11 +63,11 @@ class FrameComposition final : public tb::Environment {
   tb::Coverage coverage() const override;
   void collect_headline(tb::Result& result) const override;
 
-  // What was smoothed so far, how many pixels of it were delivered, and what it should be.
+  // The frame as smoothed so far, its number of delivered pixels, and the expected frame.
   tb::Image frame() const { return last().frame(); }
   std::size_t delivered() const;
   tb::Image expected_frame() const { return last().expected_frame(); }
-  // Of its smoothing stages, in the order of the frame's way.
+  // Notes of its smoothing stages, in processing order.
   std::vector<std::string> notes() const;
   const FrameBuffer& buffer() const { return *buffer_; }
   const DrawingStage& drawing() const { return *drawing_stage_; }
@@ -81,13 +83,13 @@ class FrameComposition final : public tb::Environment {
   const SmoothingStage& last() const;
   MeshStage* mesh() { return mesh_.empty() ? nullptr : mesh_.front().get(); }
   RowStage* rows() { return rows_.empty() ? nullptr : rows_.front().get(); }
-  // Of all engines that there are, in the order of the frame's way.
+  // All engines present, in processing order.
   std::vector<tb::Environment*> parts();
   std::vector<const tb::Environment*> parts() const;
   Boards boards(Boards (tb::Environment::*of)() const) const;
-  // Between cycles: engines that begin when the one before them is done.
+  // Between cycles: starts each engine when its predecessor is done.
   void hand_on();
-  // As it lies in the frame buffer: nothing is marked before the first engine marks it.
+  // As stored in the frame buffer: no pixel is marked until the first engine marks it.
   tb::Rgba8 unmarked(tb::Rgba8 colour) const;
   void put_sky();
   std::uint64_t pixels() const;
@@ -98,11 +100,11 @@ class FrameComposition final : public tb::Environment {
   int width_, height_;
   std::unique_ptr<DrawingStage> drawing_stage_;
   std::unique_ptr<FrameBuffer> buffer_;
-  std::vector<std::unique_ptr<MeshStage>> mesh_;  // one or none, but to be described
+  std::vector<std::unique_ptr<MeshStage>> mesh_;  // at most one, unless it is only described
   std::vector<std::unique_ptr<RowStage>> rows_;   //
   std::vector<std::unique_ptr<RowsPort>> unused_ports_;
   bool drawing_ = false, drawn_ = false;  // along the edges of the mesh
-  bool followed_ = false;                 // the second engine has begun behind the first
+  bool followed_ = false;                 // the second engine has started after the first
   rtl::Cycle drawn_from_ = 0, drawn_until_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `deburr run frame`: a scene is drawn, and smoothed by engines that declare that they do.
+// `deburr run frame`: draws a scene, and smooths it with the engines that declare a smoothing role.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ class FrameCommand final : public Engine {
     if (run.reference) drawer().prepare_reference(*scene, reference_options(), context);
   }
 
-  // Of all engines at once.
+  // Covers all engines at once.
   void describe_statistics(tb::Result& result) override {
     const std::shared_ptr<const DrawnScene> scene = drawer().smallest();
     tb::Simulation simulation({});
@@ -118,7 +118,7 @@ class FrameCommand final : public Engine {
   }
 
  private:
-  // Found when they are first asked for: making a list of engines makes one of these too.
+  // Created on first use: listing the engines creates one of these too.
   FrameRoles& roles() const {
     if (!roles_) roles_ = std::make_unique<FrameRoles>();
     return *roles_;
@@ -163,7 +163,7 @@ class FrameCommand final : public Engine {
 
   tb::RenderOptions reference_options() const {
     tb::RenderOptions options;
-    // Coverage is averaged in the light in which the last engine blends.
+    // Coverage is averaged in the light (linear or encoded) in which the last engine blends.
     options.averaging = roles().chosen_smoothers().back()->linear_light() ? tb::Averaging::kLinear
                                                                           : tb::Averaging::kStored;
     return options;
@@ -175,7 +175,7 @@ class FrameCommand final : public Engine {
     const tb::Image after = frame.frame();
     const bool whole = frame.delivered() == after.pixels.size();
     tb::Image expected, reference;
-    if (after.pixels.size() != before.pixels.size()) return;  // nothing was begun
+    if (after.pixels.size() != before.pixels.size()) return;  // nothing was started
     const bool golden = run.check == CheckMode::kGolden;
     if (golden) expected = frame.expected_frame();
     if (run.reference && whole)
@@ -197,7 +197,7 @@ class FrameCommand final : public Engine {
     if (frame.mesh()) frame.mesh()->add_pictures(context, before, frame.rows() != nullptr);
   }
 
-  tb::ProgramParameters program_;  // of the engines that smooth
+  tb::ProgramParameters program_;  // of the smoothing engines
   mutable std::unique_ptr<FrameRoles> roles_;
   mutable std::string two_;  // an example
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of a whole frame: those of its engines, the frame buffer between them, and the cycles of
-// each against what it needs at least.
+// Figures of a whole frame: those of its engines and of the frame buffer, and each engine's cycles
+// against its lower bound.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace deburr::tool {
 
-// In the order of the frame's way; who does not smooth is null.
+// In processing order; null for an engine that does not smooth.
 struct FrameParts {
   const PictureDrawer& drawer;
   const DrawingStage& drawing;
@@ -23,15 +23,15 @@ struct FrameParts {
   const MeshStage* mesh;
   const RowStage* rows;
   std::string_view mesh_title, rows_title;
-  // Those two; of a composition to be described, every one that there is.
+  // These two; in a composition that is only described, every engine.
   std::vector<const SmoothingStage*> smoothing;
 };
 
-// How far the composition is.
+// Progress of the composition.
 struct FrameProgress {
-  rtl::Cycle begun = 0;              // when the run began
-  std::uint64_t drawing_cycles = 0;  // along edges of the mesh; 0 before that is done
-  bool complete = false;             // the run
+  rtl::Cycle begun = 0;              // first cycle of the run
+  std::uint64_t drawing_cycles = 0;  // along mesh edges; 0 until done
+  bool complete = false;             // the run is complete
 };
 
 class FrameMeter : public tb::Meter {
@@ -43,14 +43,14 @@ class FrameMeter : public tb::Meter {
   void collect_headline(tb::Result& result, const FrameProgress& progress) const;
 
  private:
-  // Cycles of each engine at this frame, and what it needs at least.
+  // Cycles of each engine for this frame, and their lower bounds.
   struct Cycles {
     std::uint64_t colours = 0, drawing = 0, smoothing = 0;
     std::uint64_t colours_bound = 0, drawing_bound = 0, smoothing_bound = 0;
     std::uint64_t together() const { return colours + drawing + smoothing; }
   };
   Cycles cycles(const tb::Result& result, const FrameProgress& progress) const;
-  // Engines behind each other add up; who draws and who smooths rows overlap.
+  // Engines in series add up; the drawing engine and row-based smoothing overlap.
   std::uint64_t bound(const Cycles& cycles) const;
   std::string meaning_of_bound(const Cycles& cycles) const;
   void collect_cycles(tb::Result& result, const Cycles& cycles) const;

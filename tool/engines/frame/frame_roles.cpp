@@ -39,7 +39,7 @@ std::vector<std::unique_ptr<CompositionRole>> roles_of_engines() {
   return roles;
 }
 
-// The role as what it is, if it is that.
+// The role as a `Role`, or null.
 template <class Role>
 std::unique_ptr<Role> as(std::unique_ptr<CompositionRole>& role) {
   auto* const found = dynamic_cast<Role*>(role.get());
@@ -56,7 +56,7 @@ bool Smoothing::follows() const {
 FrameRoles::FrameRoles() : FrameRoles(roles_of_engines()) {}
 
 FrameRoles::FrameRoles(std::vector<std::unique_ptr<CompositionRole>> roles) {
-  // Who draws decides what the others are given.
+  // The drawing engine determines the inputs of the others.
   for (std::unique_ptr<CompositionRole>& role : roles)
     if (!drawer_) drawer_ = as<PictureDrawer>(role);
   DEBURR_CHECK(drawer_, "no engine draws a picture");
@@ -120,8 +120,8 @@ void FrameRoles::add_parameters(tb::ParameterSet& set) {
   for (const auto& rows : rows_) rows->add_parameters(set);
 }
 
-// The one place of what a pair does for each other: the first marks what it has smoothed, and the
-// second follows it by rules of its own. What is given stays.
+// Couples a pair of engines: the first marks the pixels that it has smoothed, and the second uses
+// its settings for a follower. Explicit settings are kept.
 void FrameRoles::resolve(tb::ParameterSet& set) {
   const Smoothing& smoothing = chosen();
   const std::string why = fmt::format("frame.smoothing = {}", smoothing.name);
@@ -151,7 +151,7 @@ void FrameRoles::resolve(tb::ParameterSet& set) {
   drawer_->resolve(set);
 }
 
-// Where two engines have an option of one name, it is that of the first.
+// If two engines have an option of the same name, the first engine's is used.
 std::vector<Shorthand> FrameRoles::shorthands() const {
   std::vector<Shorthand> options;
   for (const CompositionRole* role : all())

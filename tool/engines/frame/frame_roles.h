@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The engines of a composition, as they declare themselves (tool/run/composition.h), and which of
-// them smooth: each alone, or one along the mesh's edges and behind it one of the finished picture.
+// The engines of a composition, as they declare themselves (tool/run/composition.h), and their
+// valid combinations for smoothing: a single engine, or one along the mesh's edges followed by one
+// for the finished picture.
 #pragma once
 
 #include <cstddef>
@@ -13,36 +14,36 @@
 
 namespace deburr::tool {
 
-// A value of frame.smoothing: one of the two, or both.
+// A value of frame.smoothing: one of the two engines, or both.
 struct Smoothing {
   std::string name;  // "NAME", "NAME-NAME"
   const MeshSmoother* mesh = nullptr;
   const RowSmoother* rows = nullptr;
-  // The second looks at what the first one marks.
+  // The second reads the marks of the first.
   bool follows() const;
 };
 
 class FrameRoles {
  public:
-  // Those of engines(). The composition itself has no role.
+  // The roles of engines(). The composition itself has none.
   FrameRoles();
   explicit FrameRoles(std::vector<std::unique_ptr<CompositionRole>> roles);
 
   const PictureDrawer& drawer() const { return *drawer_; }
-  // In the order of the frame's way.
+  // In processing order.
   std::vector<const CompositionRole*> all() const;
   std::vector<const PictureSmoother*> smoothers() const;
 
   const std::vector<Smoothing>& smoothings() const { return smoothings_; }
   const Smoothing& chosen() const { return smoothings_[choice_]; }
-  // Of what is chosen, in the order of the frame's way.
+  // The selected ones, in processing order.
   std::vector<const PictureSmoother*> chosen_smoothers() const;
-  // Every one at once, to be described.
+  // Every one, to be described.
   std::vector<const MeshSmoother*> mesh_smoothers() const;
   std::vector<const RowSmoother*> row_smoothers() const;
 
   void add_parameters(tb::ParameterSet& set);
-  // Presets, what the chosen engines do for each other, and what is rejected.
+  // Applies presets and the coupling of the selected engines; rejects invalid settings.
   void resolve(tb::ParameterSet& set);
   std::vector<Shorthand> shorthands() const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine's rules as a user gives them: a preset, rules beside it that change it, and
-// parameters that have no effect under the others, which are rejected.
+// The geometric engine's configuration as users give it: a preset, options that override it, and
+// the rejection of parameters without effect.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@
 
 namespace deburr::tool {
 
-// The rules of `values.preset` for every parameter "geometric.*" that was not given beside it.
+// Applies `values.preset` to every parameter "geometric.*" that was not given explicitly.
 void apply_preset(tb::ParameterSet& set, const spec::geometric::Parameters& values);
 
-// With preset deburr the parameter of this name draws lines along which faces pass through each
-// other, unless it is given.
+// With preset deburr, the parameter of this name adds lines where faces intersect, unless it is
+// given.
 void imply_crossings(tb::ParameterSet& set, std::string_view name,
                      const spec::geometric::Parameters& values);
 
@@ -30,17 +30,17 @@ std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Par
 void reject_unused_configuration(const tb::ParameterSet& set,
                                  const spec::geometric::Parameters& values);
 
-// ConfigError for a mesh with more faces than the hardware has facing bits, or than any has.
+// ConfigError for a mesh with more faces than the facing bits in this hardware, or in any.
 void reject_too_many_faces(const tb::Scene& scene, const spec::geometric::Parameters& values);
 
-// What the result says of a build that wastes what it has.
+// Notes of the result on oversized hardware.
 std::vector<std::string> build_notes(const spec::geometric::Parameters& values);
 
-// What the result says of a run that drew no line: why each of its edges was dropped. Empty if it
-// drew one, or had none.
+// A note of the result when a run drew no line: why each edge was dropped. Empty if it drew one, or
+// the mesh has no edges.
 std::vector<std::string> dropped_notes(const spec::geometric::Work& work);
 
-// Of what draws edges: --preset, --layout, --walkers.
+// For engines that draw edges: --preset, --layout, --walkers.
 std::vector<Shorthand> edge_shorthands();
 
 }  // namespace deburr::tool

@@ -14,7 +14,7 @@ RandomDraws geometric_draws() {
                {"geometric.fills", magnitude<8, 200>},
                {"geometric.resolve_lines", magnitude<16, 300>},
                {"geometric.copy_lines", magnitude<2, 100>}};
-  all.fixed = {"sequence.frames", "sequence.motion"};  // by the golden model alone
+  all.fixed = {"sequence.frames", "sequence.motion"};  // by the golden model only
   return all;
 }
 

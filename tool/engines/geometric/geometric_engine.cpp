@@ -110,7 +110,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
   LongRun long_run() const override { return {{{"scene.count", "60"}}}; }
 
  private:
-  // What is known before anything is rendered.
+  // Checks that need no rendering.
   void check(const tb::Scene& scene) const {
     reject_too_many_faces(scene, parameters_);
     golden::geometric::check_frame(parameters_, {scene_.width, scene_.height, 0, 0, 0});
@@ -179,7 +179,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
                     tb::Result& result) const {
     const tb::Image& before = loaded.frame.image;
     const tb::Image after = engine.frame();
-    if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
+    if (after.pixels.size() != before.pixels.size()) return;  // no frame was started
     tb::Image expected(after.width, after.height);
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();

@@ -45,7 +45,7 @@ Rgba8 dim_grey(const Rgba8& p) {
   return dimmed({grey, grey, grey, 255});
 }
 
-// Visits the pixels of a line that lie in the frame, with the neighbour that it would take.
+// Visits the pixels of a line that lie in the frame, with the neighbour that each would blend with.
 template <class Visit>
 void walk(const LineRecord& line, int rows, Visit&& visit) {
   const bool horizontal = line.axis == spec::geometric::Axis::kHorizontal;
@@ -88,7 +88,7 @@ tb::Image class_picture(const tb::geometric::Frame& frame,
   tb::Image picture(width, height);
   std::transform(frame.image.pixels.begin(), frame.image.pixels.end(), picture.pixels.begin(),
                  dim_grey);
-  // What is seen goes over what is not.
+  // Visible lines are drawn over hidden ones.
   for (const bool seen : {false, true})
     for (const spec::geometric::Edge& edge : input.edges) {
       const EdgeClass c = golden::geometric::classify(

@@ -20,7 +20,7 @@ using tb::Image;
 
 namespace {
 
-// What of the mesh is drawn, in a composition.
+// The mesh parts drawn in a composition.
 struct DrawnEdges {
   bool crossings = false;
 };
@@ -119,7 +119,7 @@ class GeometricRole final : public MeshSmoother {
   std::vector<std::string_view> pictures() const override {
     return {"weights", "classes", "edge_weights"};
   }
-  // What is built for small pictures.
+  // Build parameters for small pictures.
   LongRun long_run() const override { return {{}, {".touched_words"}}; }
   void check(const tb::DrawnScene& scene) const override {
     reject_too_many_faces(scene.scene(), parameters_);

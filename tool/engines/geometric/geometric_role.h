@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine in a composition: it smooths along the edges of the mesh, and marks what it
-// has blended where an engine follows that looks at it.
+// The geometric engine in a composition: it smooths along the edges of the mesh, and marks blended
+// pixels if the next engine reads the marks.
 #pragma once
 
 #include <memory>

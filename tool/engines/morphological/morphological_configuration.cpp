@@ -95,8 +95,8 @@ void reject_unused_configuration(const tb::ParameterSet& set,
 
 namespace {
 
-// Thresholds that are legal and hardly meant: numbers of the time when they were weights of full
-// scale read as 1/255 of what they said, alpha as 1/256. Five digits show the largest as below 1.
+// Flags legal thresholds that are probably mistakes: the former units (fractions of full scale)
+// give values 1/255 as large, for alpha 1/256. Five digits keep the largest below 1.
 std::vector<std::string> threshold_notes(const spec::morphological::Parameters& p) {
   std::vector<std::string> notes;
   const auto below_a_code = [&](std::string_view name, std::int32_t threshold) {
@@ -115,7 +115,7 @@ std::vector<std::string> threshold_notes(const spec::morphological::Parameters& 
     below_a_code("edges.threshold", p.threshold);
   } else {
     below_a_code("edges.floor", p.floor);
-    // 255 alpha below a code; none at all is said by 0.
+    // 255 alpha is below one code; to disable it, 0 is used.
     if (p.alpha > 0 && std::int64_t{255} * p.alpha < 1 << 24)
       notes.push_back(fmt::format(
           "morphological.edges.alpha = {} is {:.5f}, below a code even of white{}: its unit is 1 / "

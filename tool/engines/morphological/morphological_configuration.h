@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine's rules as a user gives them: a preset, rules beside it that change it,
-// and parameters that have no effect under the others, which are rejected.
+// The morphological engine's configuration as users give it: a preset, options that override it,
+// and the rejection of parameters without effect.
 #pragma once
 
 #include <string>
@@ -13,24 +13,25 @@
 
 namespace deburr::tool {
 
-// The rules of `values.preset` for every rule "morphological.*" that was not given beside it.
+// Applies `values.preset` to every parameter "morphological.*" of a preset that was not given
+// explicitly.
 void apply_preset(tb::ParameterSet& set, const spec::morphological::Parameters& values);
 
 // "preset mlaa", "preset smaa, quality high", or "preset mlaa, changed: predictor, steps".
 std::string preset_label(const tb::ParameterSet& set,
                          const spec::morphological::Parameters& values);
 
-// ConfigError for a rule or a parameter of the memory ("<memory>.*") that was given and has no
-// effect. After apply_preset().
+// ConfigError for a configuration parameter or a memory parameter ("<memory>.*") that was given and
+// has no effect. After apply_preset().
 void reject_unused_configuration(const tb::ParameterSet& set,
                                  const spec::morphological::Parameters& values,
                                  std::string_view memory);
 
-// What the result says of a build that no clock of 250 MHz holds, although it can be simulated, and
-// of thresholds below a code, which are legal and hardly meant.
+// Notes of the result: build parameters that can be simulated but miss timing at 250 MHz, and legal
+// thresholds below one code.
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values);
 
-// Of what smooths: --preset, --lanes, --storage.
+// For smoothing engines: --preset, --lanes, --storage.
 std::vector<Shorthand> smoothing_shorthands();
 
 }  // namespace deburr::tool

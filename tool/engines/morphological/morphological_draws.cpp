@@ -8,7 +8,7 @@
 namespace deburr::tool {
 namespace {
 
-// Alone it asks memory for nothing but the frame that it delays.
+// A standalone engine only accesses memory for the frame that it delays.
 bool traces_something(const tb::ParameterSet& set) {
   return !set.find("frame.count") || set.find("morphological.storage")->text() == "memory" ||
          set.find("run.line_trace")->text() == "none";
@@ -27,7 +27,7 @@ RandomDraws morphological_draws() {
                {"morphological.search_columns", magnitude<4, 2048>},
                {"morphological.line_pixels", evenly<96, 1100>},
                {"morphological.memory.outstanding", magnitude<4, 256>}};
-  // Files; and a reference and frames behind each other, which are nothing of the hardware.
+  // Files; and references and sequences, which do not exercise the hardware.
   all.fixed = {"frame.depth",    "frame.reference",         "frame.mask",
                "frame.weights",  "frame.reference_samples", "sequence.frames",
                "sequence.motion"};

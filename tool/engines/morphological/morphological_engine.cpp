@@ -206,8 +206,7 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
   void reject_unused_frame(const tb::ParameterSet& set) const {
     const bool depth_used = parameters_.edge_source == spec::morphological::EdgeSource::kDepth ||
                             parameters_.edge_source == spec::morphological::EdgeSource::kPredicated;
-    // load_frame() has its own words for a reference beside a scene, and for a file that is not
-    // there.
+    // load_frame() has its own messages for a reference given with a scene, and for a missing file.
     if (is_rendered(first()) || !tb::is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
       set.reject(name, "frame.source is an image file, which has a size of its own");
@@ -242,7 +241,7 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
                            const tb::MorphologicalEnvironment& engine, tb::Result& result) {
     const Image& before = loaded.input.image;
     const Image& after = engine.frame();
-    if (after.pixels.size() != before.pixels.size()) return;  // no frame was begun
+    if (after.pixels.size() != before.pixels.size()) return;  // no frame was started
     Image expected(after.width, after.height);
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of what the morphological engine did besides the frame: edges and weights.
+// Pictures of the morphological engine's intermediate results: edges and weights.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace deburr::tool {
 
-// add_frame_pictures(), and edges and weights.
+// add_frame_pictures(), plus edges and weights.
 void add_smoothing_pictures(RunContext& context, const SmoothedFrame& frame,
                             const std::vector<spec::morphological::BlendProbe>& probes);
 

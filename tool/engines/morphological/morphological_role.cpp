@@ -127,7 +127,7 @@ class MorphologicalRole final : public RowSmoother {
   std::vector<std::string> notes() const override { return build_notes(parameters_); }
   std::vector<Shorthand> shorthands() const override { return smoothing_shorthands(); }
   std::vector<std::string_view> pictures() const override { return {"edges", "weights"}; }
-  // What is built for small pictures.
+  // Build parameters for small pictures.
   LongRun long_run() const override { return {{}, {".line_pixels"}}; }
   void check(const tb::DrawnScene& scene) const override {
     golden::morphological::check_frame(parameters_, scene.stream().width, scene.stream().height);

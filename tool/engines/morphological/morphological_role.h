@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine in a composition: it smooths a finished picture, and leaves pixels that
-// were smoothed and marked before.
+// The morphological engine in a composition: it smooths a finished picture, and bypasses pixels
+// that are marked as smoothed.
 #pragma once
 
 #include <memory>

@@ -160,7 +160,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
       const auto seed = static_cast<std::uint32_t>(run.seed);
       const tb::SceneParameters first = in_frame(scene_, lists_, 0);
       if (!foreign()) return TextureScene(first, sampler_, seed);
-      // The picture's size stands at the beginning; the textures are counted when they are there.
+      // The picture's size is in the header; textures are counted where available.
       const tb::traces::FragmentReader reader(trace_in_.file, spec::texture::kMaxTextures);
       return TextureScene::without_fragments(first, sampler_, seed, reader.width(),
                                              reader.height());
@@ -184,7 +184,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
           trace_in_.file));
   }
 
-  // All of the file has been read and checked after it.
+  // Reads and checks the whole file.
   tb::ForeignFragments fragments_of_file(const TextureScene& scene) const {
     const std::size_t textures = scene.memory().descriptors().size();
     const tb::traces::FragmentSummary summary =
@@ -249,12 +249,12 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
            texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
   }
 
-  // Pictures are stored as sRGB, whatever the unit delivers of sRGB textures.
+  // Pictures are stored as sRGB, whatever the unit outputs for sRGB textures.
   Image stored(const Image& image, const tb::Mask& drawn) const {
     if (!linear_light()) return image;
     Image out = image;
     for (std::size_t i = 0; i < out.pixels.size(); ++i) {
-      if (drawn.pixels[i] == 0) continue;  // it is not from the unit
+      if (drawn.pixels[i] == 0) continue;  // not drawn by the unit
       for (std::size_t c = 0; c < 3; ++c)
         out.pixels[i][c] = static_cast<std::uint8_t>(
             std::lround(255 * tb::linear_to_srgb(out.pixels[i][c] / 255.0)));
@@ -277,11 +277,11 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     came.width = unit.frame().width;
     came.height = unit.frame().height;
     came.pixels = unit.came();
-    // Of a foreign picture nobody knows which pixels have no fragment before all have come.
+    // For a fragment file, pixels without a fragment are known only when all have arrived.
     const tb::Mask drawn = foreign() ? came : drawn_pixels(scene);
     const tb::Mask missing = without(drawn, came);
     const Image before = foreign() ? Image() : unfiltered(scene);
-    // What was under way when the run was ended came on one side only.
+    // Work in flight when the run was interrupted arrived on one side only.
     const auto lost = static_cast<std::uint64_t>(count(missing));
     const std::string note =
         lost == 0 ? "" : fmt::format("; grey: {} pixels were not delivered", tb::grouped(lost));
@@ -291,7 +291,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     context.add_image("after", after, "Hardware model",
                       "the colours that the unit delivered" + note);
     if (run.check == CheckMode::kGolden) {
-      // Once the run is over, what did not come is lost, and differs.
+      // After the run, missing pixels are lost and count as differences.
       const bool over = unit.done();
       Image expected = stored(unit.golden_frame(), drawn);
       if (!over) expected = painted(std::move(expected), missing, kNotDelivered);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The supersampled reference of a textured scene, and the quality that it gives a run.
+// The supersampled reference of a textured scene, and the resulting quality of a run.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace deburr::tool {
 
-// The scene's reference, 16 x 16 samples a pixel, and the quality that it gives the result. Ctrl-C
-// on the way ends it: the result is marked, the picture empty, and what was measured before stays.
+// Computes the scene's reference, 16 x 16 samples per pixel, and adds the quality to the result.
+// Ctrl-C cancels it: the result is marked, the picture is empty, and earlier measurements remain.
 inline constexpr int kReferenceSamples = 16;
 std::string reference_caption();
 // Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
