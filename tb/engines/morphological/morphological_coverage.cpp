@@ -46,8 +46,8 @@ constexpr std::array kGroups = {
     CoverageGroup{"morphological/text",
                   "Pixels with text_guard: by the strokes that guard them, or the only condition "
                   "missing; just: by the number of strokes that decides; kept: guarded pixels that "
-                  "had a blend weight. Only in tests: pixels that leave also bypasses, since "
-                  "pixels marked by the geometric engine have their own colour."},
+                  "had a blend weight. Only in tests: pixels that are bypassed too, since marked "
+                  "pixels have their own colour."},
     CoverageGroup{"morphological/text-border", "Guarded pixels on the frame's border."}};
 
 }  // namespace

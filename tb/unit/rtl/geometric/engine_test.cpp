@@ -176,7 +176,7 @@ TEST(Memories, NoneIsNotImplementable) {
   }
 }
 
-// By docs/reference/geometric/memories.md and traffic.md, with the memories of the port left out:
+// By docs/reference/statistics.md, with the memories of the port left out:
 // kind, words x bits, ports, latency of a read, physical bits.
 std::set<std::string> memories_of(const Parameters& p) {
   std::set<std::string> built;

@@ -65,7 +65,7 @@ struct OwnedTable : sc_core::sc_module {
   AreaTable table;
 };
 
-// By the table of docs/reference/morphological/smaa_hardware.md, of one lane and of two.
+// By the table of docs/reference/morphological/memories.md, of one lane and of two.
 TEST(SmaaTables, RomsAreThoseOfThePage) {
   struct Row {
     AreaSource layout;
