@@ -8,8 +8,8 @@
 namespace deburr::tb::file_test {
 namespace {
 
-// A user's text may be taken for a name: no system gives an answer for one of 300 characters.
-TEST(FileNames, WhatCannotBeAskedForIsNotThere) {
+// User text may be taken for a file name: for 300 characters the system returns an error.
+TEST(FileNames, OverlongNameCountsAsMissing) {
   const std::string too_long(300, 'a');
   EXPECT_FALSE(is_there(too_long));
   EXPECT_FALSE(is_folder(too_long));

@@ -25,7 +25,7 @@ TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_THAT(near_matches("ram", presets), testing::IsEmpty());
 }
 
-TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
+TEST(Renamed, OldNameHasExactlyOneMatch) {
   const std::vector<std::string> known = {"run.reference",
                                           "frame.reference",
                                           "texture.axis_cycles",
@@ -56,7 +56,7 @@ TEST(Renamed, IsTheOnlyMatchOfANameFromBeforeVersion04) {
   EXPECT_EQ(renamed("texture.axis_clocksmith", known), std::nullopt);
 }
 
-TEST(DidYouMean, ReadsWell) {
+TEST(DidYouMean, FormatsSuggestions) {
   EXPECT_EQ(did_you_mean({}), "");
   EXPECT_EQ(did_you_mean({"a"}), ": did you mean 'a'?");
   EXPECT_EQ(did_you_mean({"a", "b", "c"}), ": did you mean 'a', 'b' or 'c'?");

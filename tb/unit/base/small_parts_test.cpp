@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Headlines, words of a shell, settings by name, noise, files as they are read and written, nodes
-// of YAML: tables of what goes in and what comes out.
+// Headlines, shell quoting, settings by name, random numbers, reading and writing files, YAML
+// nodes: tables of inputs and outputs.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ std::string error_of(const std::function<void()>& work) {
   return "none";
 }
 
-TEST(Headline, IsOneLineOfTheFirstParagraph) {
+TEST(Headline, UsesOneLineOfFirstParagraph) {
   for (const auto& [text, line] : std::vector<std::pair<std::string, std::string>>{
            {"", ""},
            {"one", "one"},
@@ -61,7 +61,7 @@ TEST(Headline, IsOneLineOfTheFirstParagraph) {
     EXPECT_EQ(headline(text), line) << text;
 }
 
-TEST(Shell, QuotesWhatIsNoPlainWord) {
+TEST(Shell, QuotesEverythingButPlainWords) {
   for (const auto& [word, quoted] : std::vector<std::pair<std::string, std::string>>{
            {"", "''"},
            {"plain_-./=,:+@%09azAZ", "plain_-./=,:+@%09azAZ"},
@@ -105,7 +105,7 @@ TEST(ApplySettings, SetsByNameAndRejectsTheRest) {
     EXPECT_THAT(error_of([&] { apply_settings(all, bad); }), HasSubstr("sets no parameter")) << bad;
 }
 
-TEST(NearMatches, AreTheBestThree) {
+TEST(NearMatches, ListBestThree) {
   const std::vector<std::string> names = {"texture.cache.ways", "texture.cache.bytes", "frame.ways",
                                           "scene.width", "scene.height"};
   for (const auto& [name, found] : std::vector<std::pair<std::string, std::vector<std::string>>>{
@@ -124,7 +124,7 @@ TEST(NearMatches, AreTheBestThree) {
   EXPECT_THAT(near_matches("abcdef", {"abcdxx", "abcxxx"}), ElementsAre("abcdxx"));
 }
 
-TEST(Random, DrawsWhatItIsAskedFor) {
+TEST(Random, DrawsFromRequestedRange) {
   Random numbers(7), named(7, "a");
   EXPECT_EQ(numbers.next(), 0x63CBE1E459320DD7u);
   EXPECT_EQ(named.next(), Random((7 ^ 'a') * 0x100000001B3u + Random::kStride).next());
@@ -173,7 +173,7 @@ class Files : public testing::Test {
   fs::path folder_ = fs::path(testing::TempDir()) / "deburr_small_parts";
 };
 
-TEST_F(Files, AreReadUpToASize) {
+TEST_F(Files, ReadUpToSizeLimit) {
   const fs::path five = put("five", "12345");
   EXPECT_EQ(read_file(five, 5), "12345");
   EXPECT_EQ(error_of([&] { read_file(five, 4); }),
@@ -193,7 +193,7 @@ TEST_F(Files, AreReadUpToASize) {
   EXPECT_EQ(ready_file("no/such/file"), fs::path("no/such/file"));
 }
 
-TEST_F(Files, AreWrittenWholeOrNotAtAll) {
+TEST_F(Files, WrittenCompletelyOrNotAtAll) {
   write_file_atomically(folder_ / "a", "one");
   EXPECT_EQ(read_file(folder_ / "a", 10), "one");
   write_files_atomically({{folder_ / "a", "two"}, {folder_ / "b", ""}});
@@ -219,7 +219,7 @@ TEST_F(Files, AreWrittenWholeOrNotAtAll) {
   EXPECT_EQ(status.st_mode & 0777, 0666 & ~mask);
 }
 
-TEST_F(Files, OfYamlAreAskedForValues) {
+TEST_F(Files, YamlNodesReturnTypedValues) {
   const YamlFile yaml("f.yaml",
                       std::string("a: 1\nlist: [1, -2, 1e3, x]\nmap: {b: true, c: False}\n"
                                   "none:\nempty: []\nno: {}\ntwice: {b: 1, b: 2}\nzero: 0\n"));

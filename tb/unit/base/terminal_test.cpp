@@ -6,7 +6,7 @@
 namespace deburr::tb::terminal_test {
 namespace {
 
-TEST(Wrapped, BreaksAtBlanksAndBeginsWhatFollowsAtTheIndent) {
+TEST(Wrapped, BreaksAtBlanksAndIndentsContinuation) {
   EXPECT_EQ(wrapped("rate        one two three\n", 24, 12),
             "rate        one two\n            three\n");
   EXPECT_EQ(wrapped("rate        one two\n", 19, 12), "rate        one two\n") << "it fits";
@@ -15,26 +15,26 @@ TEST(Wrapped, BreaksAtBlanksAndBeginsWhatFollowsAtTheIndent) {
   EXPECT_EQ(wrapped("\n\n", 10, 2), "\n\n");
 }
 
-TEST(Wrapped, NoTerminalNoBreak) {
+TEST(Wrapped, KeepsLineWithoutTerminal) {
   const std::string line(500, 'x');
   EXPECT_EQ(wrapped(line + " " + line, 0, 12), line + " " + line);
 }
 
-TEST(Wrapped, AWordStaysWhole) {
+TEST(Wrapped, KeepsWordsWhole) {
   EXPECT_EQ(wrapped("to /a/path/of/names now", 8, 2), "to\n  /a/path/of/names\n  now");
 }
 
-TEST(Wrapped, TheIndentIsAtMostHalf) {
+TEST(Wrapped, IndentsByAtMostHalf) {
   EXPECT_EQ(wrapped("name      one two", 10, 30), "name\n     one\n     two");
   EXPECT_EQ(wrapped(std::string(30, ' ') + "one two", 10, 30), "     one\n     two");
 }
 
-TEST(Wrapped, ACharacterIsAColumn) {
+TEST(Wrapped, CountsCharactersAsColumns) {
   EXPECT_EQ(columns_of("ä→b"), 3U);
   EXPECT_EQ(wrapped("ää öö üü", 5, 0), "ää öö\nüü");
 }
 
-TEST(RowInLines, NamesWhatItShows) {
+TEST(RowInLines, NamesShownColumns) {
   EXPECT_EQ(row_in_lines({"cycles", "1", "2", "", "worse"}, {"", "A", "B", "", ""}, 20),
             "cycles\n    A 1  B 2  worse\n");
   EXPECT_EQ(row_in_lines({"cycles", "1", "2", "", "worse"}, {"", "A", "B", "", ""}, 12),

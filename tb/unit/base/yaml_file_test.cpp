@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a YAML file must not hold, since nobody who walks it would come back.
+// YAML constructs that would make a traversal endless or too long are rejected.
 #include "tb/base/yaml_file.h"
 
 #include <gmock/gmock.h>
@@ -40,7 +40,7 @@ class YamlFileTest : public testing::Test {
                                 ("deburr_yaml_file_" + std::to_string(::getpid()) + ".yaml");
 };
 
-// Each list is ten of the one before, so its values are 10^levels.
+// Each list contains the previous one ten times, so it has 10^levels values.
 std::string lists_of_lists(int levels) {
   std::string text = "a0: &a0 x\n";
   for (int level = 1; level <= levels; ++level) {
@@ -52,7 +52,7 @@ std::string lists_of_lists(int levels) {
   return text;
 }
 
-TEST_F(YamlFileTest, TakesHexadecimalNumbers) {
+TEST_F(YamlFileTest, AcceptsHexadecimalNumbers) {
   const YamlFile file = read("[0x7fC0, 0xffffffff, 0x1ffffffff, 0x, 0x-1, 16, 1.5]");
   const auto number = [&](int i) { return file.number<double>(file.root()[i], "from"); };
   EXPECT_EQ(number(0), 0x7fc0);
@@ -62,7 +62,7 @@ TEST_F(YamlFileTest, TakesHexadecimalNumbers) {
   EXPECT_EQ(number(6), 1.5);
 }
 
-TEST_F(YamlFileTest, TakesUtf8AndNamesTheLineOfWhatIsNot) {
+TEST_F(YamlFileTest, AcceptsUtf8AndNamesInvalidLine) {
   EXPECT_EQ(read("a: 1\nb: Gr\xc3\xbc\xc3\x9f\x65 \xf0\x9f\x98\x80\n").root()["a"].Scalar(), "1");
   EXPECT_EQ(read(std::string("\xff\xfe"
                              "a\0:\0 \0"
@@ -79,13 +79,13 @@ TEST_F(YamlFileTest, TakesUtf8AndNamesTheLineOfWhatIsNot) {
         << bad;
 }
 
-TEST_F(YamlFileTest, TakesAliasesOfAliases) {
+TEST_F(YamlFileTest, AcceptsAliasesOfAliases) {
   const YamlFile file = read(lists_of_lists(5));
   EXPECT_EQ(file.root()["a5"][9][8][7][6][5].Scalar(), "x");
   EXPECT_EQ(read("a: &a {b: 1}\nc: *a\nd: [*a, *a]\n").root()["d"][1]["b"].Scalar(), "1");
 }
 
-TEST_F(YamlFileTest, RejectsAliasesThatStandForMoreThanAnyoneCanWalk) {
+TEST_F(YamlFileTest, RejectsAliasesThatExpandTooMuch) {
   EXPECT_THAT(rejection(lists_of_lists(8)),
               HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
   EXPECT_THAT(rejection(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
@@ -98,14 +98,14 @@ TEST_F(YamlFileTest, RejectsAliasesThatStandForMoreThanAnyoneCanWalk) {
   EXPECT_THAT(rejection(maps), HasSubstr("aliases stand for more than"));
 }
 
-TEST_F(YamlFileTest, RejectsAListThatIsAPartOfItself) {
+TEST_F(YamlFileTest, RejectsListThatContainsItself) {
   EXPECT_THAT(rejection("a: 1\nb: &b [2, *b]\n"),
               EndsWith(".yaml:2:11: an alias of what it is a part of"));
   EXPECT_THAT(rejection("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
 }
 
-// Where the library gives up there is a line, too, and no crash.
-TEST_F(YamlFileTest, RejectsWhatIsNestedTooDeeply) {
+// Where the library gives up, the error also names a line, and nothing crashes.
+TEST_F(YamlFileTest, RejectsTooDeepNesting) {
   EXPECT_THAT(rejection(std::string(100'000, '[')), HasSubstr(".yaml:1:"));
   std::string text;
   for (int level = 0; level < 5'000; ++level) text += std::string(level, ' ') + "a:\n";

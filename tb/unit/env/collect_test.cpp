@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What results take of units, memories, latencies and parameters: each number by hand.
+// Results collected from units, memories, latencies and parameters: each number by hand.
 #include "tb/env/collect.h"
 
 #include <gmock/gmock.h>
@@ -30,13 +30,13 @@ Bins bins(const Latency& latency) {
   return all;
 }
 
-TEST(Latency, OfNothingHasNoBins) {
+TEST(Latency, EmptySampleHasNoBins) {
   const Latency none = latency({});
   EXPECT_TRUE(none.histogram.empty());
   EXPECT_EQ(none.min + none.p50 + none.p95 + none.p99 + none.max, 0u);
 }
 
-TEST(Latency, HasItsPercentiles) {
+TEST(Latency, ListsPercentiles) {
   std::vector<std::uint64_t> values;
   for (std::uint64_t i = 1; i <= 200; ++i) values.push_back(201 - i + 10);  // 11..210
   const Latency l = latency(values);
@@ -47,8 +47,9 @@ TEST(Latency, HasItsPercentiles) {
   EXPECT_EQ(l.max, 210u);
 }
 
-// At most 48 of equal width, a power of two, empty ones too, from multiples of the width on.
-TEST(Latency, HasBinsOfEqualWidth) {
+// At most 48 bins of equal width, a power of two, including empty ones, starting at a multiple of
+// the width.
+TEST(Latency, BinsHaveEqualWidth) {
   EXPECT_EQ(bins(latency({7, 9, 9, 8})), (Bins{{7, 1}, {8, 1}, {9, 2}}));
   EXPECT_EQ(bins(latency({3, 5})), (Bins{{3, 1}, {4, 0}, {5, 1}}));
   EXPECT_EQ(latency({10, 57}).histogram.size(), 48u) << "a clock each";
@@ -70,14 +71,14 @@ TEST(Latency, HasBinsOfEqualWidth) {
   EXPECT_EQ(odd.histogram[12].count, 1u);
 }
 
-TEST(Sentence, BeginsWithACapitalAndEndsWithAStop) {
+TEST(Sentence, BeginsWithCapitalAndEndsWithFullStop) {
   EXPECT_EQ(sentence(""), "");
   EXPECT_EQ(sentence("x"), "X.");
   EXPECT_EQ(sentence("lines that were read"), "Lines that were read.");
   EXPECT_EQ(sentence("Whole."), "Whole.");
 }
 
-// Does what it is told, clock by clock.
+// Returns the scripted activity of each cycle.
 class Told final : public rtl::Unit {
  public:
   Told(const sc_core::sc_module_name& name, rtl::ClockDomain& clock)
@@ -94,8 +95,8 @@ class Told final : public rtl::Unit {
   std::size_t next = 0;
 };
 
-// Waiting for memory with nothing else to do is idle; `memory` is that of a port alone.
-TEST(UnitCycles, CountsEachClockOnce) {
+// Waiting for memory with nothing else to do is idle; only a port counts `memory`.
+TEST(UnitCycles, CountsEachCycleOnce) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Told unit("unit", clock);
   const auto add = [&](int times, rtl::Activity activity) {
@@ -120,9 +121,9 @@ TEST(UnitCycles, CountsEachClockOnce) {
                                                "idle", "stalls.memory"));
 }
 
-// ---- parameters of a memory ---------------------------------------------------------------------
+// ---- Parameters of a memory --------------------------------------------------------------------
 
-TEST(MemoryParameters, ReachTheModelEachInItsPlace) {
+TEST(MemoryParameters, EveryParameterReachesItsModelField) {
   MemoryParameters p;
   p.latency = 11;
   p.latency_max = 17;
@@ -147,7 +148,7 @@ TEST(MemoryParameters, ReachTheModelEachInItsPlace) {
   EXPECT_EQ(m.bytes, 64u) << "a line at least";
 }
 
-TEST(MemoryParameters, ALineTakesLatencyAndItsTransfer) {
+TEST(MemoryParameters, LineTakesLatencyAndItsTransfer) {
   MemoryTiming p;
   const auto cycles = [&](std::int32_t latency, std::int32_t most, std::int32_t bytes_per_cycle,
                           std::int32_t line) {
@@ -164,7 +165,7 @@ TEST(MemoryParameters, ALineTakesLatencyAndItsTransfer) {
   EXPECT_EQ(cycles(30, 0, 0, 64), std::pair(30, 1)) << "no limit";
 }
 
-TEST(ErrorRange, TouchesWhatItHasAByteOf) {
+TEST(ErrorRange, CoversLinesItHasByteOf) {
   MemoryParameters p;
   EXPECT_FALSE(error_range(p).has_value());
   p.error_address = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Faults by name: one look-up for engines alone and for compositions.
+// Faults by name: one lookup for single engines and for compositions.
 #include "tb/env/injected_faults.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ std::string complaint(const FaultPlan& plan) {
   return "";
 }
 
-TEST(FaultPlan, OfAnEngineAloneTakesPlainNames) {
+TEST(FaultPlan, AcceptsPlainNamesForSingleEngine) {
   FaultPlan plan({"flip-bit", "wrong-rule", "drop:colours:7"});
   plan.know("", faults("colours"));
   EXPECT_THAT(plan.link_faults(), ElementsAre("flip:colours:100:4", "drop:colours:7"));
@@ -40,25 +40,25 @@ TEST(FaultPlan, OfAnEngineAloneTakesPlainNames) {
   EXPECT_FALSE(plan.injected("", "lost-response"));
 }
 
-TEST(FaultPlan, WithoutFaultsPlantsNone) {
+TEST(FaultPlan, EmptyPlanInjectsNothing) {
   FaultPlan plan({});
   plan.know("", faults("colours"));
   EXPECT_THAT(plan.link_faults(), IsEmpty());
 }
 
-TEST(FaultPlan, NamesWhatThereIs) {
+TEST(FaultPlan, ErrorListsAvailableFaults) {
   FaultPlan plan({"gremlin"});
   plan.know("texture", faults("colours"));
   EXPECT_THAT(complaint(plan), HasSubstr("no fault 'gremlin': known are texture.flip-bit"));
 }
 
-TEST(FaultPlan, SaysWhatAFaultNeeds) {
+TEST(FaultPlan, ErrorListsRequirementsOfFault) {
   FaultPlan plan({"lost-response"});
   plan.know("", faults("colours"));
   EXPECT_THAT(complaint(plan), HasSubstr("needs morphological.storage = memory"));
 }
 
-TEST(FaultPlan, OfACompositionTellsTwoOfOneNameApart) {
+TEST(FaultPlan, QualifiesDuplicateFaultNamesInComposition) {
   FaultPlan either({"flip-bit"});
   either.know("texture", faults("colours"));
   either.know("morphological", faults("blended"));
@@ -72,7 +72,7 @@ TEST(FaultPlan, OfACompositionTellsTwoOfOneNameApart) {
   EXPECT_FALSE(second.injected("texture", "flip-bit"));
 }
 
-TEST(FaultPlan, OfACompositionTakesANameThatIsUnique) {
+TEST(FaultPlan, AcceptsUniqueFaultNameInComposition) {
   FaultPlan plan({"drop-colour"});
   plan.know("texture", {{"drop-colour", "Drops one.", "drop:colours:100"}});
   plan.know("morphological", faults("blended"));

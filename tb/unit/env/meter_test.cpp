@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a meter takes of an engine's parts.
+// Figures that a meter derives from an engine's parts.
 #include "tb/env/meter.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ struct Parts final : Meter {
   using Meter::Meter;
 };
 
-TEST(Meter, BitsOfLinksArePlacesTimesBits) {
+TEST(Meter, LinkBitsAreEntriesTimesWidth) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   const Linked engine("engine", clock);
   Result result;
@@ -57,7 +57,7 @@ TEST(Meter, BitsOfLinksArePlacesTimesBits) {
   EXPECT_EQ(result.link_bits.bits, 2u * 16 + 9 * 1 + 1 * 32);
 }
 
-// Of an engine within a composition every name has the environment's in front.
+// Within a composition every name of an engine is prefixed with the environment's name.
 TEST(Meter, NamesFiguresAfterItsEnvironment) {
   struct All final : Meter {
     using Meter::add;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hashes of what an engine delivers, against values that were computed apart.
+// Hashes of engine outputs, compared with independently computed values.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -16,7 +16,7 @@ std::uint64_t hash_of(std::initializer_list<std::uint64_t> values) {
   return hash.value();
 }
 
-TEST(OutputHash, IsOfEveryBitInItsOrder) {
+TEST(OutputHash, DependsOnEveryBitAndOrder) {
   EXPECT_EQ(hash_of({}), 0xCBF29CE484222325u);
   EXPECT_EQ(hash_of({0}), 0xAF63BD49FD1C5DBBu);
   EXPECT_EQ(hash_of({1}), 0xAF63BC49FD1C5448u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scoreboard of whole frames: every pixel counts, the last one too.
+// The scoreboard of whole frames: every pixel counts, including the last.
 #include "tb/env/raster_scoreboard.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ class Raster : public testing::Test {
   }
 };
 
-TEST_F(Raster, PassesWhatIsRight) {
+TEST_F(Raster, PassesCorrectFrame) {
   begin();
   come(frame_);
   board_.expect(other_, 3);
@@ -42,7 +42,7 @@ TEST_F(Raster, PassesWhatIsRight) {
   EXPECT_EQ(board_.comparisons(), 12U);
 }
 
-TEST_F(Raster, FindsEachWrongPixel) {
+TEST_F(Raster, DetectsEachWrongPixel) {
   for (std::size_t i = 0; i < frame_.size(); ++i) {
     RasterScoreboard<int> board("frame", [](const int& v) { return std::to_string(v); });
     board.expect(frame_, 3);
@@ -54,21 +54,21 @@ TEST_F(Raster, FindsEachWrongPixel) {
   }
 }
 
-TEST_F(Raster, FindsThatTheLastPixelNeverCame) {
+TEST_F(Raster, DetectsMissingLastPixel) {
   begin();
   come({1, 2, 3, 4, 5});
   EXPECT_EQ(board_.leftovers(), 1U);
   EXPECT_THAT(complaint(), HasSubstr("1 expected but never came, the first: pixel (2, 1): 6"));
 }
 
-TEST_F(Raster, FindsAPixelTooMany) {
+TEST_F(Raster, DetectsExtraPixel) {
   begin();
   come(frame_);
   come({6});
   EXPECT_THAT(complaint(), HasSubstr("after the frame's end: expected nothing, got 6"));
 }
 
-TEST_F(Raster, RemembersWhatAFrameBeforeLost) {
+TEST_F(Raster, RemembersLossOfPreviousFrame) {
   begin();
   come({1, 2, 3, 4, 5});
   board_.expect(other_, 3);
@@ -77,7 +77,7 @@ TEST_F(Raster, RemembersWhatAFrameBeforeLost) {
   EXPECT_THAT(complaint(), HasSubstr("pixels of a frame before"));
 }
 
-TEST_F(Raster, BeginsAgainAfterAReset) {
+TEST_F(Raster, RestartsAfterReset) {
   begin();
   come({1, 2});
   board_.restart();
@@ -85,7 +85,7 @@ TEST_F(Raster, BeginsAgainAfterAReset) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(Raster, NeedsWhatItWasAskedFor) {
+TEST_F(Raster, NeedsTheRequiredComparisons) {
   board_.require(6);
   EXPECT_THAT(complaint(), HasSubstr("only 0 comparisons, at least 6 are needed"));
   board_.look_away();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lists and patterns of files and cameras, and what is rejected of them.
+// Lists and patterns of files and cameras, and the inputs that are rejected.
 #include "tb/env/sequence.h"
 
 #include <gmock/gmock.h>
@@ -30,27 +30,27 @@ class Sequence : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Sequence, APatternGivesFilesInTheOrderOfTheirNumbers) {
+TEST_F(Sequence, PatternOrdersFilesByNumber) {
   EXPECT_THAT(listed_files("frame.source", path("f*.png")),
               ElementsAre(path("f1.png"), path("f2.png"), path("f10.png")));
 }
 
-TEST_F(Sequence, AListKeepsItsOrder) {
+TEST_F(Sequence, ListKeepsItsOrder) {
   EXPECT_THAT(listed_files("frame.source", path("f10.png") + "; " + path("f?.png") + ";road"),
               ElementsAre(path("f10.png"), path("f1.png"), path("f2.png"), "road"));
 }
 
-TEST_F(Sequence, WhatIsThereUnderItsNameIsThatFile) {
+TEST_F(Sequence, ExistingFileWinsOverPattern) {
   EXPECT_THAT(listed_files("frame.source", path("g[1].png")), ElementsAre(path("g[1].png")));
   EXPECT_THAT(listed_files("frame.source", path("a;b.png")), ElementsAre(path("a;b.png")));
   EXPECT_THAT(listed_files("frame.source", ""), ElementsAre(""));
 }
 
-TEST_F(Sequence, APatternThatMatchesNothingIsAnError) {
+TEST_F(Sequence, PatternWithoutMatchIsAnError) {
   EXPECT_THROW(listed_files("frame.source", path("h*.png")), spec::ConfigError);
 }
 
-TEST_F(Sequence, NumbersAreOrderedByTheirValue) {
+TEST_F(Sequence, NumbersAreOrderedByValue) {
   for (const char* name : {"n1a10", "n01b", "n1a9", "n", "n007", "n2", "m9", "n1a"})
     std::ofstream(folder_ / name) << name;
   EXPECT_THAT(listed_files("frame.source", path("[mn]*")),
@@ -58,13 +58,13 @@ TEST_F(Sequence, NumbersAreOrderedByTheirValue) {
                           path("n01b"), path("n2"), path("n007")));
 }
 
-TEST(Listed, BlanksAreNoneOfAnEntry) {
+TEST(Listed, TrimsBlanksAroundEntries) {
   EXPECT_THAT(listed(" a b \t;\tc;;d "), ElementsAre("a b", "c", "", "d"));
   EXPECT_THAT(listed(""), ElementsAre(""));
   EXPECT_THAT(listed(";"), ElementsAre("", ""));
 }
 
-TEST(FrameLists, GiveEachFrameItsEntryOrTheOnlyOne) {
+TEST(FrameLists, GiveEachFrameItsEntryOrSharedOne) {
   FrameLists lists;
   lists.add("scene.source", {"object"});
   EXPECT_EQ(lists.frames(), 1);
@@ -75,14 +75,14 @@ TEST(FrameLists, GiveEachFrameItsEntryOrTheOnlyOne) {
   EXPECT_EQ(lists.at("scene.eye", 1), "1,1,4");
 }
 
-TEST(FrameLists, AreEquallyLongAndWithoutHoles) {
+TEST(FrameLists, RejectUnequalLengthsAndGaps) {
   FrameLists lists;
   lists.add("scene.source", {"a.obj", "b.obj"});
   EXPECT_THROW(lists.add("scene.eye", {"0,0,1", "0,0,2", "0,0,3"}), spec::ConfigError);
   EXPECT_THROW(lists.add("scene.eye", {"0,0,1", ""}), spec::ConfigError);
 }
 
-TEST(FrameLists, SayWhichListsAreNotEquallyLong) {
+TEST(FrameLists, ErrorNamesListsOfUnequalLength) {
   FrameLists lists;
   lists.add("scene.source", {"a.obj", "b.obj"});
   lists.add("scene.target", {"0,0,0"});
@@ -100,7 +100,7 @@ TEST(FrameLists, SayWhichListsAreNotEquallyLong) {
   EXPECT_THROW(lists.at("scene.roll", 0), spec::CheckFailed);
 }
 
-TEST(Camera, IsChosenForItsFrame) {
+TEST(Camera, SelectedPerFrame) {
   CameraParameters camera{"0,0,1;0,0,2", " 5,5,5 "};
   FrameLists lists;
   add_camera(lists, camera);
@@ -110,8 +110,8 @@ TEST(Camera, IsChosenForItsFrame) {
   EXPECT_EQ(camera.target, "5,5,5");
 }
 
-// What is not given is the scene's own; its near plane is for its own eye.
-TEST(Camera, TakesThePlaceOfTheScenes) {
+// Omitted values are the scene's own; its near plane is for its own eye.
+TEST(Camera, ReplacesCameraOfScene) {
   Scene scene;
   const auto camera = [](const char* eye, const char* target) {
     return CameraParameters{eye, target};

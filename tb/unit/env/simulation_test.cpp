@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a simulation leads an environment through its pieces, and what it adds up of its checks.
+// How a simulation runs the pieces of an environment, and how it adds up the checks.
 #include "tb/env/simulation.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-// Busy for as many cycles as each of its pieces has.
+// Busy for the number of cycles of each piece.
 class Scripted final : public Environment {
  public:
   Scripted(Simulation& simulation, std::vector<rtl::Cycle> pieces)
@@ -62,7 +62,7 @@ class Scripted final : public Environment {
     return coverage;
   }
   void collect_headline(Result& result) const override {
-    result.throughput = static_cast<double>(result.bytes_read);  // comes after collect()
+    result.throughput = static_cast<double>(result.bytes_read);  // filled in after collect()
   }
 
   std::vector<std::string> notes;
@@ -109,8 +109,8 @@ TEST(Simulation, RunsPieceAfterPiece) {
   EXPECT_EQ(b.result().cycles, 37u);
 }
 
-// Once, in the first piece, which begins again: its cycles until then do not count.
-TEST(Simulation, AResetBreaksTheFirstPieceOffOnce) {
+// Once, in the first piece, which restarts: cycles before the reset do not count.
+TEST(Simulation, ResetAbortsFirstPieceOnce) {
   SimulationOptions options;
   options.reset_after = 6;
   Bench b({10, 8}, options);
@@ -122,7 +122,7 @@ TEST(Simulation, AResetBreaksTheFirstPieceOffOnce) {
   EXPECT_EQ(b.simulation.begun(), 24u);
 }
 
-TEST(Simulation, AResetAfterThePieceNeverComes) {
+TEST(Simulation, ResetAfterThePieceNeverHappens) {
   SimulationOptions options;
   options.reset_after = 11;
   Bench b({10, 30}, options);
@@ -131,8 +131,8 @@ TEST(Simulation, AResetAfterThePieceNeverComes) {
   EXPECT_THAT(b.scripted.notes, testing::Not(testing::Contains(HasSubstr("restart"))));
 }
 
-// Of all pieces together.
-TEST(Simulation, EndsAtItsLimit) {
+// The limit covers all pieces.
+TEST(Simulation, StopsAtItsLimit) {
   SimulationOptions options;
   options.max_cycles = 25;
   Bench b({10, 7, 20}, options);
@@ -149,7 +149,7 @@ TEST(Simulation, EndsAtItsLimit) {
   EXPECT_EQ(b.scripted.notes.back(), "begin@21");
 }
 
-TEST(Simulation, MayTakeAllOfItsLimit) {
+TEST(Simulation, MayUseWholeLimit) {
   SimulationOptions options;
   options.max_cycles = 37;
   Bench b({10, 7, 20}, options);
@@ -157,8 +157,8 @@ TEST(Simulation, MayTakeAllOfItsLimit) {
   EXPECT_TRUE(b.simulation.complete());
 }
 
-// Every few thousand cycles, with what came so far; it may end there.
-TEST(Simulation, AsksWhetherToGoOn) {
+// Called every few thousand cycles with the results so far; it may stop the run there.
+TEST(Simulation, AsksWhetherToContinue) {
   Bench b({5000, 5000, 5000});
   std::vector<std::pair<std::uint64_t, std::uint64_t>> asked;
   b.run([&](std::uint64_t delivered, std::uint64_t taken) {
@@ -172,7 +172,7 @@ TEST(Simulation, AsksWhetherToGoOn) {
   EXPECT_THAT(b.scripted.notes.back(), HasSubstr("begin"));
 }
 
-TEST(Simulation, ThatIsStoppedIsNotReset) {
+TEST(Simulation, StoppedRunIsNotReset) {
   SimulationOptions options;
   options.reset_after = 4096;
   Bench b({5000}, options);
@@ -183,22 +183,23 @@ TEST(Simulation, ThatIsStoppedIsNotReset) {
   EXPECT_THAT(b.scripted.notes, ElementsAre("configure@4", "begin@4"));
 }
 
-// Boards of one name are one line; what never came differs once all of it could have come.
-TEST(Simulation, AddsUpWhatWasCompared) {
+// Boards of one name are one entry; items that never arrived are differences once all could have
+// arrived.
+TEST(Simulation, AddsUpComparisons) {
   SimulationOptions options;
   options.coverage = true;
   Bench b({10}, options);
   for (const int i : {1, 2, 3}) b.scripted.pixels.expect(i);
-  for (const int i : {1, 5}) b.scripted.pixels.got(i, "here");  // one wrong, one never
+  for (const int i : {1, 5}) b.scripted.pixels.got(i, "here");  // one wrong, one missing
   b.scripted.more.expect(7);
   b.scripted.more.got(7);
   for (const int i : {4, 5, 6}) b.scripted.lines.expect(i);
-  b.scripted.lines.got(4);  // two never
+  b.scripted.lines.got(4);  // two missing
   b.scripted.registers.expect(1);
   b.scripted.registers.got(2, "there");
   b.run();
   Result r;
-  for (int times = 0; times < 2; ++times) {  // however often it is asked
+  for (int times = 0; times < 2; ++times) {  // however often it is called
     r.bytes_read = 0;
     b.simulation.collect(r);
     EXPECT_EQ(r.comparisons, 2u + 1 + 1);
@@ -227,7 +228,7 @@ TEST(Simulation, AddsUpWhatWasCompared) {
   }
 }
 
-TEST(Simulation, OfARunThatIsBrokenOffNothingIsMissing) {
+TEST(Simulation, AbortedRunReportsNoMissingOutput) {
   SimulationOptions options;
   options.max_cycles = 5;
   Bench b({10}, options);
@@ -254,7 +255,7 @@ TEST(Environment, ChecksEveryBoard) {
   }
 }
 
-TEST(Environment, ChecksNothingWithoutAGoldenModel) {
+TEST(Environment, ChecksNothingWithoutGoldenModel) {
   SimulationOptions options;
   options.golden = false;
   Bench b({3}, options);

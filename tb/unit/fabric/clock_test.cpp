@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The clock domain: running on while nothing is pending must be invisible. Each test runs the same
-// simulation with and without it and compares every beat, cycle and counter.
+// The clock domain: running ahead of SystemC time while nothing is pending must be unobservable.
+// Each test runs the same simulation with and without it and compares every beat, cycle and
+// counter.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ using sc_core::sc_time;
 
 sc_time ns(std::uint64_t n) { return sc_time(static_cast<double>(n), sc_core::SC_NS); }
 
-// The same in both modes, long enough to mean something, and without an exception.
+// Both modes must give the same fingerprint, of a useful length and without an exception.
 void expect_same(const std::function<std::string(bool fast)>& simulation) {
   const std::string slow = in_child([&] { return simulation(false); });
   const std::string fast = in_child([&] { return simulation(true); });
@@ -38,7 +39,7 @@ void expect_same(const std::function<std::string(bool fast)>& simulation) {
   EXPECT_EQ(slow.rfind("exception", 0), std::string::npos) << slow;
 }
 
-TEST(ClockDomain, RunsOnWhileNothingIsPending) {
+TEST(ClockDomain, RunsAheadWhileNothingIsPending) {
   expect_same([](bool fast) {
     Pipeline p(500);
     p.clock.set_fast_path(fast);
@@ -50,7 +51,7 @@ TEST(ClockDomain, RunsOnWhileNothingIsPending) {
   });
 }
 
-TEST(ClockDomain, OrderOfEvaluationDoesNotMatter) {
+TEST(ClockDomain, EvaluationOrderDoesNotMatter) {
   const auto run = [](std::optional<std::uint64_t> seed) {
     return in_child([&] {
       Pipeline p(500);
@@ -64,7 +65,7 @@ TEST(ClockDomain, OrderOfEvaluationDoesNotMatter) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) EXPECT_EQ(run(seed), reference) << seed;
 }
 
-// Which of several is ticked when, by clock.
+// Records the order in which members are ticked, per cycle.
 struct Order {
   struct Member final : rtl::Clocked {
     Order& order;
@@ -90,13 +91,14 @@ struct Order {
   }
 };
 
-// Each order comes as often as any other, whatever the one before was.
-TEST(ClockDomain, AShuffledOrderSaysNothingOfTheNext) {
+// A member's position in one cycle does not predict its position in the next.
+TEST(ClockDomain, ShuffledOrdersAreIndependent) {
   constexpr int kMembers = 4, kClocks = 8000;
   Order order;
   for (int i = 0; i < kMembers; ++i) order.add();
   order.clock.shuffle(0);
-  std::array<std::array<int, kMembers>, kMembers> met{};  // by place before and place after
+  std::array<std::array<int, kMembers>, kMembers>
+      met{};  // by position in the previous and in the current cycle
   std::vector<int> before = order.of_a_clock();
   for (int i = 0; i < kClocks; ++i) {
     const std::vector<int> now = order.of_a_clock();
@@ -113,7 +115,7 @@ TEST(ClockDomain, AShuffledOrderSaysNothingOfTheNext) {
     for (const int times : row) EXPECT_NEAR(times, kExpected, kExpected / 10);
 }
 
-TEST(ClockDomain, RunUntilGivesUpAfterItsLimit) {
+TEST(ClockDomain, RunUntilStopsAtItsLimit) {
   for (const bool fast : {false, true})
     EXPECT_EQ(in_child([fast] {
                 Pipeline p(5);
@@ -130,7 +132,7 @@ TEST(ClockDomain, RunUntilGivesUpAfterItsLimit) {
               "0 1 3 258 514 1514 ");
 }
 
-TEST(ClockDomain, APeriodIsAnythingButNothing) {
+TEST(ClockDomain, RejectsZeroPeriod) {
   EXPECT_THROW(rtl::ClockDomain("none", sc_core::SC_ZERO_TIME), spec::CheckFailed);
   rtl::ClockDomain least("least", sc_core::sc_get_time_resolution());
   least.run(10);
@@ -154,14 +156,14 @@ TEST(ClockDomain, EveryEdgeInResetResetsOnce) {
   EXPECT_EQ(p.clock.cycles_since_reset(), 3U);
 }
 
-TEST(ClockDomain, WithoutShuffleTheOrderIsThatOfAdditionAgain) {
+TEST(ClockDomain, DisablingShuffleRestoresOrderOfAddition) {
   Order order;
   for (int i = 0; i < 5; ++i) order.add();
   order.clock.shuffle(7);
   order.clock.run(9);
   order.clock.shuffle(std::nullopt);
   EXPECT_EQ(order.of_a_clock(), (std::vector<int>{0, 1, 2, 3, 4}));
-  // Who comes while it is shuffled stays.
+  // A member added while shuffled remains.
   order.clock.shuffle(7);
   order.add();
   order.clock.run(9);
@@ -171,7 +173,7 @@ TEST(ClockDomain, WithoutShuffleTheOrderIsThatOfAdditionAgain) {
   EXPECT_EQ(all, (std::vector<int>{0, 1, 2, 3, 4, 5}));
 }
 
-// What an observer sees at its time: everything up to the last edge, in both modes.
+// Records what an observer reads at its time: in both modes, everything up to the last edge.
 struct Observer : sc_core::sc_module {
   Pipeline& pipeline;
   std::string seen;
@@ -192,7 +194,7 @@ struct Observer : sc_core::sc_module {
   }
 };
 
-TEST(ClockDomain, ObserverOnItsEdgeGetsEveryCycle) {
+TEST(ClockDomain, ObserverOnEdgesSeesEveryCycle) {
   expect_same([](bool fast) {
     Pipeline p(300);
     Observer observer("observer", p, sc_core::SC_ZERO_TIME);
@@ -205,7 +207,7 @@ TEST(ClockDomain, ObserverOnItsEdgeGetsEveryCycle) {
   });
 }
 
-TEST(ClockDomain, ObserverWithTheSamePeriod) {
+TEST(ClockDomain, ObserverWithSamePeriodSeesEveryCycle) {
   expect_same([](bool fast) {
     Pipeline p(300);
     Observer observer("observer", p, ns(10));
@@ -215,7 +217,7 @@ TEST(ClockDomain, ObserverWithTheSamePeriod) {
   });
 }
 
-TEST(ClockDomain, ObserversWithOtherPeriods) {
+TEST(ClockDomain, ObserversWithOtherPeriodsSeeTheSame) {
   for (const std::uint64_t period : {3ULL, 30ULL, 35ULL, 70ULL, 1000ULL})
     expect_same([period](bool fast) {
       Pipeline p(300);
@@ -227,7 +229,7 @@ TEST(ClockDomain, ObserversWithOtherPeriods) {
 }
 
 // Constructed before the pipeline, so the kernel calls it first; the result is the same.
-TEST(ClockDomain, ObserverDoesNotDependOnWhoIsCalledFirst) {
+TEST(ClockDomain, ObserverDoesNotDependOnCallOrder) {
   struct Early : sc_core::sc_module {
     Pipeline* pipeline = nullptr;
     std::string seen;
@@ -249,7 +251,7 @@ TEST(ClockDomain, ObserverDoesNotDependOnWhoIsCalledFirst) {
   EXPECT_THAT(early.seen, testing::StartsWith("0:0 30000:3 60000:6 "));
 }
 
-// A process outside that changes a unit while it works.
+// An external process that changes a unit while it is running.
 struct Writer : sc_core::sc_module {
   Pipeline& pipeline;
   SC_HAS_PROCESS(Writer);
@@ -259,13 +261,13 @@ struct Writer : sc_core::sc_module {
   void write() {
     Random random(11);
     for (std::uint32_t i = 0;; ++i) {
-      wait(ns(1 + random.below(90)));  // also at the very time of an edge
+      wait(ns(1 + random.below(90)));  // sometimes exactly at an edge
       pipeline.adders[random.below(4)]->set_key(i);
     }
   }
 };
 
-TEST(ClockDomain, ProcessThatWritesIntoTheSubsystem) {
+TEST(ClockDomain, ExternalProcessMayWriteIntoSubsystem) {
   expect_same([](bool fast) {
     Pipeline p(600);
     Writer writer("writer", p);
@@ -275,7 +277,7 @@ TEST(ClockDomain, ProcessThatWritesIntoTheSubsystem) {
   });
 }
 
-// A process that wakes by an event of a unit, looks at the time and acts on the pipeline.
+// A process woken by an event of a unit: records the time and acts on the pipeline.
 struct Listener : sc_core::sc_module {
   Pipeline& pipeline;
   sc_core::sc_event event;
@@ -292,7 +294,7 @@ struct Listener : sc_core::sc_module {
   }
 };
 
-TEST(ClockDomain, EventRaisedInsideABlockHasTheTimeOfItsCycle) {
+TEST(ClockDomain, EventInsideBlockHasTimeOfItsCycle) {
   for (const std::uint64_t delay : {0ULL, 4ULL, 10ULL, 123ULL})
     expect_same([delay](bool fast) {
       Pipeline p(600);
@@ -316,7 +318,7 @@ TEST(ClockDomain, EventRaisedInsideABlockHasTheTimeOfItsCycle) {
     });
 }
 
-TEST(ClockDomain, EventRaisedWithoutTheOffsetIsCaught) {
+TEST(ClockDomain, EventWithoutOffsetIsRejected) {
   Pipeline p(600);
   Listener listener("listener", p);
   p.adders[1]->raise = [&](Cycle, const Token& token) {
@@ -330,7 +332,7 @@ TEST(ClockDomain, EventRaisedWithoutTheOffsetIsCaught) {
   }
 }
 
-TEST(ClockDomain, BareStartThatEndsInsideABlock) {
+TEST(ClockDomain, BareStartMayEndInsideBlock) {
   expect_same([](bool fast) {
     Pipeline p(300);
     p.clock.set_fast_path(fast);
@@ -343,7 +345,7 @@ TEST(ClockDomain, BareStartThatEndsInsideABlock) {
         sc_core::sc_start(ns(1 + random.below(300)));
       seen += fmt::format("{}:{}:{} ", sc_core::sc_time_stamp().value(), p.clock.cycle(),
                           p.sink.received());
-      // Edges strictly before now are done, whoever ran them.
+      // Edges strictly before now are complete, whether run() or the kernel ran them.
       const std::uint64_t now = sc_core::sc_time_stamp().value(), period = ns(10).value();
       if (p.clock.cycle() != (now + period - 1) / period) return "wrong cycle: " + seen;
     }
@@ -351,7 +353,7 @@ TEST(ClockDomain, BareStartThatEndsInsideABlock) {
   });
 }
 
-TEST(ClockDomain, PiecesAreTheWhole) {
+TEST(ClockDomain, SplitRunsEqualOneRun) {
   const std::string whole = in_child([] {
     Pipeline p(300);
     p.clock.run(1000);
@@ -366,7 +368,7 @@ TEST(ClockDomain, PiecesAreTheWhole) {
   EXPECT_EQ(whole, pieces);
 }
 
-TEST(ClockDomain, RunUntilStopsAfterTheEdgeAndTheTimeIsRight) {
+TEST(ClockDomain, RunUntilStopsAfterEdgeAtCorrectTime) {
   expect_same([](bool fast) {
     Pipeline p(300);
     p.clock.set_fast_path(fast);
@@ -382,14 +384,14 @@ TEST(ClockDomain, RunUntilStopsAfterTheEdgeAndTheTimeIsRight) {
   });
 }
 
-TEST(ClockDomain, DoesNotRunWithinARun) {
+TEST(ClockDomain, RejectsNestedRun) {
   Pipeline p(300);
   p.adders[0]->raise = [&](Cycle, const Token&) { p.clock.run(1); };
   EXPECT_THAT([&] { p.clock.run(1000); },
               testing::ThrowsMessage<spec::CheckFailed>(testing::HasSubstr("run() within run()")));
 }
 
-TEST(ClockDomain, StopOnRequest) {
+TEST(ClockDomain, StopsOnRequest) {
   Pipeline p(300);
   p.adders[0]->raise = [&](Cycle, const Token& token) {
     if (token.number == 123) p.clock.request_stop();
@@ -404,7 +406,7 @@ TEST(ClockDomain, StopOnRequest) {
   EXPECT_EQ(p.sink.received(), 300U);
 }
 
-TEST(ClockDomain, TracingGoesCycleByCycleAndTheWaveIsTheSame) {
+TEST(ClockDomain, TracingStepsPerCycleWithSameWaveform) {
   const std::string directory = testing::TempDir();
   const auto run = [&](bool fast) {
     return in_child([&] {
@@ -423,7 +425,7 @@ TEST(ClockDomain, TracingGoesCycleByCycleAndTheWaveIsTheSame) {
   EXPECT_GT(slow.size(), 5000U);
 }
 
-TEST(ClockDomain, ResetInMidRunStartsAfresh) {
+TEST(ClockDomain, ResetDuringRunRestarts) {
   const std::string fresh = in_child([] {
     Pipeline p(300);
     p.clock.run(1000);
@@ -448,12 +450,12 @@ TEST(ClockDomain, ResetInMidRunStartsAfresh) {
     }
 }
 
-TEST(ClockDomain, ResetFromInsideABlockActsOnTheNextEdge) {
+TEST(ClockDomain, ResetInsideBlockActsOnNextEdge) {
   expect_same([](bool fast) {
     Pipeline p(300);
     p.clock.set_fast_path(fast);
     Cycle pulled = 0;
-    std::string resets;  // behind it
+    std::string resets;  // declared after the clock
     p.adders[2]->raise = [&](Cycle cycle, const Token& token) {
       if (token.number != 50 || pulled) return;
       pulled = cycle;
@@ -494,11 +496,11 @@ TEST(ClockDomain, ErrorsKeepTheirType) {
   };
   EXPECT_THROW(p.clock.run(1000), spec::DeadlockError);
   const sc_time failed = sc_core::sc_time_stamp();
-  EXPECT_THROW(p.clock.run(1), spec::DeadlockError);  // it stays failed
+  EXPECT_THROW(p.clock.run(1), spec::DeadlockError);  // the domain stays failed
   EXPECT_EQ(sc_core::sc_time_stamp(), failed);
 }
 
-TEST(ClockDomain, OutsideOfItsEdgesItIsNotAheadOfTime) {
+TEST(ClockDomain, TimeIsNotAheadBetweenEdges) {
   Pipeline p(300);
   p.clock.run(100);
   EXPECT_EQ(p.clock.offset(), sc_core::SC_ZERO_TIME);
@@ -520,8 +522,8 @@ TEST(ClockDomain, EveryCycleIsClassifiedOnce) {
   EXPECT_EQ(p.adders[0]->stalls()[1].name, "random");
 }
 
-// A unit that answers with a code that it has not declared, and one that is ticked twice.
-TEST(ClockDomain, WrongAccountsAreCaught) {
+// A unit that returns an undeclared stall code, and one that is ticked twice.
+TEST(ClockDomain, RejectsWrongCycleAccounts) {
   struct Liar final : rtl::Unit {
     Liar(const sc_core::sc_module_name& name, rtl::ClockDomain& domain) : Unit(name, domain) {}
     rtl::Activity tick(Cycle) override { return {9}; }
@@ -532,8 +534,8 @@ TEST(ClockDomain, WrongAccountsAreCaught) {
   EXPECT_THROW(clock.run(3), spec::CheckFailed);
 }
 
-// Its own, beside idle, busy and downstream.
-TEST(Unit, HasAsManyCausesAsItCanCount) {
+// Causes of the unit, in addition to idle, busy and downstream.
+TEST(Unit, RejectsMoreStallCausesThanItCanCount) {
   struct Many final : rtl::Unit {
     Many(const sc_core::sc_module_name& name, rtl::ClockDomain& domain, int causes)
         : Unit(name, domain) {
@@ -557,7 +559,7 @@ TEST(Unit, HasAsManyCausesAsItCanCount) {
   EXPECT_EQ(many.stalls().back().cycles, 7U);
 }
 
-TEST(Unit, NamesWhatItHasDeclaredAndNothingElse) {
+TEST(Unit, NamesOnlyDeclaredStallCauses) {
   Pipeline p(1);
   const Adder& adder = *p.adders[0];
   EXPECT_EQ(adder.activity_name(rtl::kBusy), "busy");
@@ -566,16 +568,16 @@ TEST(Unit, NamesWhatItHasDeclaredAndNothingElse) {
                spec::CheckFailed);
 }
 
-TEST(ClockDomain, UnitTickedTwiceIsCaught) {
+TEST(ClockDomain, RejectsUnitTickedTwice) {
   Pipeline p(300);
   p.clock.add(*p.adders[1]);
   EXPECT_THROW(p.clock.run(3), spec::CheckFailed);
 }
 
-// ---- several domains ----------------------------------------------------------------------------
+// ---- Several domains ---------------------------------------------------------------------------
 
-// Two or three of them act on each other whenever they can, also where edges fall on the same time,
-// with the last key that each of them was given.
+// Two or three domains act on each other whenever they can, also at coinciding edges, with the last
+// key that each received.
 std::string acting_on_each_other(const std::vector<std::uint64_t>& periods, bool fast) {
   std::vector<std::unique_ptr<Pipeline>> all;
   for (std::size_t i = 0; i < periods.size(); ++i)
@@ -601,7 +603,7 @@ std::string acting_on_each_other(const std::vector<std::uint64_t>& periods, bool
   return order;
 }
 
-TEST(ClockDomains, RunningOnKeepsTheOrderOfTheirEdges) {
+TEST(ClockDomains, RunningAheadKeepsOrderOfEdges) {
   const std::vector<std::vector<std::uint64_t>> all = {{10, 15},    {10, 10},      {7, 11, 13},
                                                        {10, 10, 5}, {15, 10, 6},   {6, 10, 15},
                                                        {1, 100},    {100, 1, 100}, {12, 8, 10}};
@@ -611,9 +613,9 @@ TEST(ClockDomains, RunningOnKeepsTheOrderOfTheirEdges) {
   }
 }
 
-// A domain that runs on stops before the next edge of another one: as few activations as that
-// takes.
-TEST(ClockDomains, RunOnBetweenEdgesOfOthers) {
+// A domain that runs ahead stops before the next edge of another domain, with the fewest possible
+// activations.
+TEST(ClockDomains, RunAheadBetweenEdgesOfOtherDomains) {
   Pipeline quick(300, 200, ns(1), "quick_"), slow(300, 200, ns(100), "slow_");
   quick.clock.run(10'000);
   EXPECT_EQ(quick.clock.cycle(), 10'000U);
@@ -622,7 +624,7 @@ TEST(ClockDomains, RunOnBetweenEdgesOfOthers) {
   EXPECT_GE(quick.clock.activations(), 100U);
 }
 
-TEST(ClockDomains, EdgesAtTheSameTimeComeInTheOrderOfConstruction) {
+TEST(ClockDomains, CoincidingEdgesFollowConstructionOrder) {
   for (const bool fast : {false, true})
     EXPECT_EQ(in_child([fast] {
                 struct Log final : rtl::Clocked {
@@ -649,9 +651,9 @@ TEST(ClockDomains, EdgesAtTheSameTimeComeInTheOrderOfConstruction) {
               "a0 b0 c0 c1 a1 b1 c2 a2 c3 a3 b2 c4 c5 a4 b3 c6 a5 c7 a6 b4 c8 ");
 }
 
-// ---- what belongs to a domain -------------------------------------------------------------------
+// ---- Ownership of parts by a domain ------------------------------------------------------------
 
-// A lookup table that a unit reads in every clock, each word a clock after it was asked for.
+// A lookup table that a unit reads in every cycle; each word arrives one cycle after its request.
 using Table = rtl::Memory<std::uint8_t>;
 constexpr std::array<std::uint8_t, 4> kContent = {1, 2, 3, 4};
 rtl::MemoryShape table_shape() {
@@ -681,13 +683,13 @@ class Lookup final : public rtl::Unit {
   rtl::ReadPort<std::uint8_t> words_;
   bool asked_ = false;
 };
-// It holds no port: an empty domain would be no reason for an error.
+// A unit without ports; a domain without units would raise an unrelated error.
 struct Idle final : rtl::Unit {
   Idle(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle) override { return rtl::kIdle; }
   void reset() override {}
 };
-// A module that is not a unit, with everything that a domain resets.
+// A module that is not a unit, with one of each part that a domain resets.
 struct Parts : sc_core::sc_module {
   explicit Parts(const sc_core::sc_module_name& name) : sc_module(name) {}
   Table table{"table", table_shape(), kContent};
@@ -718,7 +720,7 @@ void reset(rtl::ClockDomain& clock) {
   clock.run(1);
 }
 
-TEST(ClockDomains, ResetLeavesAMemoryBesideTheUnitsOfAnother) {
+TEST(ClockDomains, ResetKeepsMemoryNextToUnitsOfOtherDomain) {
   for (const bool in_module : {false, true})
     EXPECT_EQ(in_child([in_module] {
                 rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
@@ -751,8 +753,8 @@ TEST(ClockDomains, ResetLeavesAMemoryBesideTheUnitsOfAnother) {
         << in_module;
 }
 
-// The module belongs to the domain whose units stand in it, or that adopts it.
-TEST(ClockDomains, ResetActsOnEveryPartOfAModuleOfItsOwnAlone) {
+// The module belongs to the domain that owns its units, or that adopts it.
+TEST(ClockDomains, ResetReachesEveryPartOfOwnModuleOnly) {
   for (const bool adopted : {false, true})
     EXPECT_EQ(in_child([adopted] {
                 rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
@@ -776,8 +778,8 @@ TEST(ClockDomains, ResetActsOnEveryPartOfAModuleOfItsOwnAlone) {
         << adopted;
 }
 
-// A unit of one domain in a unit of another: each has its own.
-TEST(ClockDomains, AUnitWithinAUnitOfAnotherKeepsItsParts) {
+// A unit of one domain nested in a unit of another: each domain resets its own unit's parts.
+TEST(ClockDomains, NestedUnitOfOtherDomainKeepsItsParts) {
   struct Inner final : rtl::Unit {
     rtl::Counter counter{"counter", "cycles", "cycles seen"};
     Inner(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
@@ -803,7 +805,7 @@ TEST(ClockDomains, AUnitWithinAUnitOfAnotherKeepsItsParts) {
   EXPECT_EQ(outer.inner.counter.value(), 1U);
 }
 
-TEST(ClockDomains, WhatBelongsToNoneOfSeveralIsAnErrorAtElaboration) {
+TEST(ClockDomains, RejectsPartOfUnclearOwnerAtElaboration) {
   const auto with = [](const auto& make, bool adopted) {
     return in_child([&] {
       rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
@@ -833,8 +835,8 @@ TEST(ClockDomains, WhatBelongsToNoneOfSeveralIsAnErrorAtElaboration) {
   expect_unknown("link", [] { return std::make_unique<rtl::Link<Token>>("link"); });
 }
 
-// Its link is a part of it.
-TEST(ClockDomains, AFifoBelongsToTheUnitThatItsLinkIsBoundTo) {
+// The internal link of a FIFO is part of it.
+TEST(ClockDomains, FifoBelongsToUnitThatItsLinkIsBoundTo) {
   rtl::ClockDomain mine("mine", ns(10)), other("other", ns(7));
   rtl::Fifo<Token> fifo("fifo", 4);
   Sink<Token> sink("sink", mine, {999, 1});
@@ -849,7 +851,7 @@ TEST(ClockDomains, AFifoBelongsToTheUnitThatItsLinkIsBoundTo) {
   EXPECT_TRUE(fifo.empty());
 }
 
-TEST(ClockDomains, AMemoryWithPortsInTwoIsAnErrorAtElaboration) {
+TEST(ClockDomains, RejectsMemoryWithPortsInTwoDomains) {
   rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
   rtl::MemoryShape shape = table_shape();
   shape.read_ports = 2;
@@ -860,7 +862,7 @@ TEST(ClockDomains, AMemoryWithPortsInTwoIsAnErrorAtElaboration) {
                   "table joins two clock domains (one and two): a memory has one")));
 }
 
-TEST(ClockDomains, ALinkOfAUnitBoundInAnotherIsAnErrorAtElaboration) {
+TEST(ClockDomains, RejectsUnitLinkBoundInOtherDomain) {
   struct Sender final : rtl::Unit {
     rtl::Link<Token> link{"link"};
     Sender(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
@@ -875,7 +877,7 @@ TEST(ClockDomains, ALinkOfAUnitBoundInAnotherIsAnErrorAtElaboration) {
                                        "sender.link joins two clock domains (two and one)")));
 }
 
-TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
+TEST(ClockDomains, RejectsModuleAdoptedTwice) {
   rtl::ClockDomain one("one", ns(10)), two("two", ns(7));
   const Parts parts("parts");
   one.adopt(parts);
@@ -885,8 +887,8 @@ TEST(ClockDomains, AModuleIsAdoptedByOneAlone) {
                   testing::HasSubstr("parts belongs to two clock domains (one and two)")));
 }
 
-// A module that is ticked, and is no unit: what it has belongs to the domain that ticks it.
-TEST(ClockDomains, ATickedModuleBelongsToTheDomainThatTicksIt) {
+// A ticked module that is not a unit: its parts belong to the domain that ticks it.
+TEST(ClockDomains, TickedModuleBelongsToItsDomain) {
   struct Source final : sc_core::sc_module, rtl::Clocked {
     rtl::Counter sent{"sent", "tokens", "Tokens that were sent."};
     explicit Source(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -907,7 +909,7 @@ TEST(ClockDomains, ATickedModuleBelongsToTheDomainThatTicksIt) {
   EXPECT_LE(source.sent.value(), 1U);
 }
 
-TEST(ClockDomains, AnAdoptedModuleMayHoldALinkOfAnother) {
+TEST(ClockDomains, AdoptedModuleMayHoldLinkOfOtherDomain) {
   struct Top final : sc_core::sc_module {
     rtl::Link<Token> link{"link"};
     explicit Top(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -922,7 +924,7 @@ TEST(ClockDomains, AnAdoptedModuleMayHoldALinkOfAnother) {
   EXPECT_EQ(rtl::Ownership().of(top.link), &other);
 }
 
-TEST(ClockDomains, ADomainWithoutUnitsOwnsNothingThatStandsAlone) {
+TEST(ClockDomains, DomainWithoutUnitsOwnsNoUnboundParts) {
   rtl::ClockDomain mine("mine", ns(10)), empty("empty", ns(7));
   const rtl::Counter counter("counter", "things", "Things.");
   const Idle idle("idle", mine);
@@ -930,8 +932,8 @@ TEST(ClockDomains, ADomainWithoutUnitsOwnsNothingThatStandsAlone) {
   EXPECT_EQ(rtl::Ownership().of(counter), &mine);
 }
 
-// SystemC allows a signal one driver, which it tells by the process.
-TEST(ClockDomains, UnitsOfEachMayDriveSignals) {
+// SystemC allows one driver per signal and identifies it by the process.
+TEST(ClockDomains, UnitsOfSeveralDomainsMayDriveSignals) {
   struct Driving final : rtl::Unit {
     sc_core::sc_out<bool> out{"out"};
     bool value = false;
@@ -959,8 +961,8 @@ TEST(ClockDomains, UnitsOfEachMayDriveSignals) {
         << fast;
 }
 
-// As a master of one clock does that clears the interrupt of an engine of another.
-TEST(ClockDomains, AUnitOfOneMayRaiseAnEventOfAnother) {
+// As when a master in one clock domain clears the interrupt of an engine in another.
+TEST(ClockDomains, UnitMayRaiseEventOfOtherDomain) {
   struct Raiser final : rtl::Unit {
     rtl::ClockDomain& other;
     sc_core::sc_event& event;
@@ -992,7 +994,7 @@ TEST(ClockDomains, AUnitOfOneMayRaiseAnEventOfAnother) {
   EXPECT_EQ(watcher.at, ns(50));
 }
 
-TEST(ClockDomains, FailureOfOneStopsAll) {
+TEST(ClockDomains, FailureInOneDomainStopsAll) {
   Pipeline a(300, 200, ns(10), "a_"), b(300, 200, ns(15), "b_");
   b.adders[0]->raise = [&](Cycle, const Token& token) {
     if (token.number == 20) throw spec::DeadlockError("found by a unit");

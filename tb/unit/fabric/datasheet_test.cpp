@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Datasheets: how builds are merged into a list, and the text that pages are made of.
+// Datasheets: how builds are merged into a list, and the text of the generated pages.
 #include "rtl_model/fabric/datasheet.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Datasheet halver(const std::string& variant, std::uint64_t latency) {
           .cost = "a shifter."};
 }
 
-TEST(Datasheets, VariantsOfAUnitStandTogether) {
+TEST(Datasheets, VariantsOfOneUnitAreAdjacent) {
   const Datasheet doubler = {.unit = "Doubler", .does = "Doubles."};
   const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3), doubler},
                                                       {halver("fast", 2), doubler}};
@@ -35,7 +35,7 @@ TEST(Datasheets, VariantsOfAUnitStandTogether) {
   EXPECT_EQ(titles, (std::vector<std::string>{"Halver, slow", "Halver, fast", "Doubler"}));
 }
 
-// A unit that only one build has stands where it stands in that build.
+// A unit that only one build contains keeps its position in that build.
 TEST(Datasheets, UnitsKeepTheirOrder) {
   const Datasheet first = {.unit = "First"}, last = {.unit = "Last"};
   const std::vector<std::vector<Datasheet>> builds = {{first, halver("slow", 3), last},
@@ -45,20 +45,20 @@ TEST(Datasheets, UnitsKeepTheirOrder) {
   EXPECT_EQ(units, "First Other Halver Last ");
 }
 
-TEST(Datasheets, OneTitleSaysOneThing) {
+TEST(Datasheets, RejectsOneTitleForDifferentUnits) {
   const std::vector<std::vector<Datasheet>> builds = {{halver("slow", 3)}, {halver("slow", 2)}};
   EXPECT_THROW(rtl::merged(builds), spec::CheckFailed);
 }
 
-// Where a text says what the cycles depend on, they may differ from build to build.
-TEST(Datasheets, ClocksByATextMayDiffer) {
+// Cycles may differ between builds if a text says what they depend on.
+TEST(Datasheets, CyclesExplainedByTextMayDiffer) {
   Datasheet one = halver("", 3), other = halver("", 4);
   one.latency.text = other.latency.text = "2, and `more`";
   const std::vector<std::vector<Datasheet>> builds = {{one}, {other}};
   EXPECT_EQ(rtl::merged(builds).size(), 1u);
 }
 
-TEST(Datasheets, PageHasATableOfAllThenEachWithItsStages) {
+TEST(Datasheets, PageHasSummaryTableThenUnitStages) {
   Datasheet fast = halver("fast", 2);
   fast.megahertz = 300;
   fast.interval = {1, "a token a clock"};
@@ -94,9 +94,8 @@ Cost: a shifter.
 )");
 }
 
-// Only variants of one unit share a heading and what they have in common, and only those that are
-// shown.
-TEST(Datasheets, EachUnitSaysItsOwn) {
+// Only displayed variants of one unit share a heading and their common entries.
+TEST(Datasheets, EachUnitShowsItsOwnEntries) {
   const Datasheet halves = {.unit = "Halver", .variant = "a", .cost = "a shifter."},
                   too = {.unit = "Halver", .variant = "b", .cost = "a shifter."},
                   doubles = {.unit = "Doubler", .cost = "a shifter."};
@@ -115,7 +114,7 @@ TEST(Datasheets, EachUnitSaysItsOwn) {
   EXPECT_EQ(counted(std::span(sheets).first(2)), (std::pair{2, 2}));
 }
 
-TEST(Datasheets, OfTheMemoryPortIsTheContracts) {
+TEST(Datasheets, MemoryPortMatchesContract) {
   EXPECT_EQ(rtl::MemoryPort::datasheet().latency.cycles, 2u);
   EXPECT_EQ(rtl::MemoryPort::datasheet().interval.cycles, 1u);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every engine has: ranges, registers, the clear command, lists for reports, a latency probe.
+// Functions of the engine base: ranges, registers, clear command, report lists, latency probe.
 #include "rtl_model/fabric/engine.h"
 
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ class Engine final : public rtl::Engine {
  public:
   Counting a, b;
   int flushed = 0, changed = 0;
-  std::vector<std::uint32_t> offsets;  // of what changed
+  std::vector<std::uint32_t> offsets;  // of changed registers
   bool busy = false;
 
   Engine(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, bool ignores,
@@ -136,7 +136,7 @@ std::string rejection(const Parameters& p) {
   return "taken";
 }
 
-TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
+TEST(Engine, RangesAreCheckedFromDeclaration) {
   EXPECT_EQ(rejection({}), "taken");
   EXPECT_EQ(rejection({.steps = 1}), "taken");
   EXPECT_EQ(rejection({.steps = 8}), "taken");
@@ -145,7 +145,7 @@ TEST(Engine, RangesAreCheckedFromTheirDeclaration) {
   EXPECT_EQ(rejection({.rule = static_cast<Rule>(2)}), "toy.rule = 2 is not one of plain, fancy");
 }
 
-TEST(Engine, ListsWhatIsBelowIt) {
+TEST(Engine, ListsItsMembers) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   const Engine engine("engine", clock, true);
   const Counting other("other", clock);
@@ -160,14 +160,14 @@ TEST(Engine, ListsWhatIsBelowIt) {
   EXPECT_EQ(engine.memory(), nullptr);
 }
 
-// Of a unit whose work something else does nothing is left but what is counted for it.
-TEST(Engine, AReplacedUnitStandsStill) {
+// A replaced unit keeps only the counters that its replacement updates.
+TEST(Engine, ReplacedUnitDoesNotRun) {
   Bed bed(true, false);
   bed.clock.replace(bed.engine.b, {&bed.engine.b.tokens});
   bed.clock.run(9);
   EXPECT_EQ(bed.engine.a.tokens.value(), 9U);
   EXPECT_EQ(bed.engine.b.tokens.value(), 0U);
-  EXPECT_EQ(bed.engine.b.busy_cycles(), 0U);  // and the account of run() holds
+  EXPECT_EQ(bed.engine.b.busy_cycles(), 0U);  // and the cycle account of run() holds
   EXPECT_EQ(bed.engine.units(), std::vector<const rtl::Unit*>{&bed.engine.a});
   EXPECT_EQ(bed.engine.memories().size(), 1U);
   EXPECT_EQ(bed.engine.counters().size(), 2U);
@@ -177,7 +177,7 @@ TEST(Engine, AReplacedUnitStandsStill) {
   bed.clock.run(1);
   EXPECT_EQ(bed.engine.b.tokens.value(), 0U);
   EXPECT_THROW(bed.clock.replace(bed.engine.b), spec::CheckFailed);
-  EXPECT_THROW(bed.clock.replace(bed.engine.a), spec::CheckFailed);  // in mid-run
+  EXPECT_THROW(bed.clock.replace(bed.engine.a), spec::CheckFailed);  // during a run
 }
 
 class Relay final : public rtl::Unit {
@@ -205,8 +205,8 @@ class Chain final : public rtl::Engine {
   bool idle() const override { return true; }
 };
 
-// What does the work of two units has the links to their neighbours, and between them its own.
-TEST(Engine, ALinkBetweenReplacedUnitsIsNotUsed) {
+// A replacement of two units uses the links to their neighbours and bypasses the link between them.
+TEST(Engine, LinkBetweenReplacedUnitsIsUnused) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Chain chain("chain", clock);
   const auto links = [&] {
@@ -221,13 +221,13 @@ TEST(Engine, ALinkBetweenReplacedUnitsIsNotUsed) {
   EXPECT_EQ(links(), "in ab out ");
 }
 
-TEST(Engine, HasItsMemorySocketIfItIsBuiltWithOne) {
+TEST(Engine, MemorySocketExistsOnlyIfBuilt) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Engine engine("engine", clock, true, true);
   EXPECT_EQ(engine.memory(), &engine.port()->memory);
 }
 
-TEST(Engine, ClearResetsEveryCounterAndNothingElse) {
+TEST(Engine, ClearResetsCountersOnly) {
   Bed bed(true);
   bed.clock.run(9);
   EXPECT_EQ(bed.host.read(kTokens), 10U);
@@ -235,12 +235,12 @@ TEST(Engine, ClearResetsEveryCounterAndNothingElse) {
   bed.host.write(kControl, 1 | 2);
   EXPECT_EQ(bed.host.read(kTokens), 0U);
   EXPECT_EQ(bed.host.read(kBoth), 0U);
-  EXPECT_EQ(bed.host.read(kControl), 1U);  // the command reads 0
+  EXPECT_EQ(bed.host.read(kControl), 1U);  // the command bit reads 0
   EXPECT_EQ(bed.engine.a.busy_cycles(), 10U);
   EXPECT_EQ(bed.engine.a.waits.count(), 10U);
 }
 
-TEST(Engine, AHostIsToldOfARegisterThatThereIsNot) {
+TEST(Engine, HostGetsErrorForMissingRegister) {
   Bed bed(true);
   EXPECT_THAT(text_of<spec::SimulationError>([&] { bed.host.read(0x28); }),
               HasSubstr("read of register 0x28 was rejected"));
@@ -260,7 +260,7 @@ TEST(Engine, WritesAreMaskedAndDecoded) {
   EXPECT_EQ(bed.engine.control.value(kSize), 1U);
 }
 
-TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
+TEST(Engine, BusyEngineIgnoresOrAcceptsWrites) {
   for (const bool ignores : {true, false}) {
     const std::string result = in_child([&] {
       Bed bed(ignores);
@@ -279,8 +279,8 @@ TEST(Engine, ABusyEngineIgnoresWritesOrTakesThem) {
   }
 }
 
-// Before the first edge, too.
-TEST(Engine, IsEnabledAsTheResetValueOfControlSays) {
+// Also before the first edge.
+TEST(Engine, EnableFollowsResetValueOfControl) {
   auto fields = kControlFields;
   fields[0].reset = 0;
   auto table = kTable;
@@ -290,20 +290,20 @@ TEST(Engine, IsEnabledAsTheResetValueOfControlSays) {
   EXPECT_FALSE(off.enabled());
 }
 
-TEST(Engine, BusyBeforeTheFirstEdgeItKeepsResetValues) {
+TEST(Engine, BusyBeforeFirstEdgeKeepsResetValues) {
   rtl::ControlRegisters control("control", kTable, layout(true));
   control.on_busy([] { return true; });
   control.write(kLimit, 6);
   EXPECT_EQ(control.value(kLimit), 70U);
 }
 
-TEST(Engine, AskedForARegisterThatItDoesNotHaveSaysSo) {
+TEST(Engine, RejectsRequestForMissingRegister) {
   const rtl::ControlRegisters control("control", kTable, layout(true));
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { control.value(0x28); }),
               HasSubstr("control has no register at 0x28"));
 }
 
-TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
+TEST(Engine, ResetRestoresEveryRegister) {
   Bed bed(true);
   EXPECT_EQ(bed.host.read(kLimit), 70U);
   bed.host.write(kSize, 5);
@@ -320,10 +320,10 @@ TEST(Engine, ResetGivesEveryRegisterItsResetValue) {
   EXPECT_EQ(bed.host.read(kStatus), 1U);
   EXPECT_EQ(bed.host.read(kControl), 1U);
   bed.engine.busy = true;
-  EXPECT_EQ(bed.host.read(kStatus), 0U);  // no bit of errors is left
+  EXPECT_EQ(bed.host.read(kStatus), 0U);  // no error bit is set
 }
 
-// Sets a sticky bit in one clock, in the middle of many that the domain runs at once.
+// Sets a sticky bit in one cycle, in the middle of a block of cycles that the domain runs at once.
 class Raiser final : public rtl::Unit {
  public:
   Raiser(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, Engine& engine, Cycle when)
@@ -339,7 +339,7 @@ class Raiser final : public rtl::Unit {
   Cycle when_;
 };
 
-// Somebody outside: writes down each change of the line.
+// An external process: records every change of the interrupt line.
 struct Listener : sc_core::sc_module {
   sc_core::sc_in<bool> line{"line"};
   std::vector<std::string> changes;
@@ -354,7 +354,7 @@ struct Listener : sc_core::sc_module {
   }
 };
 
-TEST(Engine, InterruptIsHighWhileAStickyBitIsSet) {
+TEST(Engine, InterruptIsHighWhileStickyBitIsSet) {
   for (const bool fast : {true, false}) {
     const std::string result = in_child([&] {
       Bed bed(true, false);
@@ -363,7 +363,7 @@ TEST(Engine, InterruptIsHighWhileAStickyBitIsSet) {
       listener.line(bed.engine.interrupt);
       bed.clock.set_fast_path(fast);
       bed.clock.run(600);
-      bed.host.write(kStatus, 4);  // another bit: it stays high
+      bed.host.write(kStatus, 4);  // clears another bit: the line stays high
       bed.clock.run(100);
       bed.host.write(kStatus, 2);
       bed.clock.run(100);
@@ -377,7 +377,7 @@ TEST(Engine, InterruptIsHighWhileAStickyBitIsSet) {
   }
 }
 
-// The bit of a rejected write raises the line, too, and one that comes later does not stay unheard.
+// A rejected write also raises the line, and a sticky bit set later raises it again.
 TEST(Engine, WriteWhileBusyRaisesInterrupt) {
   for (const std::uint32_t offset : {kSize, kControl}) {
     const std::string result = in_child([&] {
@@ -397,8 +397,8 @@ TEST(Engine, WriteWhileBusyRaisesInterrupt) {
   }
 }
 
-// After a reset an engine decodes what a host can set, and CONTROL is not among it.
-TEST(Engine, AResetTellsOfEachRegisterOfTheHost) {
+// After a reset an engine decodes every register that a host can set, except CONTROL.
+TEST(Engine, ResetReportsEachHostRegister) {
   Bed bed(true);
   bed.engine.offsets.clear();
   bed.clock.set_reset_n(false);
@@ -407,7 +407,7 @@ TEST(Engine, AResetTellsOfEachRegisterOfTheHost) {
   EXPECT_THAT(bed.engine.offsets, testing::UnorderedElementsAre(kSize, kLimit));
 }
 
-TEST(Engine, AWriteTellsOfItsRegisterAndControlOfNone) {
+TEST(Engine, WriteReportsItsRegisterExceptControl) {
   Bed bed(true);
   bed.engine.offsets.clear();
   bed.host.write(kLimit, 3);
@@ -415,15 +415,15 @@ TEST(Engine, AWriteTellsOfItsRegisterAndControlOfNone) {
   EXPECT_THAT(bed.engine.offsets, testing::ElementsAre(kLimit));
 }
 
-// One thing at a time: each leaves before the next one enters, at ever other differences.
-TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
+// One item at a time: each leaves before the next enters, with varying latencies.
+TEST(LatencyProbe, SingleItemsHaveTheirLatency) {
   rtl::LatencyProbe probe;
   Cycle c = 0;
   for (Cycle stay = 1; stay < 200; ++stay) {
     probe.enters(c += 3);
     ASSERT_EQ(probe.leaves(c += stay), stay);
   }
-  // Two inside, of two differences; then of three, of which the middle one ends first.
+  // Two items with two latencies in flight; then three, of which the middle one leaves first.
   for (Cycle gap = 1; gap < 20; ++gap) {
     probe.enters(c);
     probe.enters(c + gap);
@@ -435,7 +435,7 @@ TEST(LatencyProbe, OfSingleItemsIsTheirTime) {
   }
 }
 
-// ---- what the rows of a table say of every engine
+// ---- Table rows that all engines share ---------------------------------------------------------
 
 constexpr std::array<std::string_view, 3> kChoices = {"one", "two", "three"};
 constexpr spec::Field kEnable{"enable", 4, 4, Access::kReadWrite, ""},
@@ -449,7 +449,7 @@ constexpr std::array<spec::RegisterInfo, 3> kRows = {{
     {0x38, "CONTROL", "Switch.", kSwitches},
 }};
 
-TEST(ControlLayout, IsThatOfTheRowsByName) {
+TEST(ControlLayout, FollowsFieldNamesOfTheRows) {
   const rtl::ControlLayout layout = rtl::control_layout(kRows, true);
   EXPECT_EQ(layout.control, 0x38u);
   EXPECT_EQ(layout.status, 0x30u);
@@ -461,7 +461,7 @@ TEST(ControlLayout, IsThatOfTheRowsByName) {
   EXPECT_FALSE(rtl::control_layout(kRows, false).busy_ignores_writes);
 }
 
-TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
+TEST(ControlLayout, NeedsBothRegistersAndTheirFields) {
   const auto said = [](std::span<const spec::RegisterInfo> table) -> std::string {
     try {
       rtl::control_layout(table, true);
@@ -480,7 +480,7 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
   fewer = kRows;
   fewer[2].fields = std::span(kSwitches).last(1);
   EXPECT_THAT(said(fewer), HasSubstr("CONTROL has no field enable"));
-  // What the hardware does with these four is the same in every engine.
+  // The hardware treats these four fields alike in every engine.
   std::array states = kStates, switches = kSwitches;
   const auto with = [&](spec::Field& field, Access access) {
     std::array<spec::RegisterInfo, 3> rows = kRows;
@@ -497,14 +497,14 @@ TEST(ControlLayout, WantsBothRegistersAndTheirFields) {
   EXPECT_THAT(with(switches[1], Access::kReadWrite), HasSubstr("CONTROL.clear_counters has an"));
 }
 
-TEST(ControlRegisters, RejectsCommandOfABitThatIsNone) {
+TEST(ControlRegisters, RejectsCommandOfUndefinedBit) {
   rtl::ControlRegisters control("control", kTable, layout(true));
   control.on_command(4, [] {});
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { control.on_command(1, [] {}); }),
               HasSubstr("control.CONTROL: bit 0x1 is not a command"));
 }
 
-TEST(ControlRegisters, ControlKeepsEveryFieldThatIsReadAndWritten) {
+TEST(ControlRegisters, ControlKeepsEveryReadWriteField) {
   static constexpr std::array fields = {kControlFields[0], kControlFields[1], kControlFields[2],
                                         spec::Field{"mode", 5, 4, Access::kReadWrite, ""}};
   auto table = kTable;
@@ -516,7 +516,7 @@ TEST(ControlRegisters, ControlKeepsEveryFieldThatIsReadAndWritten) {
   EXPECT_EQ(control.value(kControl), 0x31U);
 }
 
-TEST(Choice, ACodeThatNoneHasCountsAsZero) {
+TEST(Choice, UndefinedCodeCountsAsZero) {
   constexpr spec::Field field{"which", 5, 4, Access::kReadWrite, "", kChoices};
   enum class Which : std::uint8_t { kOne, kTwo, kThree };
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x2F), Which::kThree);
@@ -524,7 +524,7 @@ TEST(Choice, ACodeThatNoneHasCountsAsZero) {
   EXPECT_EQ(rtl::choice_of<Which>(field, 0x30), Which::kOne);
 }
 
-TEST(LatencyProbe, AgreesWithAQueueOfTimes) {
+TEST(LatencyProbe, AgreesWithQueueOfTimes) {
   rtl::LatencyProbe probe;
   std::deque<Cycle> queue;
   Random random(5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The link protocol: latency 1, refill after 1, initiation interval, independence of order, misuse.
+// The link protocol: latency 1, refill after 1, initiation interval, independence of evaluation
+// order, misuse.
 #include "rtl_model/fabric/link.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using rtl::In;
 using rtl::Link;
 using rtl::Out;
 
-TEST(Link, BeatIsNotThereInItsCycleAndIsThereInTheNext) {
+TEST(Link, BeatArrivesInNextCycle) {
   Link<int> link("link");
   EXPECT_FALSE(link.can_pop(5));
   ASSERT_TRUE(link.can_push(5));
@@ -28,7 +29,7 @@ TEST(Link, BeatIsNotThereInItsCycleAndIsThereInTheNext) {
   EXPECT_FALSE(link.can_pop(7));
 }
 
-TEST(Link, FreedSlotIsNotFreeInItsCycleAndIsFreeInTheNext) {
+TEST(Link, FreedSlotIsFreeInNextCycle) {
   Link<int> link("link", 1);
   link.push(0, 1);
   EXPECT_FALSE(link.can_push(1));
@@ -37,7 +38,7 @@ TEST(Link, FreedSlotIsNotFreeInItsCycleAndIsFreeInTheNext) {
   EXPECT_TRUE(link.can_push(2));
 }
 
-TEST(Link, OnePushAndOnePopACycle) {
+TEST(Link, AcceptsOnePushAndOnePopPerCycle) {
   Link<int> link("link", 4);
   link.push(0, 1);
   EXPECT_FALSE(link.can_push(0));
@@ -49,7 +50,7 @@ TEST(Link, OnePushAndOnePopACycle) {
 }
 
 // A producer and a consumer that always want to act: cycles in which a beat arrives, for each depth
-// and each order of evaluation.
+// and evaluation order.
 std::vector<Cycle> arrivals(std::uint32_t depth, bool producer_first, Cycle cycles) {
   Link<int> link("link", depth);
   std::vector<Cycle> arrived;
@@ -68,7 +69,7 @@ std::vector<Cycle> arrivals(std::uint32_t depth, bool producer_first, Cycle cycl
   return arrived;
 }
 
-TEST(Link, DepthTwoSustainsOneABeatAClock) {
+TEST(Link, DepthTwoSustainsOneBeatPerCycle) {
   const std::vector<Cycle> expected{1, 2, 3, 4, 5, 6, 7, 8, 9};
   for (const std::uint32_t depth : {2U, 3U, 8U}) {
     EXPECT_EQ(arrivals(depth, true, 10), expected);
@@ -76,20 +77,19 @@ TEST(Link, DepthTwoSustainsOneABeatAClock) {
   }
 }
 
-TEST(Link, HasTwoPlacesUnlessMoreAreAskedFor) {
+TEST(Link, DefaultDepthIsTwo) {
   EXPECT_EQ(Link<int>("two").depth(), 2U);
   EXPECT_EQ(Link<int>("three", 3).depth(), 3U);
 }
 
-TEST(Link, DepthOneTakesEveryOtherClock) {
+TEST(Link, DepthOneAcceptsEverySecondCycle) {
   const std::vector<Cycle> expected{1, 3, 5, 7, 9};
   EXPECT_EQ(arrivals(1, true, 10), expected);
   EXPECT_EQ(arrivals(1, false, 10), expected);
 }
 
-// Any stalls, any depth, any order of the two sides in each cycle: the same beats in the same
-// cycles.
-TEST(Link, OrderOfEvaluationDoesNotMatter) {
+// For any stalls, depth and evaluation order: the same beats in the same cycles.
+TEST(Link, EvaluationOrderDoesNotMatter) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const std::uint32_t depth = 1 + static_cast<std::uint32_t>(seed % 5);
     std::string reference;
@@ -117,7 +117,7 @@ TEST(Link, OrderOfEvaluationDoesNotMatter) {
   }
 }
 
-TEST(Link, FullLinkKeepsItsOrderAcrossTheEndOfTheBuffer) {
+TEST(Link, FullLinkKeepsOrderAcrossBufferWrap) {
   Link<int> link("link", 3);  // the buffer has four slots
   Cycle c = 0;
   int in = 0, out = 0;
@@ -130,7 +130,7 @@ TEST(Link, FullLinkKeepsItsOrderAcrossTheEndOfTheBuffer) {
   }
 }
 
-TEST(Link, MisuseSaysWhereAndWho) {
+TEST(Link, MisuseErrorNamesLinkAndCaller) {
   Link<int> link("quads", 1);
   try {
     link.pop(17);
@@ -157,7 +157,7 @@ TEST(Link, ResetEmptiesIt) {
   EXPECT_EQ(link.last_push(), rtl::kNever);
 }
 
-TEST(Link, EmplaceIsPushInPlace) {
+TEST(Link, EmplaceEqualsPush) {
   Link<Token> link("link");
   Token& token = link.emplace(3);
   token.number = 9;
@@ -165,8 +165,8 @@ TEST(Link, EmplaceIsPushInPlace) {
   EXPECT_EQ(link.front(4).number, 9U);
 }
 
-// What a testbench does to a link lasts for the clock that it names, and no longer.
-TEST(Link, HeldSidesWaitForOneClock) {
+// A hold that a testbench places on a link lasts for the named cycle only.
+TEST(Link, HeldSidesWaitForOneCycle) {
   Link<int> link("link", 4);
   link.push(3, 1);
   link.hold_push(5);
@@ -175,14 +175,14 @@ TEST(Link, HeldSidesWaitForOneClock) {
   EXPECT_FALSE(link.can_pop(5));
   EXPECT_TRUE(link.can_push(6));
   EXPECT_TRUE(link.can_pop(6));
-  // A side that has to wait longer anyway does.
+  // A side that has to wait longer anyway still does.
   link.push(6, 2);
   link.hold_push(4);
   EXPECT_FALSE(link.can_push(6));
   EXPECT_TRUE(link.can_push(7));
 }
 
-TEST(Link, ADroppedBeatLeavesItsSlotFromTheNextClockOn) {
+TEST(Link, DroppedBeatFreesItsSlotInNextCycle) {
   Link<int> link("link", 2);
   EXPECT_FALSE(link.drop_newest());
   link.push(4, 1);
@@ -192,32 +192,32 @@ TEST(Link, ADroppedBeatLeavesItsSlotFromTheNextClockOn) {
   EXPECT_FALSE(link.can_push(5));
   ASSERT_TRUE(link.can_push(6));
   EXPECT_EQ(link.take(6), 1);
-  EXPECT_FALSE(link.can_pop(7));  // the dropped one never comes
+  EXPECT_FALSE(link.can_pop(7));  // the dropped one never arrives
   link.push(7, 3);
   EXPECT_EQ(link.take(8), 3);
   EXPECT_TRUE(link.empty());
 }
 
-TEST(Link, ADuplicateIsTheNewestBeatOnceMore) {
+TEST(Link, DuplicateRepeatsNewestBeat) {
   Link<int> link("link", 4);
   EXPECT_FALSE(link.duplicate_newest(0));
   for (int i = 1; i <= 3; ++i) link.push(static_cast<Cycle>(i), i);
   ASSERT_TRUE(link.duplicate_newest(5));
   EXPECT_EQ(link.occupancy(), 4U);
   EXPECT_EQ(link.pushes(), 4U);
-  EXPECT_FALSE(link.duplicate_newest(6));  // no room
+  EXPECT_FALSE(link.duplicate_newest(6));  // the link is full
   EXPECT_FALSE(link.can_push(6));
   std::vector<int> beats;
   for (Cycle c = 6; c < 10; ++c) beats.push_back(link.take(c));
   EXPECT_EQ(beats, (std::vector<int>{1, 2, 3, 3}));
-  // Its slot is not free before it has left.
+  // Its slot is free only after it has left.
   Link<int> both("both", 2);
   both.push(0, 1);
   ASSERT_TRUE(both.duplicate_newest(1));
   both.pop(2);
   both.push(3, 2);
   EXPECT_FALSE(both.can_push(4));
-  // One alone is there in its clock.
+  // A single beat arrives in its cycle.
   link.push(10, 9);
   link.pop(11);
   link.push(12, 7);
@@ -226,8 +226,8 @@ TEST(Link, ADuplicateIsTheNewestBeatOnceMore) {
   EXPECT_EQ(link.take(14), 7);
 }
 
-// The check alone, without so many slots.
-TEST(Link, HasUpTo2To24Places) {
+// Checks the limit only, without allocating the slots.
+TEST(Link, AllowsUpTo2To24Entries) {
   struct Bare : rtl::LinkBase {
     explicit Bare(std::uint32_t depth) : LinkBase("bare", depth, 4, rtl::Payload::of<int>()) {}
   };
@@ -236,7 +236,7 @@ TEST(Link, HasUpTo2To24Places) {
   EXPECT_THROW(Bare((1U << 24) + 1), spec::CheckFailed);
 }
 
-TEST(Link, APackageHasTheBeatsOfAllLinksBelow) {
+TEST(Link, PackageListsBeatsOfAllLinksBelow) {
   struct Top : sc_core::sc_module {
     Link<Token> first{"first"}, second{"second"};
     explicit Top(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -251,7 +251,7 @@ TEST(Link, APackageHasTheBeatsOfAllLinksBelow) {
               testing::HasSubstr("s32_t"));
 }
 
-TEST(Ports, BindInAnyOrderThroughTheHierarchy) {
+TEST(Ports, BindInAnyOrderThroughHierarchy) {
   Link<int> link("link");
   Out<int> outer("outer"), inner("inner"), innermost("innermost");
   innermost(inner);
@@ -264,7 +264,7 @@ TEST(Ports, BindInAnyOrderThroughTheHierarchy) {
   EXPECT_EQ(link.producer(), "innermost");
 }
 
-TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
+TEST(Ports, RejectTwoProducersOrTwoBindings) {
   Link<int> link("link"), other("other");
   Out<int> a("a"), b("b");
   a(link);
@@ -273,13 +273,13 @@ TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
   In<int> c("c"), d("d");
   c(link);
   EXPECT_THROW(d(link), spec::CheckFailed);
-  // A port that has a port, but no link yet, is bound as well.
+  // A port bound to a port that has no link yet counts as bound.
   Link<int> third("third");
   Out<int> outer("outer"), inner("inner");
   inner(outer);
   EXPECT_THROW(inner(third), spec::CheckFailed);
   EXPECT_THROW(inner(a), spec::CheckFailed);
-  // A port has one port inside, with a link or without.
+  // A port has one inner port, with or without a link.
   Out<int> second("second");
   EXPECT_THROW(second(outer), spec::CheckFailed);
   outer(third);
@@ -287,7 +287,7 @@ TEST(Ports, TwoProducersOrTwoBindingsAreRejected) {
   EXPECT_EQ(third.producer(), "inner");
 }
 
-TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {
+TEST(Ports, SecondOwnerErrorNamesItsKind) {
   Link<int> link("link");
   const auto rejected = [&](auto& first, auto& second) -> std::string {
     first(link);
@@ -304,7 +304,7 @@ TEST(Ports, ASecondOwnerIsNamedAsWhatItIs) {
   EXPECT_THAT(rejected(c, d), testing::HasSubstr("link has two consumers: c and d"));
 }
 
-TEST(Ports, UnboundPortIsFoundAtElaboration) {
+TEST(Ports, RejectUnboundPortAtElaboration) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   Driver<int> driver("driver", clock);
   try {
@@ -315,7 +315,7 @@ TEST(Ports, UnboundPortIsFoundAtElaboration) {
   }
 }
 
-TEST(Ports, LinkBetweenTwoClocksIsRejected) {
+TEST(Ports, RejectLinkBetweenTwoClockDomains) {
   rtl::ClockDomain fast("fast", sc_core::sc_time(1, sc_core::SC_NS));
   rtl::ClockDomain slow("slow", sc_core::sc_time(2, sc_core::SC_NS));
   Driver<int> driver("driver", fast);

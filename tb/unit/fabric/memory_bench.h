@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A memory port between a driver and a sink, and the repository's memory.
+// A memory port between a driver and a sink, with the repository's memory model.
 #pragma once
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ struct Side {
   }
 };
 
-// Every byte of memory is its pattern().
+// Fills every byte of memory with its pattern().
 inline void fill(platform::MemoryModel& memory, std::uint64_t bytes) {
   std::vector<std::uint8_t> contents(bytes);
   for (std::size_t i = 0; i < contents.size(); ++i) contents[i] = pattern(i);

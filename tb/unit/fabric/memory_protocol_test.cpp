@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The memory port on targets that behave in every way that TLM-2.0's base protocol allows, and in
-// some that it does not. The targets check what the port does (tb/harness/protocol_target.h, whose
-// own checks are tested in tb/unit/harness/protocol_target_test.cpp).
+// The memory port with targets that cover every behaviour that the TLM-2.0 base protocol allows,
+// and some violations. The targets check the port (tb/harness/protocol_target.h; their checks are
+// tested in tb/unit/harness/protocol_target_test.cpp).
 #include <gtest/gtest.h>
 #include <tlm_utils/peq_with_cb_and_phase.h>
 #include <tlm_utils/simple_target_socket.h>
@@ -47,7 +47,7 @@ struct ProtocolSystem : Side {
     fill(memory, platform::MemoryModelParameters{}.bytes);
   }
 
-  // Reads, bursts of reads, and writes of bytes that are there already. What came of it.
+  // Reads, read bursts, and writes of the existing bytes. Returns beats, cycles and counters.
   std::string run() {
     constexpr std::uint32_t kRequests = 200;
     std::uint64_t beats = 0;
@@ -64,7 +64,7 @@ struct ProtocolSystem : Side {
       }
     }
     const bool done = clock.run_until([&] { return sink.received() == beats; }, 20'000);
-    clock.run(1);  // what is due at the time of the last edge
+    clock.run(1);  // deliver responses due at the time of the last edge
     if (!target.violations().empty()) return "violation: " + target.violations()[0];
     if (!done) return fmt::format("stuck after {}", target.ended());
     if (port.in_flight() != 0 || target.begun() != kRequests || target.ended() != kRequests)
@@ -81,8 +81,8 @@ struct ProtocolSystem : Side {
 
 class EveryAnswer : public testing::TestWithParam<Answer> {};
 
-// Neither how a response is ended nor whether the clock runs on changes a beat, a clock or a count.
-TEST_P(EveryAnswer, IsTakenWithEveryEnd) {
+// Neither the way a response ends nor running ahead changes a beat, a cycle or a counter.
+TEST_P(EveryAnswer, WorksWithEveryResponseEnd) {
   for (const std::uint32_t latency_max : {5u, 40u})
     for (const sc_time& request_time : {SC_ZERO_TIME, 2 * kPeriod, sc_time(13, sc_core::SC_NS)}) {
       const auto run = [&](ResponseEnd end, bool fast) {
@@ -103,11 +103,11 @@ INSTANTIATE_TEST_SUITE_P(MemoryPort, EveryAnswer, testing::ValuesIn(kAnswers),
                            return std::string(kAnswerNames[static_cast<std::size_t>(tested.param)]);
                          });
 
-// A target that accepts one end alone works with that end, and goes no further than the first
-// response with another one.
+// A target that accepts only one way of ending responses works with it and rejects the first
+// response that ends otherwise.
 class OneEnd : public testing::TestWithParam<std::tuple<ResponseEnd, Answer>> {};
 
-TEST_P(OneEnd, IsTheOneThatWorks) {
+TEST_P(OneEnd, RejectsEveryOtherEnd) {
   const ResponseEnd accepted = std::get<0>(GetParam());
   const Answer answer = std::get<1>(GetParam());
   for (const ResponseEnd end : kEnds) {
@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                          kAnswerNames[static_cast<std::size_t>(std::get<1>(tested.param))]);
     });
 
-// A request that is ended at the time of an edge makes room for the next one at that edge.
-TEST(MemoryPort, NextRequestGoesWhenTheLastIsEnded) {
+// A request that ends at the time of an edge makes room for the next one at that edge.
+TEST(MemoryPort, SendsNextRequestWhenLastHasEnded) {
   ProtocolSystem s({.answer = Answer::kFourPhases, .request_time = 2 * kPeriod},
                    ResponseEnd::kUpdated);
   for (std::uint32_t i = 0; i < 20; ++i) s.driver.send(read_of(i));
@@ -140,7 +140,7 @@ TEST(MemoryPort, NextRequestGoesWhenTheLastIsEnded) {
     EXPECT_EQ(s.target.begun_times()[i] - s.target.begun_times()[i - 1], 2 * kPeriod);
 }
 
-// What no target may do.
+// Protocol violations of a target.
 struct BrokenTarget : sc_core::sc_module {
   enum class Fault { kSecondAnswer, kBackwardRequest, kSecondResponse };
   tlm_utils::simple_target_socket<BrokenTarget> socket{"socket"};
@@ -154,7 +154,7 @@ struct BrokenTarget : sc_core::sc_module {
     if (phase == tlm::END_RESP) return tlm::TLM_COMPLETED;
     payload.acquire();
     queue.notify(payload, fault == Fault::kBackwardRequest ? tlm::BEGIN_REQ : tlm::BEGIN_RESP,
-                 // The responses of the first two requests come at one time.
+                 // The responses to the first two requests arrive at the same time.
                  delay + (payload.get_address() == 0 ? 5 : 4) * kPeriod);
     phase = tlm::END_REQ;
     return tlm::TLM_UPDATED;
@@ -181,7 +181,7 @@ std::string rejection_of(BrokenTarget::Fault fault, ResponseEnd end) {
   });
 }
 
-TEST(MemoryPort, SaysWhatATargetDoesWrong) {
+TEST(MemoryPort, ReportsProtocolViolationsOfTarget) {
   using Fault = BrokenTarget::Fault;
   for (const ResponseEnd end : kEnds) {
     EXPECT_THAT(rejection_of(Fault::kSecondAnswer, end),
@@ -189,13 +189,13 @@ TEST(MemoryPort, SaysWhatATargetDoesWrong) {
     EXPECT_THAT(rejection_of(Fault::kBackwardRequest, end),
                 testing::HasSubstr("port: the memory sent phase BEGIN_REQ backwards"));
   }
-  // Only where the first one is still open.
+  // Only while the first response is still open.
   EXPECT_THAT(rejection_of(Fault::kSecondResponse, ResponseEnd::kCall),
               testing::HasSubstr("port: the memory began the response for 0x"));
   EXPECT_EQ(rejection_of(Fault::kSecondResponse, ResponseEnd::kUpdated), "taken");
 }
 
-// A target that knows only b_transport, behind the adapter of simple_target_socket.
+// A target with b_transport only, through the adapter of simple_target_socket.
 struct BlockingTarget : sc_core::sc_module {
   tlm_utils::simple_target_socket<BlockingTarget> socket{"socket"};
   explicit BlockingTarget(const sc_core::sc_module_name& name) : sc_module(name) {
@@ -209,7 +209,7 @@ struct BlockingTarget : sc_core::sc_module {
   }
 };
 
-TEST(MemoryPort, WorksWithABlockingTarget) {
+TEST(MemoryPort, WorksWithBlockingTarget) {
   const auto run = [](ResponseEnd end, bool fast) {
     return in_child([&] {
       Side side;
@@ -229,7 +229,7 @@ TEST(MemoryPort, WorksWithABlockingTarget) {
   for (const ResponseEnd end : kEnds) EXPECT_EQ(run(end, true), slow);
 }
 
-// Leaves an extension in each payload, which goes with its transaction.
+// Leaves an extension in each payload; it must end with its transaction.
 struct MarkingTarget : sc_core::sc_module {
   struct Mark final : tlm::tlm_extension<Mark> {
     tlm::tlm_extension_base* clone() const override { return new Mark; }
@@ -247,7 +247,7 @@ struct MarkingTarget : sc_core::sc_module {
   }
 };
 
-TEST(MemoryPort, APayloadComesWithoutTheExtensionsOfItsLastUse) {
+TEST(MemoryPort, PayloadArrivesWithoutOldExtensions) {
   Side side({.outstanding = 1});
   MarkingTarget target("target");
   side.port.memory.bind(target.socket);
@@ -256,7 +256,7 @@ TEST(MemoryPort, APayloadComesWithoutTheExtensionsOfItsLastUse) {
   EXPECT_EQ(target.marked, "--------");
 }
 
-// What interconnects and memories may do to a payload, or forget to do.
+// What interconnects and memories may change in a payload, or forget to set.
 struct OddTarget : sc_core::sc_module {
   enum class What { kMovesAddress, kLeavesIncomplete, kRejectsEnables };
   tlm_utils::simple_target_socket<OddTarget> socket{"socket"};
@@ -275,8 +275,8 @@ struct OddTarget : sc_core::sc_module {
   }
 };
 
-// A read, a burst of two, a whole line written, half a line written: `status.line@address` of each
-// response, and what was counted.
+// A read, a burst of two, a full line write, a half line write: `status.line@address` of each
+// response, and the counters.
 std::string answers_of(OddTarget::What what) {
   return in_child([&] {
     Side side({.outstanding = 1, .max_burst_lines = 2});
@@ -301,17 +301,17 @@ std::string answers_of(OddTarget::What what) {
   });
 }
 
-TEST(MemoryPort, AResponseHasTheAddressThatWasRequested) {
+TEST(MemoryPort, ResponseCarriesRequestedAddress) {
   EXPECT_EQ(answers_of(OddTarget::What::kMovesAddress),
             "0.0@5 0.0@8 0.1@9 0.0@11- 0.0@12- errors 0");
 }
 
-TEST(MemoryPort, ATargetThatSetsNoStatusFailed) {
+TEST(MemoryPort, MissingStatusCountsAsError) {
   EXPECT_EQ(answers_of(OddTarget::What::kLeavesIncomplete),
             "2.0@5- 2.0@8- 2.1@9- 2.0@11- 2.0@12- errors 4");
 }
 
-TEST(MemoryPort, ATargetWithoutByteEnablesFailsPartsOfLinesAlone) {
+TEST(MemoryPort, TargetWithoutByteEnablesFailsPartialLinesOnly) {
   EXPECT_EQ(answers_of(OddTarget::What::kRejectsEnables),
             "0.0@5 0.0@8 0.1@9 0.0@11- 2.0@12- errors 1");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memories: when a word is there, what ports allow, and what it costs to build them.
+// Memories: read latency, port rules, implementation cost.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ struct Ported {
 
 class MemoryLatency : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(MemoryLatency, WordIsThereInTheClockThatItIsDueAndNotBefore) {
+TEST_P(MemoryLatency, WordArrivesExactlyWhenDue) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
   EXPECT_THAT(rejection([&] { p.read.word(9); }), HasSubstr("no read was issued"));
@@ -72,12 +72,12 @@ TEST_P(MemoryLatency, WordIsThereInTheClockThatItIsDueAndNotBefore) {
   EXPECT_FALSE(p.read.arrives(11 + latency));
 }
 
-TEST_P(MemoryLatency, WordStaysUntilTheNextOneComes) {
+TEST_P(MemoryLatency, WordStaysUntilNextRead) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
   p.read.read(10, 3);
   p.read.read(20, 4);
-  p.write.write(15, 3, -1);  // the output register has the word as it was read
+  p.write.write(15, 3, -1);  // the output register keeps the word as it was read
   EXPECT_EQ(p.read.word(19 + latency), 103);
   EXPECT_EQ(p.read.at(19 + latency, 3), 103);
   EXPECT_EQ(p.read.word(20 + latency), 104);
@@ -85,8 +85,8 @@ TEST_P(MemoryLatency, WordStaysUntilTheNextOneComes) {
               HasSubstr("output register holds that of address 4"));
 }
 
-// The word of the access before is still there: only the address tells.
-TEST_P(MemoryLatency, AStaleWordUsedAClockEarlyIsCaught) {
+// The word of the previous access is still there: only the address tells them apart.
+TEST_P(MemoryLatency, StaleWordUsedEarlyIsRejected) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
   p.read.read(10, 3);
@@ -99,7 +99,7 @@ TEST_P(MemoryLatency, AStaleWordUsedAClockEarlyIsCaught) {
   EXPECT_EQ(p.read.at(20 + latency, 4), 104);
 }
 
-TEST_P(MemoryLatency, OneAccessAClockIsPipelined) {
+TEST_P(MemoryLatency, AcceptsOneAccessPerCycle) {
   const std::uint32_t latency = GetParam();
   Ported p(latency);
   for (Cycle c = 0; c < 200; ++c) {
@@ -113,14 +113,14 @@ TEST_P(MemoryLatency, OneAccessAClockIsPipelined) {
 
 INSTANTIATE_TEST_SUITE_P(Cycles, MemoryLatency, testing::Values(1, 2, 3, 7));
 
-// A unit asks for a word in the clock in which it needs it, a clock too late for the memory.
-TEST(Memory, AReadIssuedTooLateIsCaught) {
+// A unit requests a word in the cycle in which it needs it: one cycle too late for the memory.
+TEST(Memory, ReadIssuedTooLateIsRejected) {
   Ported p(2);
-  p.read.read(9, 7);  // needed in 10
+  p.read.read(9, 7);  // needed in cycle 10
   EXPECT_THAT(rejection([&] { p.read.at(10, 7); }), HasSubstr("expected from cycle 11 on"));
 }
 
-TEST(Memory, FlipFlopsAnswerInTheirClockWithWhatWasThereBefore) {
+TEST(Memory, FlipFlopsReturnOldWordInSameCycle) {
   Ported p(0, ReadDuringWrite::kOldWord, MemoryKind::kFlops);
   p.write.write(4, 5, 55);
   EXPECT_EQ(p.read.now(4, 5), 105);  // whichever unit is ticked first
@@ -132,13 +132,13 @@ TEST(Memory, FlipFlopsAnswerInTheirClockWithWhatWasThereBefore) {
   EXPECT_EQ(p.read.now(7, 0), 9);
 }
 
-TEST(Memory, OnlyFlipFlopsAreClearedAtOnce) {
+TEST(Memory, RejectsClearExceptForFlipFlops) {
   Ported p(1);
   EXPECT_THAT(rejection([&] { p.memory.clear(9); }), HasSubstr("memory: only flip-flops"));
   EXPECT_EQ(p.memory.backdoor(3), 103);
 }
 
-TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
+TEST(Memory, ReadDuringWriteHoldsInAnyOrder) {
   for (const bool read_first : {true, false}) {
     const auto both = [&](Ported& p, Cycle c, int word) {
       if (read_first) p.read.read(c, 5);
@@ -161,7 +161,7 @@ TEST(Memory, RuleOfReadDuringWriteHoldsInAnyOrder) {
   }
 }
 
-TEST(Memory, RuleOfReadDuringWriteHoldsForEachWordOfAnAccess) {
+TEST(Memory, ReadDuringWriteHoldsForEachWord) {
   for (const bool read_first : {true, false})
     for (const ReadDuringWrite rule :
          {ReadDuringWrite::kOldWord, ReadDuringWrite::kNewWord, ReadDuringWrite::kForbidden}) {
@@ -182,7 +182,7 @@ TEST(Memory, RuleOfReadDuringWriteHoldsForEachWordOfAnAccess) {
       const auto seen = [&](Cycle c, std::uint64_t from) {
         return std::array{read.at(c, from), read.at(c, from + 1), read.at(c, from + 2)};
       };
-      both(10, 4, 7);  // neighbours
+      both(10, 4, 7);  // adjacent words
       EXPECT_EQ(seen(12, 4), (std::array{104, 105, 106}));
       both(13, 4, 2);
       EXPECT_EQ(seen(15, 4), (std::array{104, 105, 106}));
@@ -199,8 +199,8 @@ TEST(Memory, RuleOfReadDuringWriteHoldsForEachWordOfAnAccess) {
     }
 }
 
-// Each port has an output register of its own, and keeps its own word from before a write.
-TEST(Memory, PortsDoNotShareWords) {
+// Each port has its own output register, which keeps the word from before a write.
+TEST(Memory, PortsDoNotShareOutputWords) {
   Memory<int> memory("memory", {.words = 16,
                                 .word_bits = 8,
                                 .kind = MemoryKind::kFlops,
@@ -226,7 +226,7 @@ TEST(Memory, PortsDoNotShareWords) {
   EXPECT_EQ(b.at(4, 3), 1);
 }
 
-// An array without ports and without time, and what a port of the memory must show of it.
+// A plain array without ports or timing, and the values that a port of the memory must show.
 class PlainArray {
  public:
   PlainArray(std::size_t words, std::uint32_t latency, bool new_word)
@@ -237,7 +237,7 @@ class PlainArray {
     std::size_t port = 0;
     bool write = false;
     std::uint64_t address = 0;
-    std::vector<int> words;  // to be written; of a read, as many as are read
+    std::vector<int> words;  // words to write; for a read, its size gives the number of words
     bool meets(const Access& other) const {
       return address < other.address + other.words.size() && other.address < address + words.size();
     }
@@ -261,7 +261,7 @@ class PlainArray {
     }
     words_ = std::move(after);
   }
-  // nullptr: nothing yet.
+  // nullptr: no word yet.
   const Shown* shown(std::size_t port, Cycle cycle) const {
     const Shown* newest = nullptr;
     if (port < shown_.size())
@@ -278,8 +278,8 @@ class PlainArray {
   std::vector<std::deque<Shown>> shown_;
 };
 
-// Any ports, span, latency and order of accesses within a clock.
-TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
+// For any ports, span, latency and order of accesses within a cycle.
+TEST(Memory, MatchesPlainArrayReference) {
   constexpr std::uint64_t kWords = 13;
   std::uint64_t compared = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -306,7 +306,7 @@ TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
     for (std::uint32_t i = 0; i < reads; ++i) read_ports.emplace_back(memory, "read");
     for (std::uint32_t i = 0; i < writes; ++i) write_ports.emplace_back(memory, "write");
     for (std::uint32_t i = 0; i < shared; ++i) shared_ports.emplace_back(memory, "shared");
-    // Shared ones are among both.
+    // Shared ports are in both lists.
     std::vector<rtl::ReadAccess<int>*> readers;
     std::vector<rtl::WriteAccess<int>*> writers;
     for (ReadPort<int>& port : read_ports) readers.push_back(&port);
@@ -359,13 +359,14 @@ TEST(Memory, ShowsWhatAPlainArrayHasInItsTime) {
   EXPECT_GT(compared, 100'000U);
 }
 
-// The address of a word that is read again does not tell whether it has come; its access does.
-TEST(Memory, AWordThatIsReadAgainIsToldByItsAccess) {
+// When an address is read again, it does not tell whether the new word has arrived; the access
+// number does.
+TEST(Memory, RepeatedReadIsIdentifiedByItsAccess) {
   Ported p(2);
   p.read.read(10, 3);
   p.write.write(11, 3, 7);
   p.read.read(12, 3);
-  EXPECT_EQ(p.read.at(13, 3), 103);  // a clock early: by its address it may be the one
+  EXPECT_EQ(p.read.at(13, 3), 103);  // one cycle early: by its address it may be the right word
   EXPECT_THAT(rejection([&] { p.read.at(13, 3, 12); }),
               AllOf(HasSubstr("cycle 13: read port reader: the word of address 3"),
                     HasSubstr("as it was read in cycle 12"), HasSubstr("holds that of cycle 10")));
@@ -380,14 +381,14 @@ TEST(Memory, AWordThatIsReadAgainIsToldByItsAccess) {
   EXPECT_THROW(read.check(5, 5, 5), spec::CheckFailed);
 }
 
-TEST(Memory, AWriteAfterTheReadDoesNotReachIt) {
+TEST(Memory, WriteAfterReadDoesNotReachIt) {
   Ported p(3, ReadDuringWrite::kNewWord);
   p.read.read(10, 5);
   p.write.write(11, 5, 1);
   EXPECT_EQ(p.read.at(13, 5), 105);
 }
 
-TEST(Memory, OneAccessTooManyIsCaught) {
+TEST(Memory, ExtraAccessIsRejected) {
   Ported p(1);
   p.read.read(4, 1);
   EXPECT_THAT(rejection([&] { p.read.read(4, 2); }),
@@ -398,7 +399,7 @@ TEST(Memory, OneAccessTooManyIsCaught) {
   EXPECT_NO_THROW(p.read.read(5, 2));
 }
 
-TEST(Memory, AddressesThatAreNotThere) {
+TEST(Memory, RejectsAddressesOutOfRange) {
   Ported p(1);
   EXPECT_THAT(rejection([&] { p.read.read(0, 16); }), HasSubstr("16 words"));
   EXPECT_THAT(rejection([&] { p.write.write(0, ~std::uint64_t{0}, 1); }), HasSubstr("16 words"));
@@ -409,7 +410,7 @@ TEST(Memory, AddressesThatAreNotThere) {
               HasSubstr("0 words from address 3"));
 }
 
-TEST(Memory, PortsAreWhatTheShapeSays) {
+TEST(Memory, PortsMatchTheShape) {
   Memory<int> memory("memory", {.words = 16, .word_bits = 8, .read_ports = 2});
   ReadPort<int> first(memory, "first");
   EXPECT_THAT(rejection([&] { memory.check_ports(); }), HasSubstr("2R1W is unused"));
@@ -447,8 +448,8 @@ TEST(Memory, SharedPortReadsOrWrites) {
   EXPECT_EQ(mixed.ports(), "2R1W3RW");
 }
 
-// The only port that reads takes a bank twice where an access has more words than there are banks.
-TEST(Memory, AnIdealisedAccessMeetsItself) {
+// The only read port uses a bank twice if an access has more words than there are banks.
+TEST(Memory, NotImplementableAccessConflictsWithItself) {
   Memory<int> memory("memory", {.words = 12,
                                 .word_bits = 4,
                                 .banks = 2,
@@ -463,7 +464,7 @@ TEST(Memory, AnIdealisedAccessMeetsItself) {
   EXPECT_THAT(rejection([&] { write.write(3, 5, std::array{1, 2, 3}); }), HasSubstr("bank"));
 }
 
-TEST(Memory, OneAccessGivesNeighboursInDifferentBanks) {
+TEST(Memory, OneAccessReadsAdjacentWordsInDifferentBanks) {
   Memory<int> memory("memory", {.words = 10,
                                 .word_bits = 4,
                                 .read_during_write = ReadDuringWrite::kOldWord,
@@ -504,8 +505,8 @@ TEST(Memory, SeparateBanksAreChecked) {
   EXPECT_NO_THROW(below.read(1, 20));
 }
 
-// Words that lie a multiple of the banks apart share one, all others do not.
-TEST(Memory, NeighboursLieInDifferentBanks) {
+// Words whose distance is a multiple of the number of banks share a bank; others do not.
+TEST(Memory, AdjacentWordsLieInDifferentBanks) {
   for (const std::uint32_t banks : {2u, 3u, 4u, 8u}) {
     Memory<int> memory(
         "memory",
@@ -523,8 +524,8 @@ TEST(Memory, NeighboursLieInDifferentBanks) {
   }
 }
 
-// 41 words in 4 banks of 11, of which the last has 8.
-TEST(Memory, ABlockIsRoundedUp) {
+// 41 words in 4 banks of 11, the last of which holds 8.
+TEST(Memory, BlockSizeIsRoundedUp) {
   Memory<int> memory("memory", {.words = 41,
                                 .word_bits = 4,
                                 .read_ports = 2,
@@ -543,8 +544,8 @@ TEST(Memory, ABlockIsRoundedUp) {
     }
 }
 
-// Of an access to several words each uses its bank.
-TEST(Memory, EveryWordOfAnAccessUsesItsBank) {
+// Each word of an access uses its own bank.
+TEST(Memory, EveryWordOfAccessUsesItsBank) {
   for (const std::uint64_t count : {1u, 2u, 3u}) {
     Memory<int> memory("memory", {.words = 64,
                                   .word_bits = 4,
@@ -564,8 +565,8 @@ TEST(Memory, EveryWordOfAnAccessUsesItsBank) {
   }
 }
 
-// Both rules at once: in one bank a read and a write do not meet in a word.
-TEST(Memory, SeparateBanksForbidAsOthersDo) {
+// Both rules together: a read and a write of one bank do not touch the same word.
+TEST(Memory, SeparateBanksFollowReadDuringWriteRule) {
   Memory<int> memory("memory", {.words = 16,
                                 .word_bits = 4,
                                 .read_during_write = ReadDuringWrite::kForbidden,
@@ -595,7 +596,7 @@ TEST(Memory, SeparateBanksOfSharedPortsHaveOnePort) {
   EXPECT_NO_THROW(a.write(1, 3, 1));
 }
 
-TEST(Memory, SeveralWritersDoNotMeet) {
+TEST(Memory, RejectsSeveralWritersOfOneWord) {
   Memory<int> memory(
       "memory",
       {.words = 8, .word_bits = 4, .kind = MemoryKind::kFlops, .write_ports = 2, .latency = 0});
@@ -609,7 +610,7 @@ TEST(Memory, SeveralWritersDoNotMeet) {
   EXPECT_THAT(rejection([&] { b.write(2, 1, 13); }), HasSubstr("write port b"));
 }
 
-TEST(Memory, PartOfAWordNeedsAWriteMask) {
+TEST(Memory, PartialWordNeedsWriteMask) {
   Memory<std::array<int, 2>> memory("memory", {.words = 8,
                                                .word_bits = 16,
                                                .read_during_write = ReadDuringWrite::kOldWord,
@@ -628,7 +629,7 @@ TEST(Memory, PartOfAWordNeedsAWriteMask) {
               HasSubstr("mask_bits"));
 }
 
-TEST(Memory, WithoutWordsTheChecksStay) {
+TEST(Memory, ChecksRemainWithoutStoredWords) {
   Memory<void> memory("memory", {.words = 8, .word_bits = 4, .latency = 2});
   ReadPort<void> read(memory, "read");
   WritePort<void> write(memory, "write");
@@ -643,8 +644,8 @@ TEST(Memory, WithoutWordsTheChecksStay) {
   EXPECT_NO_THROW(write.write(4, 7));
 }
 
-// A table that is written while nobody reads it: the ports that read are those that are written.
-TEST(Memory, WhatIsLoadedHasItsContentAndNoPortThatWrites) {
+// A table that is loaded while no unit reads it: the read ports also serve for loading.
+TEST(Memory, LoadedTableHasContentAndNoWritePort) {
   constexpr std::array<std::int8_t, 4> kTable = {-128, -1, 0, 127};
   const auto build = [&](std::uint32_t reads, std::uint32_t writes, MemoryKind kind) {
     return Memory<std::int8_t>("loaded",
@@ -715,7 +716,7 @@ TEST(Memory, RomHasItsContent) {
               HasSubstr("0 words of content"));
 }
 
-TEST(Memory, ContentWithASignFitsItsBits) {
+TEST(Memory, SignedContentFitsItsBits) {
   const auto build = [](int word) {
     const std::array<std::int16_t, 1> content = {static_cast<std::int16_t>(word)};
     Memory<std::int16_t>(
@@ -725,7 +726,7 @@ TEST(Memory, ContentWithASignFitsItsBits) {
   for (const int word : {-17, 32}) EXPECT_THROW(build(word), spec::CheckFailed) << word;
 }
 
-TEST(Memory, ContentOfNearlyAWholeWordFitsItsBits) {
+TEST(Memory, WideContentFitsItsBits) {
   const auto build = [](std::uint32_t bits, std::uint64_t word) {
     const std::array<std::uint64_t, 1> content = {word};
     Memory<std::uint64_t>(
@@ -737,7 +738,7 @@ TEST(Memory, ContentOfNearlyAWholeWordFitsItsBits) {
   EXPECT_THROW(build(63, std::uint64_t{1} << 63), spec::CheckFailed);
 }
 
-TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
+TEST(Memory, ResetClearsBookkeepingAndKeepsWords) {
   Ported p(1);
   p.read.read(5, 3);
   p.memory.reset();
@@ -747,7 +748,7 @@ TEST(Memory, ResetClearsTheBookkeepingAndNotTheWords) {
   EXPECT_EQ(p.memory.reads(), 1U);
 }
 
-TEST(Memory, AWriteOfBeforeAResetIsNoneOfItsClock) {
+TEST(Memory, WriteBeforeResetDoesNotCountAfterIt) {
   Ported p(1);
   p.write.write(5, 3, 7);
   p.memory.reset();
@@ -755,7 +756,7 @@ TEST(Memory, AWriteOfBeforeAResetIsNoneOfItsClock) {
   EXPECT_EQ(p.memory.writes(), 1U);
 }
 
-// The domain looks after memories inside units and beside them.
+// A domain resets memories inside units and next to them.
 class Holder final : public rtl::Unit {
  public:
   Ported inside{1};
@@ -767,7 +768,7 @@ class Holder final : public rtl::Unit {
   void reset() override {}
 };
 
-TEST(Memory, TheDomainResetsIt) {
+TEST(Memory, DomainResetsMemory) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Holder holder("holder", clock);
   Ported beside(1);
@@ -784,14 +785,14 @@ TEST(Memory, TheDomainResetsIt) {
   }
 }
 
-TEST(Memory, TheDomainAsksForAPortThatNobodyUses) {
+TEST(Memory, DomainRejectsUnusedPort) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Memory<int> memory("memory", {.words = 16, .word_bits = 8});
   const ReadPort<int> read(memory, "read");
   EXPECT_THAT(rejection([&] { clock.run(1); }), HasSubstr("memory: one of its ports 1R1W"));
 }
 
-// ---- what it costs ------------------------------------------------------------------------------
+// ---- Implementation cost -----------------------------------------------------------------------
 
 struct Cost {
   MemoryShape shape;
@@ -800,7 +801,7 @@ struct Cost {
   std::string built_as;
 };
 
-TEST(MemoryCost, IsThatOfRealMemories) {
+TEST(MemoryCost, MatchesRealMemories) {
   const std::vector<Cost> costs = {
       {{.words = 1920, .word_bits = 24}, 46'080, 46'080, 1, "1R1W"},
       {{.words = 1920, .word_bits = 24, .read_ports = 3}, 46'080, 138'240, 3, "3 copies of 1R1W"},
@@ -865,7 +866,7 @@ TEST(MemoryCost, IsThatOfRealMemories) {
   }
 }
 
-TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
+TEST(MemoryCost, UnavailableMemoryIsRejectedWithAlternative) {
   const auto rejected = [](const MemoryShape& shape) {
     return text_of<spec::ConfigError>([&] { MemoryBase("memory", shape); });
   };
@@ -895,7 +896,7 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
   EXPECT_THAT(
       rejected({.words = 8, .word_bits = 8, .banks = 2, .order = BankOrder::kBlocks, .span = 2}),
       HasSubstr("interleaved banks"));
-  // Registers under another name; the bits of a row of 24 576 that are used at once.
+  // SRAM or ROM in name, registers in fact: a row of 24 576 words that are all used at once.
   for (const MemoryKind kind : {MemoryKind::kSram, MemoryKind::kRom}) {
     const std::uint32_t writes = kind == MemoryKind::kSram ? 1 : 0;
     const auto banked = [&](std::uint64_t words, std::uint32_t banks) {
@@ -935,8 +936,8 @@ TEST(MemoryCost, WhatNobodySellsIsRejectedWithAWayOut) {
       HasSubstr("a write mask of 5 bits does not divide words of 16"));
 }
 
-// Each by itself, the others being as they must.
-TEST(MemoryCost, AShapeThatIsNoneIsABug) {
+// Each field alone is invalid, the others are valid.
+TEST(MemoryCost, RejectsInvalidShape) {
   const auto make = [](MemoryShape shape) { const MemoryBase memory("memory", shape); };
   const MemoryShape right{.words = 16, .word_bits = 8, .kind = MemoryKind::kFlops, .banks = 16};
   EXPECT_NO_THROW(make(right));
@@ -955,7 +956,7 @@ TEST(MemoryCost, AShapeThatIsNoneIsABug) {
   }
 }
 
-TEST(MemoryCost, IdealisedSaysSoAndWhy) {
+TEST(MemoryCost, NotImplementableSaysSoAndWhy) {
   const MemoryBase wide("wide", {.words = 1920,
                                  .word_bits = 288,
                                  .read_ports = 13,
@@ -967,12 +968,12 @@ TEST(MemoryCost, IdealisedSaysSoAndWhy) {
   EXPECT_TRUE(small.not_implementable().empty());
 }
 
-TEST(MemoryCost, TwoNeighboursAreNamedToo) {
+TEST(MemoryCost, NamesTwoWordPorts) {
   const MemoryBase pairs("pairs", {.words = 64, .word_bits = 4, .banks = 2, .span = 2});
   EXPECT_EQ(pairs.ports(), "1R1W of 2 words");
 }
 
-TEST(MemoryCost, ARomHasNoPortThatWritesOfEitherKind) {
+TEST(MemoryCost, RomRejectsWritePortsOfBothKinds) {
   EXPECT_THAT(text_of<spec::ConfigError>([] {
                 MemoryBase("rom", {.words = 4,
                                    .word_bits = 8,
@@ -983,13 +984,13 @@ TEST(MemoryCost, ARomHasNoPortThatWritesOfEitherKind) {
               HasSubstr("a rom cannot have write ports"));
 }
 
-TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
-  // Two rows of an entry a pair of columns.
+TEST(MemoryCost, ScalesWithFrameWidth) {
+  // Two rows of one entry per pair of columns.
   const MemoryBase pairs("pairs", {.words = 2048, .word_bits = 100, .columns = 2048});
   EXPECT_TRUE(pairs.follows_width());
   EXPECT_EQ(pairs.bits_at(1920), 192'000U);
   EXPECT_EQ(pairs.bits_at(1), 100U);
-  // Part of a word is a whole one: of 3 words for 8 columns, 3 columns need 9 / 8.
+  // Rounds up to full words: with 3 words for 8 columns, 3 columns need 9 / 8.
   const MemoryBase three("three", {.words = 3, .word_bits = 10, .columns = 8});
   EXPECT_EQ(three.bits_at(3), 20U);
   EXPECT_EQ(three.bits_at(8), 30U);
@@ -999,7 +1000,7 @@ TEST(MemoryCost, GoesWithTheWidthOfTheFrame) {
   EXPECT_TRUE(MemoryBase("column", {.words = 2, .word_bits = 1, .columns = 1}).follows_width());
 }
 
-TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
+TEST(MemoryCost, MemoryPortBuffersAllOutstandingResponses) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   const rtl::MemoryPort few("few", clock, {.outstanding = 16}),
       many("many", clock, {.outstanding = 64, .max_burst_lines = 2, .line_bytes = 32});
@@ -1018,8 +1019,8 @@ TEST(MemoryCost, AMemoryPortBuffersWhatMayComeBack) {
                spec::CheckFailed);
 }
 
-// Flip-flops end at 16 384 bits, and not at one more.
-TEST(MemoryCost, FlipFlopsEndAtTheirLastBit) {
+// Flip-flops hold at most 16 384 bits.
+TEST(MemoryCost, FlipFlopsHaveExactLimit) {
   const auto flops = [](std::uint64_t words, std::uint32_t bits) {
     const MemoryBase memory("memory",
                             {.words = words, .word_bits = bits, .kind = MemoryKind::kFlops});
@@ -1032,7 +1033,7 @@ TEST(MemoryCost, FlipFlopsEndAtTheirLastBit) {
   EXPECT_EQ(MemoryBase::kind_for(16'385), MemoryKind::kSram);
 }
 
-TEST(MemoryCost, ADeepFifoIsSram) {
+TEST(MemoryCost, DeepFifoIsSram) {
   const rtl::Fifo<std::uint32_t> shallow("shallow", 32), deep("deep", 33);
   EXPECT_EQ(shallow.memory_kind(), MemoryKind::kFlops);
   EXPECT_EQ(shallow.logical_bits(), 1024U);
@@ -1043,7 +1044,7 @@ TEST(MemoryCost, ADeepFifoIsSram) {
   EXPECT_EQ(deep.register_bits(), 2U * 32);  // its output registers
 }
 
-TEST(MemoryCost, AWideFifoIsSram) {
+TEST(MemoryCost, WideFifoIsSram) {
   const rtl::Fifo<rtl::MemoryRequest> narrow("narrow", 24), wide("wide", 25);
   EXPECT_EQ(narrow.logical_bits(), 24U * 680);
   EXPECT_EQ(narrow.memory_kind(), MemoryKind::kFlops);
@@ -1051,9 +1052,9 @@ TEST(MemoryCost, AWideFifoIsSram) {
   EXPECT_EQ(wide.register_bits(), 2U * 680);
 }
 
-// By hand: a written word a write port and its mask, a bit a read whether it meets one, all of it
-// as long as a read takes.
-TEST(MemoryCost, NewWordsOfSramAreABypass) {
+// By hand: per write port a written word and its mask, per read one bit for a match, all of it for
+// the latency of a read.
+TEST(MemoryCost, NewWordOfSramCostsBypass) {
   const auto bits = [](MemoryShape shape, ReadDuringWrite rule) {
     shape.read_during_write = rule;
     return MemoryBase("memory", shape).register_bits();
@@ -1079,7 +1080,7 @@ TEST(MemoryCost, NewWordsOfSramAreABypass) {
   EXPECT_EQ(MemoryBase("memory", fresh).built_as(), "flip-flops");
 }
 
-TEST(Memory, SramForbidsWhatItsShapeDoesNotSay) {
+TEST(Memory, SramRejectsUndeclaredReadDuringWrite) {
   Memory<int> sram("sram", {.words = 8, .word_bits = 4});
   ReadPort<int> read(sram, "read");
   WritePort<int> write(sram, "write");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory port and the repository's memory.
+// The memory port and the repository's memory model.
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
@@ -27,8 +27,8 @@ using rtl::MemoryRequest;
 using rtl::MemoryResponse;
 using rtl::MemoryStatus;
 
-// Pushed in 0, sent in 1, arrives at 1+L, pushed in 2+L, in the sink in 3+L: not before, not after;
-// of reads and of writes.
+// Pushed in 0, sent in 1, arrives at 1 + L, pushed in 2 + L, in the sink in exactly 3 + L; for
+// reads and writes.
 TEST(MemoryPort, LatencyIsExact) {
   for (const bool write : {false, true})
     for (const std::uint32_t latency : {0U, 1U, 2U, 20U, 100U}) {
@@ -56,10 +56,10 @@ TEST(MemoryPort, LatencyIsExact) {
     }
 }
 
-// All latencies of the range are drawn, both ends among them.
-TEST(MemoryPort, LatenciesAreDrawnFromTheWholeRange) {
+// All latencies of the range are drawn, including both bounds.
+TEST(MemoryPort, RandomLatenciesCoverTheWholeRange) {
   MemoryPortParameters parameters;
-  parameters.outstanding = 1;  // none waits for another
+  parameters.outstanding = 1;  // no request waits for another
   System s(parameters, with_latency(5, 8));
   for (std::uint32_t i = 0; i < 200; ++i) s.driver.send(read_of(i));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 200; }, 10'000));
@@ -68,7 +68,7 @@ TEST(MemoryPort, LatenciesAreDrawnFromTheWholeRange) {
   EXPECT_GT(s.port.latency.percentile(60), s.port.latency.percentile(40));
 }
 
-TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
+TEST(MemoryPort, AcceptsOneRequestPerCycle) {
   MemoryPortParameters parameters;
   parameters.outstanding = 32;
   System s(parameters, with_latency(20));
@@ -84,8 +84,9 @@ TEST(MemoryPort, OneRequestAClockWhenEnoughMayBeOutstanding) {
   EXPECT_EQ(s.memory.bytes_read(), 500U * 64);
 }
 
-// With n outstanding, n requests go every latency + 1 cycles: a beat that leaves counts no more.
-TEST(MemoryPort, RateIsLimitedByOutstanding) {
+// With n outstanding, n requests leave every latency + 1 cycles: a beat that leaves is not counted
+// any longer.
+TEST(MemoryPort, OutstandingRequestsLimitTheRate) {
   MemoryPortParameters parameters;
   parameters.outstanding = 4;
   System s(parameters, with_latency(19));
@@ -97,7 +98,7 @@ TEST(MemoryPort, RateIsLimitedByOutstanding) {
   EXPECT_EQ(s.port.stalls()[1].name, "outstanding");
 }
 
-TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
+TEST(MemoryPort, MemoryBandwidthLimitsTheRate) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_cycle = 16;
   System s({}, parameters);
@@ -107,7 +108,7 @@ TEST(MemoryPort, BandwidthOfTheMemoryLimits) {
   EXPECT_EQ(s.sink.cycles()[99], 13U + 3 + 99 * 4);
 }
 
-TEST(MemoryPort, BusyBanksLimit) {
+TEST(MemoryPort, BusyBanksLimitTheRate) {
   for (const std::uint32_t banks : {1U, 4U, 8U}) {
     const std::string text = in_child([&] {
       platform::MemoryModelParameters parameters = with_latency(10);
@@ -124,7 +125,7 @@ TEST(MemoryPort, BusyBanksLimit) {
   }
 }
 
-TEST(MemoryPort, RandomLatencyOvertakesUnlessInOrder) {
+TEST(MemoryPort, RandomLatencyReordersUnlessInOrder) {
   for (const bool in_order : {false, true}) {
     const std::string text = in_child([&] {
       MemoryPortParameters parameters;
@@ -149,7 +150,7 @@ TEST(MemoryPort, RandomLatencyOvertakesUnlessInOrder) {
   }
 }
 
-TEST(MemoryPort, BurstsOfReadsAndWrites) {
+TEST(MemoryPort, HandlesReadAndWriteBursts) {
   MemoryPortParameters parameters;
   parameters.max_burst_lines = 8;
   parameters.max_write_lines = 4;
@@ -191,15 +192,15 @@ TEST(MemoryPort, BurstsOfReadsAndWrites) {
   EXPECT_EQ(s.memory.lines_read().size(), 8U);
 }
 
-// A request that a full memory withholds while the engine is reset comes in later, and is none of
-// those that the engine asks for afterwards.
-TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
+// A request that a full memory withholds during a reset of the engine arrives later and does not
+// count among the requests made after the reset.
+TEST(MemoryModel, IgnoresRequestWithheldBeforeReset) {
   platform::MemoryModelParameters parameters = with_latency(50);
   parameters.outstanding = 1;
   System s({}, parameters);
   s.driver.send(read_of(3));
   s.driver.send(read_of(4));
-  s.clock.run(20);  // 3 is under way, 4 is withheld
+  s.clock.run(20);  // 3 is in flight, 4 is withheld
   ASSERT_EQ(s.memory.lines_read(), (std::vector<std::uint64_t>{3 * 64}));
   s.memory.clear_statistics();
   s.driver.send(read_of(5));
@@ -209,8 +210,8 @@ TEST(MemoryModel, CountsNoRequestThatWasWithheldBefore) {
   EXPECT_EQ(s.memory.bytes_read(), 64U);
 }
 
-// The last of what a narrow bus still has to carry is written long after its latency.
-TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
+// The last data on a narrow bus are written long after the latency.
+TEST(MemoryModel, IdleAfterLastWrite) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.write_at_response = true;
   parameters.bytes_per_cycle = 1;
@@ -236,9 +237,9 @@ TEST(MemoryModel, IsAtRestWhenTheLastWriteIsDone) {
   EXPECT_GT(s.clock.cycle(), Cycle{3 * 64});
 }
 
-// While a clock domain runs on, SystemC's time stands still; what looks at the contents in mid-run
-// sees the writes whose answers have come all the same.
-TEST(MemoryModel, WhatIsAnsweredIsThereInMidRun) {
+// While a clock domain runs ahead, SystemC time does not advance; a reader of the contents during a
+// run still sees the writes whose responses have arrived.
+TEST(MemoryModel, AnsweredWriteIsVisibleDuringRun) {
   struct Look final : rtl::Clocked {
     System& system;
     std::optional<int> seen;
@@ -264,7 +265,7 @@ TEST(MemoryModel, WhatIsAnsweredIsThereInMidRun) {
   EXPECT_EQ(look.seen, 0xEE);
 }
 
-TEST(MemoryModel, ClearsAllThatItHasCounted) {
+TEST(MemoryModel, ClearsAllCounters) {
   System s({}, with_latency(5));
   s.memory.fail_range(9 * 64, 10 * 64);
   const auto counted = [&] {
@@ -289,10 +290,10 @@ TEST(MemoryModel, ClearsAllThatItHasCounted) {
   EXPECT_THAT(counted(), ::testing::Each(0u));
 }
 
-// A response that was sent ahead is over at its time, though no request has come since.
-TEST(MemoryModel, WhatWasAnsweredAheadIsNotOutstandingWhenItIsCleared) {
+// A response that was sent ahead ends at its time, even without a later request.
+TEST(MemoryModel, ResponseSentAheadIsNotOutstandingAtClear) {
   System s({}, with_latency(5));
-  for (std::uint64_t number = 1; number <= 2; ++number) {  // the first one is not sent ahead
+  for (std::uint64_t number = 1; number <= 2; ++number) {  // the first response is not sent ahead
     s.driver.send(read_of(3));
     ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == number; }, 1000));
   }
@@ -302,7 +303,7 @@ TEST(MemoryModel, WhatWasAnsweredAheadIsNotOutstandingWhenItIsCleared) {
   EXPECT_EQ(s.memory.max_outstanding(), 0U);
 }
 
-TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
+TEST(MemoryModel, ForgetsLinesAndKeepsCounting) {
   System s({}, with_latency(5));
   s.driver.send(read_of(3));
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 1; }, 1000));
@@ -311,9 +312,9 @@ TEST(MemoryModel, ForgetsLinesAndGoesOnCounting) {
   EXPECT_EQ(s.memory.reads(), 1U);
 }
 
-// Who does not wait for the answer to a write reads what was there before; who waits reads what was
-// written. A memory that takes requests one by one hides that.
-TEST(MemoryModel, AReadAfterAWriteIsARace) {
+// A reader that does not wait for the response to a write gets the old data; one that waits gets
+// the new data. A memory that accepts one request at a time would hide the difference.
+TEST(MemoryModel, ReadAfterUnansweredWriteIsRace) {
   for (const bool late : {true, false}) {
     const std::string text = in_child([&] {
       platform::MemoryModelParameters parameters = with_latency(10);
@@ -339,8 +340,9 @@ TEST(MemoryModel, AReadAfterAWriteIsARace) {
   }
 }
 
-// The first read that sees it begins at the time of its last byte, whenever the answer is sent.
-TEST(MemoryModel, AWriteIsThereFromTheTimeOfItsLastByteOn) {
+// The first read that sees the write begins at the time of its last byte, whenever the response is
+// sent.
+TEST(MemoryModel, WriteIsVisibleFromItsLastByte) {
   for (const bool ahead : {true, false}) {
     const std::string text = in_child([&] {
       platform::MemoryModelParameters parameters = with_latency(10);
@@ -353,7 +355,7 @@ TEST(MemoryModel, AWriteIsThereFromTheTimeOfItsLastByteOn) {
       write.byte_mask = ~std::uint64_t{0};
       write.data.fill(0xEE);
       s.driver.send(write);
-      for (int i = 0; i < 12; ++i) s.driver.send(read_of(3));  // a clock later each
+      for (int i = 0; i < 12; ++i) s.driver.send(read_of(3));  // one per cycle
       s.clock.run(60);
       std::string said;
       for (const MemoryResponse& response : s.sink.beats())
@@ -364,13 +366,13 @@ TEST(MemoryModel, AWriteIsThereFromTheTimeOfItsLastByteOn) {
   }
 }
 
-// Nobody can tell a response that was sent ahead from one that is sent at its time: with any bus,
-// limits, errors, writes between the reads and a reset, every beat, clock and count is the same,
-// and so are the contents whenever and however they are looked at.
-TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
+// Sending a response ahead is unobservable: with any bus, limits, errors, writes between the reads
+// and a reset, every beat, cycle and counter is the same, and so are the contents for every time
+// and kind of access.
+TEST(MemoryModel, ResponsesSentAheadArriveAtTheirTime) {
   std::array<std::uint64_t, 2> activations{};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const bool free = seed % 2 == 0;  // it withholds no request
+    const bool free = seed % 2 == 0;  // the memory withholds no request
     const auto run = [&](bool ahead) {
       const std::string text = in_child([&] {
         Random random(seed, "parameters");
@@ -428,7 +430,7 @@ TEST(MemoryModel, ResponsesSentAheadComeAtTheirTime) {
   EXPECT_LT(activations[true], activations[false] / 10);
 }
 
-// An interconnect that gives the memory other addresses than the initiator's.
+// An interconnect that maps the initiator's addresses to others.
 struct Relocator : sc_core::sc_module {
   static constexpr std::uint64_t kBase = 0x1000;
   tlm_utils::simple_target_socket<Relocator> in{"in"};
@@ -459,7 +461,7 @@ MemoryRequest write_of(std::uint32_t line) {
   return write;
 }
 
-TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
+TEST(MemoryModel, WriteAnsweredAheadUsesMappedAddress) {
   Side side;
   Relocator between("between");
   platform::MemoryModel memory("memory", kPeriod, with_latency(10));
@@ -471,7 +473,7 @@ TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
   ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 2; }, 1000));
   EXPECT_EQ(memory.dump(3 * 64, 1)[0], 0);
   EXPECT_EQ(memory.dump(Relocator::kBase + 3 * 64, 1)[0], 0xEE);
-  // What is written is given back: one after the other, they need a payload or two.
+  // Payloads are returned: one after the other, the writes need one or two.
   for (std::uint32_t i = 0; i < 9; ++i) {
     side.driver.send(write_of(i));
     ASSERT_TRUE(side.clock.run_until([&] { return side.sink.received() == 3 + i; }, 1000));
@@ -480,8 +482,8 @@ TEST(MemoryModel, AWriteAnsweredAheadGoesWhereAnInterconnectSentIt) {
   EXPECT_LE(between.payloads.size(), 2u);
 }
 
-// A write that was answered ahead is there for whoever looks after its time, however.
-TEST(MemoryModel, AWriteAnsweredAheadIsThereForEveryLook) {
+// After its time, a write that was answered ahead is visible to every kind of access.
+TEST(MemoryModel, WriteAnsweredAheadIsVisibleToEveryAccess) {
   using Look = std::function<std::uint8_t(System&, platform::MemoryHost&)>;
   constexpr std::uint64_t kAt = 3 * 64;
   const std::vector<Look> looks = {
@@ -512,8 +514,8 @@ TEST(MemoryModel, AWriteAnsweredAheadIsThereForEveryLook) {
         << look;
 }
 
-// An access by b_transport at the time of its last byte gets it, and none before that.
-TEST(MemoryModel, AWriteAnsweredAheadIsThereAtItsTimeNotEarlier) {
+// A b_transport access sees it from the time of its last byte on, not earlier.
+TEST(MemoryModel, WriteAnsweredAheadIsVisibleAtItsTime) {
   constexpr std::uint64_t kAt = 3 * 64;
   System s({}, with_latency(10));
   platform::MemoryHost host("host", s.memory.size());
@@ -522,13 +524,13 @@ TEST(MemoryModel, AWriteAnsweredAheadIsThereAtItsTimeNotEarlier) {
   s.clock.run(20);
   s.driver.send(write_of(3));
   ASSERT_TRUE(s.clock.run_until([&] { return s.memory.writes() == 1; }, 20));
-  s.clock.run(8);  // the edge that comes is the ninth after that of the request
+  s.clock.run(8);  // the next edge is the ninth after that of the request
   EXPECT_EQ(host.read(kAt, 1)[0], pattern(kAt));
   s.clock.run(1);
   EXPECT_EQ(host.read(kAt, 1)[0], 0xEE);
 }
 
-// Writes a byte, and ends each response at once.
+// Writes a byte and ends each response at once.
 struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
   tlm_utils::simple_initiator_socket<Writer> out{"out"};
   explicit Writer(const sc_core::sc_module_name& name) : sc_module(name) {
@@ -552,9 +554,9 @@ struct Writer final : sc_core::sc_module, tlm::tlm_mm_interface {
   std::uint8_t byte = 0xEE;
 };
 
-// Two writes whose last bytes come within a picosecond, of which the first one has been answered:
-// the second one is not there for a look.
-TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
+// The last bytes of two writes are a picosecond apart and the first has been answered: the second
+// is not yet visible.
+TEST(MemoryModel, WriteIsNotVisibleBeforeItsResponse) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_cycle = 0;
   platform::MemoryModel memory("memory", kPeriod, parameters);
@@ -575,8 +577,8 @@ TEST(MemoryModel, AWriteAnsweredAheadIsNotThereBeforeItsAnswer) {
   EXPECT_EQ(second.get_ref_count(), 0) << "the memory keeps what it has written";
 }
 
-// A request comes when the last byte of a write does, a picosecond before that of the next one.
-TEST(MemoryModel, ARequestLetsInWhatWasWrittenByItsTime) {
+// A request arrives with the last byte of one write, a picosecond before that of the next.
+TEST(MemoryModel, RequestSeesWritesUpToItsTime) {
   platform::MemoryModelParameters parameters = with_latency(10);
   parameters.bytes_per_cycle = 0;
   platform::MemoryModel memory("memory", kPeriod, parameters);
@@ -592,8 +594,7 @@ TEST(MemoryModel, ARequestLetsInWhatWasWrittenByItsTime) {
   EXPECT_EQ(memory.dump(1, 3), (std::vector<std::uint8_t>{0xEE, 0, 0}));
 }
 
-// Every beat of a read fits the links as they are built for narrow lines; a mask that does not is
-// noticed.
+// Every beat of a read fits links built for narrow lines; a mask that does not fit is rejected.
 TEST(MemoryPort, NarrowLinesHaveNarrowBeats) {
   MemoryPortParameters parameters;
   parameters.line_bytes = 32;
@@ -619,7 +620,7 @@ TEST(MemoryPort, NarrowLinesHaveNarrowBeats) {
   EXPECT_THROW(s.clock.run(10), spec::SimulationError);
 }
 
-TEST(MemoryPort, AWriteIsNoLongerThanThePlaceToGatherIt) {
+TEST(MemoryPort, RejectsWriteLongerThanItsBuffer) {
   MemoryPortParameters parameters;
   parameters.max_burst_lines = 4;
   parameters.max_write_lines = 2;
@@ -634,7 +635,7 @@ TEST(MemoryPort, AWriteIsNoLongerThanThePlaceToGatherIt) {
   EXPECT_THROW(s.clock.run(20), spec::CheckFailed);
 }
 
-TEST(MemoryPort, MisalignedRequestIsABug) {
+TEST(MemoryPort, RejectsMisalignedRequest) {
   System s({}, with_latency(1));
   MemoryRequest request = read_of(1);
   request.address += 4;
@@ -642,7 +643,7 @@ TEST(MemoryPort, MisalignedRequestIsABug) {
   EXPECT_THROW(s.clock.run(10), spec::CheckFailed);
 }
 
-TEST(MemoryPort, BurstOfNoLinesOrTooManyIsABug) {
+TEST(MemoryPort, RejectsBurstOfInvalidLength) {
   for (const std::uint16_t lines : {std::uint16_t{0}, std::uint16_t{2}}) {
     EXPECT_EQ(in_child([&] {
                 System s({}, with_latency(1));
@@ -661,7 +662,7 @@ TEST(MemoryPort, BurstOfNoLinesOrTooManyIsABug) {
   }
 }
 
-TEST(MemoryPort, OneToOneThousandMayBeOutstanding) {
+TEST(MemoryPort, AllowsOneToOneThousandOutstanding) {
   rtl::ClockDomain clock("clock", kPeriod);
   for (const std::uint32_t outstanding : {1u, 1024u})
     EXPECT_NO_THROW(rtl::MemoryPort("port", clock, {.outstanding = outstanding}));
@@ -688,14 +689,14 @@ struct Initiator : sc_core::sc_module {
   explicit Initiator(const sc_core::sc_module_name& name) : sc_module(name) {}
 };
 
-// Byte enables are repeated, the last time as far as the data go.
-TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
+// Byte enables repeat over the data; the last repetition may be partial.
+TEST(MemoryModel, ByteEnablesRepeatOverData) {
   platform::MemoryModel memory("memory", kPeriod, with_latency(5));
   Initiator initiator("initiator");
   initiator.out.bind(memory.ports);
   sc_core::sc_start(sc_core::SC_ZERO_TIME);
   fill(memory, 64);
-  // Nothing counts that lies behind the four of them.
+  // Only the first four are used.
   std::array<std::uint8_t, 12> enables{};
   enables.fill(TLM_BYTE_ENABLED);
   enables[1] = enables[2] = TLM_BYTE_DISABLED;
@@ -713,7 +714,7 @@ TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
     initiator.out->b_transport(payload, delay);
     return payload.get_response_status();
   };
-  // Which bytes are the initiator's, and which the memory's.
+  // Marks each byte as the initiator's or the memory's.
   const auto owners = [](const auto& bytes) {
     std::string text;
     for (std::size_t i = 0; i < 10; ++i)
@@ -735,9 +736,9 @@ TEST(MemoryModel, ByteEnablesAreRepeatedOverTheData) {
   EXPECT_EQ(memory.bytes_written(), 5u);
 }
 
-// The mask is of the first line of a burst: a byte of it that is left out stays, and the first byte
-// of the line behind it is written all the same.
-TEST(MemoryPort, AByteThatIsNotEnabledStays) {
+// The mask applies to the first line of a burst: a byte that it excludes keeps its value, and the
+// first byte of the next line is written.
+TEST(MemoryPort, DisabledByteKeepsItsValue) {
   for (const std::uint32_t line_bytes : {32u, kLineBytes})
     EXPECT_EQ(in_child([line_bytes] {
                 MemoryPortParameters parameters;
@@ -765,8 +766,8 @@ TEST(MemoryPort, AByteThatIsNotEnabledStays) {
               fmt::format("0 2 of {}", 2 * line_bytes - 2));
 }
 
-// Whatever the transaction that failed had carried before.
-TEST(MemoryPort, AnErrorBringsNoData) {
+// Even if the failed transaction carried data before.
+TEST(MemoryPort, ErrorResponseCarriesNoData) {
   System s({}, with_latency(7));
   s.memory.fail_range(64 * 10, 64 * 12);
   for (const std::uint32_t line : {1U, 2U, 10U, 3U, 11U}) {
@@ -783,7 +784,7 @@ TEST(MemoryPort, AnErrorBringsNoData) {
   EXPECT_EQ(s.port.errors.value(), 2U);
 }
 
-TEST(MemoryPort, LinesHaveFourBytesAtLeastAndNoMoreThanABeat) {
+TEST(MemoryPort, LineSizeIsFourBytesToOneBeat) {
   rtl::ClockDomain clock("clock", kPeriod);
   for (const std::uint32_t bytes : {4u, kLineBytes})
     EXPECT_NO_THROW(rtl::MemoryPort("port", clock, {.line_bytes = bytes}));
@@ -791,7 +792,7 @@ TEST(MemoryPort, LinesHaveFourBytesAtLeastAndNoMoreThanABeat) {
     EXPECT_THROW(rtl::MemoryPort("port", clock, {.line_bytes = bytes}), spec::CheckFailed);
 }
 
-TEST(MemoryPort, ErrorResponsesComeBackWithTheirTag) {
+TEST(MemoryPort, ErrorResponsesReturnTheirTag) {
   System s({}, with_latency(7));
   s.memory.fail_range(64 * 10, 64 * 12);
   s.memory.fail_request(3);
@@ -831,7 +832,7 @@ TEST(MemoryPort, WritesFailLikeReads) {
   EXPECT_EQ(s.port.reads.value(), 1U);
 }
 
-TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
+TEST(MemoryPort, HoldsRequestsBeyondMemoryLimit) {
   platform::MemoryModelParameters parameters = with_latency(20);
   parameters.outstanding = 3;
   System s({}, parameters);
@@ -843,7 +844,7 @@ TEST(MemoryPort, RequestsBeyondTheMemorysLimitAreHeldBack) {
   EXPECT_GT(s.port.stalls()[2].cycles, 100U);
 }
 
-TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
+TEST(MemoryPort, RunningAheadIsUnobservable) {
   for (const std::uint32_t limit : {3U, 64U})
     for (const std::uint32_t latency_max : {20U, 90U}) {
       const auto run = [&](bool fast, std::optional<std::uint64_t> shuffle) {
@@ -868,10 +869,10 @@ TEST(MemoryPort, NobodyCanTellWhetherTheDomainRunsOn) {
     }
 }
 
-TEST(MemoryPort, ResetWithTransactionsInFlight) {
+TEST(MemoryPort, ResetDropsTransactionsInFlight) {
   System s({}, with_latency(30));
   for (std::uint32_t i = 0; i < 100; ++i) s.driver.send(read_of(i));
-  s.clock.run(25);  // many asked for, none answered
+  s.clock.run(25);  // many requested, none answered
   EXPECT_EQ(s.sink.received(), 0U);
   EXPECT_GT(s.port.in_flight(), 10U);
   EXPECT_EQ(s.port.reads.value(), s.port.in_flight());
@@ -882,7 +883,7 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
   EXPECT_EQ(s.port.reads.value(), 0U);
   ASSERT_TRUE(s.clock.run_until([&] { return s.sink.received() == 100; }, 10'000));
   s.clock.run(100);
-  EXPECT_EQ(s.sink.received(), 100U);  // the late responses of before are gone
+  EXPECT_EQ(s.sink.received(), 100U);  // late responses from before the reset are dropped
   for (std::uint32_t i = 0; i < 100; ++i) {
     EXPECT_EQ(s.sink.beats()[i].tag, i);
     EXPECT_TRUE(right(s.sink.beats()[i]));
@@ -893,8 +894,8 @@ TEST(MemoryPort, ResetWithTransactionsInFlight) {
   EXPECT_EQ(s.port.latency.count(), 0U);
 }
 
-// Answers that overtook each other, some of them given and some not, when the reset comes.
-TEST(MemoryPort, ResetWithAnswersThatWaitForTheirTurn) {
+// Responses that overtook each other are partly delivered when the reset occurs.
+TEST(MemoryPort, ResetDropsReorderedResponses) {
   MemoryPortParameters parameters;
   parameters.in_order = true;
   System s(parameters, with_latency(5, 60), 300);
@@ -915,8 +916,8 @@ TEST(MemoryPort, ResetWithAnswersThatWaitForTheirTurn) {
   }
 }
 
-// Once its answer has come, whether that was sent ahead or not.
-TEST(MemoryPort, ATransactionOfBeforeAResetIsUsedAgain) {
+// Once its response has arrived, sent ahead or not.
+TEST(MemoryPort, TransactionFromBeforeResetIsReused) {
   for (const bool ahead : {true, false})
     EXPECT_EQ(in_child([ahead] {
                 platform::MemoryModelParameters parameters = with_latency(30);
@@ -928,7 +929,7 @@ TEST(MemoryPort, ATransactionOfBeforeAResetIsUsedAgain) {
                 };
                 s.driver.send({read_of(1), read_of(2), read_of(3)});  // again after each reset
                 for (int round = 0; round < 10; ++round) {
-                  s.clock.run(10);  // sent, and not answered
+                  s.clock.run(10);  // sent, not answered
                   s.clock.set_reset_n(false);
                   s.clock.run(40);
                   s.clock.set_reset_n(true);
@@ -939,8 +940,8 @@ TEST(MemoryPort, ATransactionOfBeforeAResetIsUsedAgain) {
         << ahead;
 }
 
-// One read: a clock to send it, and one to push its answer, after the memory has had its time.
-TEST(MemoryPort, AccountsForEveryClockOfARead) {
+// One read: one cycle to send it and one to push its response after the memory's latency.
+TEST(MemoryPort, AccountsForEveryCycleOfRead) {
   System s({}, with_latency(10));
   s.driver.send(read_of(3));
   s.clock.run(50);
@@ -953,8 +954,8 @@ TEST(MemoryPort, AccountsForEveryClockOfARead) {
   EXPECT_EQ(s.port.idle_cycles(), 38U);
 }
 
-// Nobody takes the answers: two stand in the link, and the third waits for room.
-TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
+// No unit takes the responses: two are in the link, the third waits for room.
+TEST(MemoryPort, StallsWhileResponsesAreNotTaken) {
   rtl::ClockDomain clock("clock", kPeriod);
   Driver<MemoryRequest> driver("driver", clock);
   rtl::MemoryPort port("port", clock);
@@ -966,17 +967,17 @@ TEST(MemoryPort, WaitsWhileNobodyTakesItsAnswers) {
   port.responses_out(responses);
   port.memory.bind(memory.ports);
   for (std::uint32_t i = 0; i < 5; ++i) driver.send(read_of(i));
-  clock.run(40);  // sent in 1 to 5, the first answers pushed in 12 and 13
+  clock.run(40);  // sent in 1 to 5, the first responses pushed in 12 and 13
   EXPECT_EQ(responses.occupancy(), 2U);
   EXPECT_EQ(port.in_flight(), 3U);
   EXPECT_EQ(port.idle_cycles(), 1U);
   EXPECT_EQ(port.busy_cycles(), 5U + 2);
   EXPECT_EQ(port.cycles_of(rtl::kStalledDownstream), 26U);
-  EXPECT_EQ(port.stalled_cycles(), 26U + 6);  // six in which it waits for memory
+  EXPECT_EQ(port.stalled_cycles(), 26U + 6);  // six cycles waiting for memory
 }
 
-// Answers that overtake the one whose turn it is wait for memory, as it does: there is room.
-TEST(MemoryPort, InOrderItWaitsForTheOldestAnswer) {
+// Responses that overtook the oldest one wait for memory with it: there is room.
+TEST(MemoryPort, OrderedPortWaitsForOldestResponse) {
   MemoryPortParameters parameters;
   parameters.in_order = true;
   System s(parameters, with_latency(5, 60));
@@ -987,7 +988,7 @@ TEST(MemoryPort, InOrderItWaitsForTheOldestAnswer) {
   EXPECT_GT(s.port.stalled_cycles(), 200U);
 }
 
-// Answers when it is told to.
+// Responds on command.
 struct ToldTarget : sc_core::sc_module, tlm::tlm_fw_transport_if<> {
   tlm::tlm_target_socket<> socket{"socket"};
   std::vector<tlm::tlm_generic_payload*> asked;
@@ -1009,10 +1010,10 @@ struct ToldTarget : sc_core::sc_module, tlm::tlm_fw_transport_if<> {
   unsigned transport_dbg(tlm::tlm_generic_payload&) override { return 0; }
 };
 
-// Of answers that come before one edge the buffer takes a line an edge, in the order in which they
-// come: who waits for the last one waits for the lines before it, none of which an answer to a
-// write has. In the order of arrival every beat leaves as if all had been taken at once.
-TEST(MemoryPort, TheBufferTakesALineAnEdge) {
+// The buffer takes one line per edge of the responses that arrive before the same edge, in order of
+// arrival: a response waits for the lines before it; write responses carry none. In order of
+// arrival, every beat leaves as if all had been taken at once.
+TEST(MemoryPort, BufferTakesOneLinePerEdge) {
   const auto beats = [](bool in_order, bool write, std::vector<std::size_t> answers) {
     return in_child([&] {
       MemoryPortParameters parameters;
@@ -1042,7 +1043,7 @@ TEST(MemoryPort, TheBufferTakesALineAnEdge) {
   EXPECT_EQ(beats(false, false, {1, 0}), "8.0@2 8.1@3 8.2@4 8.3@5 1.0@6 ");
 }
 
-TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
+TEST(MemoryPort, ReadOnlyPortRejectsWrite) {
   EXPECT_THAT(in_child([] {
                 MemoryPortParameters parameters;
                 parameters.read_only = true;
@@ -1056,7 +1057,7 @@ TEST(MemoryPort, WhatOnlyReadsIsNotWritten) {
               testing::HasSubstr("write to 0xc0 through a read-only port"));
 }
 
-// Of a burst that writes two lines the first beat is taken, and waits inside for the other.
+// The first beat of a two-line write burst is taken and waits inside for the second.
 struct HalfABurst : System {
   HalfABurst() : System(of_two_lines(), with_latency(10)) {
     MemoryRequest request = read_of(0);
@@ -1072,7 +1073,7 @@ struct HalfABurst : System {
   }
 };
 
-TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
+TEST(MemoryPort, WaitsForRemainingBeatsOfBurst) {
   HalfABurst s;
   s.clock.run(21);
   EXPECT_EQ(s.port.in_flight(), 1U);
@@ -1081,7 +1082,7 @@ TEST(MemoryPort, WaitsForTheBeatsOfABurst) {
   EXPECT_EQ(s.port.stalled_cycles(), 19U);
 }
 
-TEST(MemoryPort, OfABurstThatAResetCutsNothingIsLeft) {
+TEST(MemoryPort, ResetDiscardsPartialBurst) {
   HalfABurst s;
   s.clock.run(20);
   EXPECT_EQ(s.port.in_flight(), 1U);
@@ -1089,7 +1090,7 @@ TEST(MemoryPort, OfABurstThatAResetCutsNothingIsLeft) {
   s.clock.run(1);
   EXPECT_EQ(s.port.in_flight(), 0U);
   s.clock.set_reset_n(true);
-  s.clock.run(20);  // the first beat comes again, and is no second one
+  s.clock.run(20);  // the first beat again, not taken as a second one
   EXPECT_EQ(s.memory.writes(), 0U);
 }
 

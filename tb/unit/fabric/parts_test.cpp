@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FIFO, pipe, arbiter, counters and histogram: timing, limits, and misuse that is caught.
+// FIFO, pipe, arbiter, counters and histogram: timing, limits, rejected misuse.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using rtl::Cycle;
 
-TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
+TEST(Fifo, TakesOneCycleAndRecordsHighWater) {
   rtl::Fifo<int> fifo("fifo", 5);
   EXPECT_EQ(fifo.logical_bits(), 160U);
   fifo.push(0, 7);
@@ -32,7 +32,7 @@ TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
   EXPECT_EQ(fifo.take(5), 7);
   EXPECT_FALSE(fifo.can_push(5));
   EXPECT_TRUE(fifo.can_push(6));
-  for (Cycle c = 6; c < 50; ++c) {  // one in, one out, every clock
+  for (Cycle c = 6; c < 50; ++c) {  // one in, one out, in every cycle
     fifo.push(c, 100);
     fifo.pop(c);
   }
@@ -42,8 +42,9 @@ TEST(Fifo, LatencyOneIntervalOneAndHighWater) {
   EXPECT_EQ(fifo.high_water(), 0U);
 }
 
-// A word that is popped in a clock is in use until its end, whichever side is ticked first.
-TEST(Fifo, HighWaterDoesNotDependOnTheOrderOfPushAndPop) {
+// An entry that is popped in a cycle is in use until the end of the cycle, whichever side is ticked
+// first.
+TEST(Fifo, HighWaterIgnoresPushPopOrder) {
   rtl::Fifo<int> push_first("push_first", 5), pop_first("pop_first", 5);
   for (rtl::Fifo<int>* const fifo : {&push_first, &pop_first})
     for (Cycle c = 0; c < 3; ++c) fifo->push(c, 0);
@@ -73,7 +74,7 @@ class Hoarder final : public rtl::Unit {
   void reset() override {}
 };
 
-TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
+TEST(Fifo, FifoInsideUnitIsResetWithCounters) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   Hoarder hoarder("hoarder", clock);
   clock.run(10);
@@ -94,7 +95,7 @@ TEST(Fifo, InsideAUnitIsResetWithItsCounters) {
   EXPECT_EQ(hoard["physical_bits"], 128);
 }
 
-// Against a shift register of optionals, with bubbles, for every number of stages in use.
+// Compared with a shift register of optionals, with bubbles, for every number of stages in use.
 template <std::size_t kStages>
 void compare_pipe_with_shift_register() {
   rtl::Pipe<int, kStages> pipe;
@@ -122,7 +123,7 @@ void compare_pipe_with_shift_register() {
     pipe.move();
     std::shift_right(stages.begin(), stages.end(), 1);
     stages[0].reset();
-    // Full for a while, then empty for a while, then as it comes.
+    // Full for a while, then empty for a while, then random.
     const bool enters = move < 100 || (move >= 200 && random.chance(500));
     if (enters) {
       pipe.enter() = move;
@@ -135,7 +136,7 @@ void compare_pipe_with_shift_register() {
   same();
 }
 
-TEST(Pipe, MovesAsAShiftRegisterDoes) {
+TEST(Pipe, MovesLikeShiftRegister) {
   compare_pipe_with_shift_register<2>();
   compare_pipe_with_shift_register<3>();
   compare_pipe_with_shift_register<9>();
@@ -143,7 +144,7 @@ TEST(Pipe, MovesAsAShiftRegisterDoes) {
   compare_pipe_with_shift_register<31>();
 }
 
-TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {
+TEST(RoundRobin, GrantedRequesterWaitsForAllOthers) {
   rtl::RoundRobin arbiter(4);
   std::vector<int> order;
   for (int i = 0; i < 8; ++i) {
@@ -153,13 +154,13 @@ TEST(RoundRobin, WhoWasGrantedWaitsForAllOthers) {
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 0, 1, 2, 3}));
   EXPECT_EQ(arbiter.choose(0), -1);
   arbiter.grant(2);
-  EXPECT_EQ(arbiter.choose(0b0101), 0);  // 3 does not ask, so the turn wraps
+  EXPECT_EQ(arbiter.choose(0b0101), 0);  // 3 does not request, so the turn wraps
   EXPECT_EQ(arbiter.choose(0b0100), 2);
   EXPECT_THROW(rtl::RoundRobin(0), spec::CheckFailed);
   EXPECT_THROW(rtl::RoundRobin(65), spec::CheckFailed);
 }
 
-TEST(RoundRobin, ServesOneAloneAndBeginsWithTheFirstAfterReset) {
+TEST(RoundRobin, ServesSingleRequesterAndResetsToFirst) {
   EXPECT_EQ(rtl::RoundRobin(1).choose(1), 0);
   rtl::RoundRobin arbiter(4);
   EXPECT_EQ(arbiter.choose(0b1111), 0);
@@ -169,7 +170,7 @@ TEST(RoundRobin, ServesOneAloneAndBeginsWithTheFirstAfterReset) {
   EXPECT_EQ(arbiter.choose(0b1111), 0);
 }
 
-TEST(RoundRobin, NobodyWaitsLongerThanTheOthersTakeTurns) {
+TEST(RoundRobin, BoundsTheWaitingTime) {
   constexpr int kRequesters = 64;
   rtl::RoundRobin arbiter(kRequesters);
   Random random(3);
@@ -184,7 +185,7 @@ TEST(RoundRobin, NobodyWaitsLongerThanTheOthersTakeTurns) {
   }
 }
 
-TEST(Merge, IsFairAndFull) {
+TEST(Merge, SharesFullRateFairly) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   Driver<Token> a("a", clock), b("b", clock), c("c", clock);
   rtl::Merge<Token> merge("merge", clock, 3);
@@ -203,7 +204,7 @@ TEST(Merge, IsFairAndFull) {
     for (std::uint32_t i = 0; i < 100; ++i) driver->send(Token{i, source});
     ++source;
   }
-  // Pushed in 0, merged from 1 on, in the sink from 2 on: one a clock.
+  // Pushed in 0, merged from 1 on, in the sink from 2 on: one per cycle.
   clock.run(302);
   ASSERT_EQ(sink.received(), 300U);
   EXPECT_EQ(sink.cycles().front(), 2U);
@@ -214,7 +215,7 @@ TEST(Merge, IsFairAndFull) {
   }
 }
 
-TEST(Merge, BeginsWithTheFirstAfterAReset) {
+TEST(Merge, ResetRestartsWithFirstInput) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
   rtl::Merge<Token> merge("merge", clock, 2);
   rtl::Link<Token> a("a"), b("b"), out("out");
@@ -255,7 +256,7 @@ TEST(Merge, WaitsForItsOutput) {
   (*merge.beats_in[0])(in);
   merge.beats_out(out);
   for (std::uint32_t i = 0; i < 9; ++i) driver.send(Token{i, i});
-  clock.run(20);  // nobody takes: two beats in the link behind, two in that before
+  clock.run(20);  // the output is blocked: two beats in the output link, two in the input link
   EXPECT_EQ(out.occupancy(), 2U);
   EXPECT_EQ(in.occupancy(), 2U);
   EXPECT_EQ(merge.idle_cycles(), 1U);
@@ -303,7 +304,7 @@ TEST(Histogram, PercentilesAreExact) {
   EXPECT_EQ(largest.min(), ~std::uint64_t{0});
 }
 
-TEST(Histogram, LargeValuesAreExactToo) {
+TEST(Histogram, LargeValuesAreExact) {
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     rtl::Histogram histogram("latency", "clk", "test");
@@ -321,8 +322,8 @@ TEST(Histogram, NeedsUnitAndMeaning) {
   EXPECT_THROW(rtl::Histogram("mute", "clk", ""), spec::CheckFailed);
 }
 
-// Of so many values the least one that so many percent do not exceed.
-TEST(Histogram, PercentilesAreOfTheNearestRank) {
+// Nearest rank: the least value that p percent of the values do not exceed.
+TEST(Histogram, PercentilesUseNearestRank) {
   for (const std::uint64_t count : {1u, 2u, 3u, 7u, 99u, 100u, 101u, 250u, 1234u}) {
     rtl::Histogram histogram("latency", "clk", "test");
     for (std::uint64_t i = 0; i < count; ++i) histogram.record(10 * i);
@@ -334,8 +335,8 @@ TEST(Histogram, PercentilesAreOfTheNearestRank) {
   }
 }
 
-// 100 values from 1001 on need bins of two to be at most 64, and of four to be at most 32.
-TEST(Histogram, BinsAreNoWiderThanTheyMustBe) {
+// 100 values from 1001 on: bins of two give at most 64 bins, bins of four at most 32.
+TEST(Histogram, BinsHaveMinimumWidth) {
   rtl::Histogram histogram("latency", "clk", "test");
   for (std::uint64_t i = 0; i < 100; ++i) histogram.record(1001 + i);
   for (const auto& [limit, width, first] : {std::array<std::uint64_t, 3>{100, 1, 1001},
@@ -351,7 +352,7 @@ TEST(Histogram, BinsAreNoWiderThanTheyMustBe) {
     EXPECT_EQ(bins.front().low, first) << limit;
     for (const auto& bin : bins) EXPECT_EQ(bin.high, bin.low + width - 1) << limit;
   }
-  // Few enough values stay as they are, however far apart.
+  // A few values stay exact, however far apart.
   rtl::Histogram two("two", "clk", "test");
   two.record(0);
   two.record(1000);
@@ -359,8 +360,8 @@ TEST(Histogram, BinsAreNoWiderThanTheyMustBe) {
   EXPECT_EQ(two.bins(1).size(), 1U);
 }
 
-// Every percentile against a sorted list, across the seam of table and pages.
-TEST(Histogram, PercentilesAreThoseOfASortedList) {
+// Every percentile compared with a sorted list, across the boundary of table and pages.
+TEST(Histogram, PercentilesMatchSortedList) {
   Random random(3);
   rtl::Histogram histogram("latency", "clk", "test");
   std::vector<std::uint64_t> values;
@@ -396,7 +397,7 @@ TEST(Histogram, BinsAddUpAndCanBeMerged) {
   }
 }
 
-TEST(Statistics, HaveEveryCounterWithUnitAndMeaning) {
+TEST(Statistics, ListEveryCounterWithUnitAndMeaning) {
   Pipeline p(50);
   p.clock.run(500);
   const auto json = statistics(p.clock);

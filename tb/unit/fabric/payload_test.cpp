@@ -68,7 +68,7 @@ std::byte* bytes(T& value) {
   return reinterpret_cast<std::byte*>(&value);
 }
 
-TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
+TEST(Payload, WidthIsSumOfBuiltFields) {
   EXPECT_EQ(Payload::of<Beat>().bits(), 262U);
   EXPECT_EQ(Payload::of<Beat>({.lanes = 2}).bits(), 262U - 64 - 2);
   EXPECT_EQ(Payload::of<Beat>({.lanes = 1, .widths = {{"place.column", 5}, {"corner", 10}}}).bits(),
@@ -84,12 +84,12 @@ TEST(Payload, WidthIsTheSumOfWhatIsBuilt) {
   EXPECT_THROW(Payload::of<Beat>({.counts = {{"corner", 3}}}), spec::CheckFailed);
   EXPECT_THROW(Payload::of<Beat>({.counts = {{"corner", 0}}}), spec::CheckFailed);
   EXPECT_THROW(Payload::of<Beat>({.lanes = 5}), spec::CheckFailed);
-  EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // has nothing by lane
+  EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // no field per lane
 }
 
-// Width 0: the engine is built without the field. It has no bit, no wave, no fault, no place in the
-// types, and what the model keeps there is not looked at.
-TEST(Payload, AFieldOfWidthZeroIsNotBuilt) {
+// Width 0: the engine is built without the field. It has no bit, no wave, no fault and no entry in
+// the types, and its value in the model is ignored.
+TEST(Payload, FieldOfWidthZeroIsNotBuilt) {
   const PayloadShape without = {.widths = {{"slope", 0}, {"place.row", 0}, {"edges", 0}}};
   const Payload payload = Payload::of<Beat>(without);
   EXPECT_EQ(payload.bits(), 262U - 13 - 14 - 4);
@@ -98,20 +98,20 @@ TEST(Payload, AFieldOfWidthZeroIsNotBuilt) {
     EXPECT_THAT(text_of<spec::ConfigError>([&] { payload.bit(gone); }),
                 HasSubstr("no field is named"));
   }
-  // Those behind it move up.
+  // The fields after it move up.
   EXPECT_EQ(payload.find("place.column")->first_bit, 0U);
   EXPECT_EQ(payload.find("pixel.0.r")->first_bit, 13U);
   EXPECT_EQ(payload.find("wide")->first_bit, 13U + 128 + 54);
   EXPECT_EQ(payload.find("colour")->first_bit, 13U + 128 + 54 + 33);
 
   Beat beat;
-  beat.slope = 77777;  // does not fit 13 bits
+  beat.slope = 77777;  // does not fit in 13 bits
   beat.place.row = 0xFFFF;
   beat.edges = 0xFF;
   EXPECT_EQ(payload.misfit(bytes(beat)), nullptr);
   EXPECT_NE(Payload::of<Beat>().misfit(bytes(beat)), nullptr);
   EXPECT_THAT(payload.text(bytes(beat)), testing::Not(HasSubstr("slope")));
-  // Noise and every fault leave it alone.
+  // Noise and every fault leave it unchanged.
   const Beat before = beat;
   payload.fill(bytes(beat), 5);
   for (std::uint32_t n = 0; n < payload.bits(); ++n)
@@ -126,7 +126,7 @@ TEST(Payload, AFieldOfWidthZeroIsNotBuilt) {
   EXPECT_EQ(rtl::Fifo<Beat>("fifo", 4, without).word_bits(), 231U);
 }
 
-TEST(Payload, OfElementsOfAnArrayAllAreBuiltOrNone) {
+TEST(Payload, ArrayElementsAreAllBuiltOrNone) {
   const PayloadShape without = {.widths = {{"corner.0.row", 0}, {"corner.1.row", 0}}};
   const Payload payload = Payload::of<Beat>(without);
   EXPECT_EQ(payload.bits(), 262U - 28);
@@ -136,11 +136,11 @@ TEST(Payload, OfElementsOfAnArrayAllAreBuiltOrNone) {
                 Payload::of<Beat>({.widths = {{"corner.1.row", 0}}});
               }),
               HasSubstr("all of corner"));
-  // A field that there never was cannot be left out.
+  // An unknown field cannot be omitted.
   EXPECT_THROW(Payload::of<Beat>({.widths = {{"slop", 0}}}), spec::CheckFailed);
 }
 
-TEST(Payload, PackageHasNoFieldOfWidthZero) {
+TEST(Payload, PackageOmitsFieldsOfWidthZero) {
   const Payload place = Payload::of<Place>({.widths = {{"row", 0}}});
   const std::array<const Payload*, 1> all = {&place};
   EXPECT_EQ(rtl::payload_package("tokens_pkg", all),
@@ -155,7 +155,7 @@ TEST(Payload, PackageHasNoFieldOfWidthZero) {
             "endpackage\n");
 }
 
-TEST(Payload, ElementsOfAnArrayAreBuiltAlike) {
+TEST(Payload, ArrayElementsHaveEqualWidths) {
   EXPECT_EQ(Payload::of<Beat>({.widths = {{"corner.0.row", 4}, {"corner.1.row", 4}}}).bits(),
             262U - 20);
   EXPECT_THAT(text_of<spec::CheckFailed>([] {
@@ -198,14 +198,14 @@ struct NoSign {
   }
 };
 
-TEST(Payload, AFormatHasAsManyBitsAsTheField) {
+TEST(Payload, FormatHasAsManyBitsAsField) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneBitMore>(); }),
               HasSubstr("area: format U14.16 has 30 bits, but 31 are listed"));
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<NoSign>(); }),
               HasSubstr("area: format S14.16 has 31 bits, but 30 are listed"));
 }
 
-// Formats are Ua.b and Sa.b; what only looks like one is another text.
+// Formats are Ua.b and Sa.b; similar texts are not formats.
 struct OtherTexts {
   std::uint8_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0;
   template <class Self, class Visit>
@@ -220,11 +220,9 @@ struct OtherTexts {
   }
 };
 
-TEST(Payload, ATextThatIsNoFormatSaysNothingOfBits) {
-  EXPECT_EQ(Payload::of<OtherTexts>().bits(), 35U);
-}
+TEST(Payload, TextThatIsNotFormatGivesNoWidth) { EXPECT_EQ(Payload::of<OtherTexts>().bits(), 35U); }
 
-// The name of a type as others write it, whatever letters it has.
+// A type name in another style, with any letters.
 struct AZaz09 {
   std::uint8_t a = 0;
   template <class Self, class Visit>
@@ -255,7 +253,7 @@ TEST(Payload, TypesAreNamedInLowerCase) {
   EXPECT_EQ(Payload::of<Zero0Z9>().node().type, "zero0_z9_t");
 }
 
-// Five bits of every type that C++ has for them.
+// Five bits of each C++ type that can hold them.
 struct FiveBits {
   std::int8_t s8 = 0;
   std::int16_t s16 = 0;
@@ -274,7 +272,7 @@ struct FiveBits {
   }
 };
 
-TEST(Payload, AValueFitsOrDoesNotWhateverItsTypeIs) {
+TEST(Payload, ValueFitsForEveryType) {
   const Payload payload = Payload::of<FiveBits>();
   const auto misfits = [&](int value) {
     std::string names;
@@ -297,7 +295,7 @@ TEST(Payload, AValueFitsOrDoesNotWhateverItsTypeIs) {
     EXPECT_EQ(misfits(value), "s8 s16 s32 s64 u8 u64 ") << value;
 }
 
-TEST(Payload, ANumberHasItsSign) {
+TEST(Payload, NumberHasItsSign) {
   const Payload payload = Payload::of<FiveBits>();
   for (const int value : {-16, -9, -8, -1, 0, 7, 8, 15}) {
     FiveBits beat;
@@ -310,7 +308,7 @@ TEST(Payload, ANumberHasItsSign) {
   }
 }
 
-TEST(Payload, ABitIsAWholeNumber) {
+TEST(Payload, BitIsWholeNumber) {
   const Payload payload = Payload::of<FiveBits>();
   EXPECT_EQ(payload.bit("7").field->name, "s16");
   EXPECT_EQ(payload.bit("s16.2").bit, 2U);
@@ -318,15 +316,15 @@ TEST(Payload, ABitIsAWholeNumber) {
     EXPECT_THROW(payload.bit(text), spec::ConfigError) << text;
 }
 
-TEST(Payload, EachFieldHasANameAndAPlaceOfItsOwn) {
+TEST(Payload, EachFieldHasUniqueNameAndPosition) {
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OneName>(); }),
               HasSubstr("a and a: two fields with the same name"));
   EXPECT_THAT(text_of<spec::CheckFailed>([] { Payload::of<OnePlace>(); }),
               AllOf(HasSubstr("same offset"), HasSubstr("b")));
 }
 
-// The noise of a slot: what was forgotten differs from its neighbours and from the slot before.
-TEST(Payload, NoiseGoesWithTheField) {
+// The noise of a slot: a forgotten value differs from its neighbours and from the previous slot.
+TEST(Payload, NoiseDependsOnField) {
   const Payload payload = Payload::of<Beat>();
   Beat one, other;
   payload.fill(bytes(one), 1);
@@ -341,13 +339,13 @@ TEST(Payload, NoiseGoesWithTheField) {
 }
 
 // By hand: 32 + 5 + 7 + 1 + 32 + 32 x 8, and 32 + 5 + 6 + 1 + 1 + 2 + 32 x 8.
-TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
+TEST(Payload, MemoryBeatsHaveWidthOfTheirPort) {
   rtl::MemoryPortParameters port;
   port.line_bytes = 32;
   EXPECT_EQ(Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5)).bits(), 333U);
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 303U);
   EXPECT_EQ(rtl::kPayloadBits<rtl::MemoryRequest>, 64U + 32 + 7 + 1 + 64 + 512);
-  // Nothing that cannot differ: 32 + 5 + 7, and 32 + 5 + 6 + 1 + 2 + 32 x 8.
+  // Without constant fields: 32 + 5 + 7, and 32 + 5 + 6 + 1 + 2 + 32 x 8.
   port.read_only = true;
   const Payload request = Payload::of<rtl::MemoryRequest>(rtl::request_shape(port, 32, 5));
   EXPECT_EQ(request.bits(), 44U);
@@ -355,11 +353,11 @@ TEST(Payload, MemoryBeatsHaveTheWidthOfTheirPort) {
   EXPECT_EQ(Payload::of<rtl::MemoryResponse>(rtl::response_shape(port, 32, 5)).bits(), 302U);
 }
 
-TEST(Payload, MemoryBeatsHaveTheBitsOfTheirFormats) {
+TEST(Payload, MemoryBeatsHaveBitsOfTheirFormats) {
   EXPECT_GE((expect_widths_of_formats<rtl::MemoryRequest, rtl::MemoryResponse>()), 7);
 }
 
-TEST(Payload, FieldsHaveTheirPlaces) {
+TEST(Payload, FieldsHaveTheirPositions) {
   const Payload payload = Payload::of<Beat>();
   ASSERT_NE(payload.find("pixel.3.b"), nullptr);
   EXPECT_EQ(payload.find("pixel.3.b")->first_bit, 27U + 3 * 32 + 2 * 8);
@@ -388,7 +386,7 @@ TEST(Payload, FieldsHaveTheirPlaces) {
   EXPECT_EQ(payload.misfit(bytes(beat))->name, "place.column");
 }
 
-TEST(Payload, EveryBitIsFlippedByNumberAndByName) {
+TEST(Payload, EveryBitIsFlippedByNumberAndName) {
   const Payload payload = Payload::of<Beat>();
   const Beat zero;
   for (std::uint32_t n = 0; n < payload.bits(); ++n) {
@@ -416,7 +414,7 @@ TEST(Payload, EveryBitIsFlippedByNumberAndByName) {
               AllOf(HasSubstr("no field is named pixel.9.r"), HasSubstr("\n  slope (13 bits)")));
 }
 
-TEST(Payload, ADifferenceNamesTheFields) {
+TEST(Payload, DifferenceNamesTheFields) {
   Beat expected, got;
   expected.pixel[1][0] = 17;
   got.pixel[1][0] = 18;
@@ -426,7 +424,7 @@ TEST(Payload, ADifferenceNamesTheFields) {
   EXPECT_THAT(rtl::payload_text(expected), AllOf(HasSubstr("pixel.1.r=17 "), HasSubstr("last=0")));
 }
 
-enum class Step { kUp, kDown, kLeft, kRight };  // an int to C++
+enum class Step { kUp, kDown, kLeft, kRight };  // an int in C++
 struct Reserved {
   Step before = Step::kUp;
   std::array<bool, 2> input{};
@@ -439,7 +437,7 @@ struct Reserved {
   }
 };
 
-TEST(Payload, AnEnumerationHasNoSign) {
+TEST(Payload, EnumerationIsUnsigned) {
   const Payload payload = Payload::of<Reserved>();
   Reserved reserved{Step::kRight};
   EXPECT_EQ(payload.misfit(bytes(reserved)), nullptr);
@@ -451,7 +449,7 @@ TEST(Payload, AnEnumerationHasNoSign) {
   EXPECT_EQ(payload.misfit(bytes(reserved))->name, "before");
 }
 
-TEST(Payload, PackageIsLegalAndHasIntegersToo) {
+TEST(Payload, PackageIsValidAndHasIntegers) {
   const Payload reserved = Payload::of<Reserved>(), number = Payload::of<std::uint16_t>(),
                 again = Payload::of<std::uint16_t>(), sign = Payload::of<std::int32_t>(),
                 bit = Payload::of<bool>();
@@ -479,7 +477,7 @@ TEST(Payload, PackageIsLegalAndHasIntegersToo) {
             "endpackage\n");
 }
 
-TEST(Payload, PackageDeclaresWhatIsInIt) {
+TEST(Payload, PackageDeclaresItsContents) {
   const Payload beat = Payload::of<Beat>({.lanes = 2}), place = Payload::of<Place>(),
                 narrow = Payload::of<Place>({.widths = {{"row", 4}}});
   const std::array<const Payload*, 3> all = {&beat, &place, &narrow};

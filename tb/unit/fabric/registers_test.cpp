@@ -73,7 +73,7 @@ class Registers : public testing::Test {
   Bus bus{"bus"};
 };
 
-TEST_F(Registers, ReadAndWrite) {
+TEST_F(Registers, SupportReadAndWrite) {
   EXPECT_EQ(bus.read(0), tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(bus.word, 5U);
   EXPECT_EQ(bus.write(0, 0x12345678), tlm::TLM_OK_RESPONSE);
@@ -82,8 +82,8 @@ TEST_F(Registers, ReadAndWrite) {
   EXPECT_EQ(bus.block.get(kControl), 5U);
 }
 
-// Each field as it is declared, in one register: bits of others, and bits of none, stay 0.
-TEST(RegisterFields, AWriteReachesThoseThatItMay) {
+// Each field as declared, in one register: bits of other fields, and undefined bits, stay 0.
+TEST(RegisterFields, WriteReachesWritableFieldsOnly) {
   static constexpr spec::Field kEach[] = {
       {"rw", 3, 0, Access::kReadWrite, {}, {}, 5},       {"ro", 7, 4, Access::kReadOnly, {}, {}, 6},
       {"constant", 11, 8, Access::kConstant, {}, {}, 7}, {"shared", 15, 12, Access::kShared, {}},
@@ -99,7 +99,7 @@ TEST(RegisterFields, AWriteReachesThoseThatItMay) {
   host.write(0, ~std::uint32_t{0});
   EXPECT_EQ(seen, ~std::uint32_t{0});
   EXPECT_EQ(host.read(0), 0xF76Fu);
-  block.set(0, 0xF'F76Fu);  // hardware sets what sticks
+  block.set(0, 0xF'F76Fu);  // hardware sets the sticky bits
   host.write(0, 0x5'0000u);
   EXPECT_EQ(host.read(0), 0xA'0760u);
 }
@@ -117,7 +117,7 @@ TEST_F(Registers, ShowCounters) {
 }
 
 TEST_F(Registers, EachMisuseHasItsError) {
-  EXPECT_EQ(bus.read(0x0C), tlm::TLM_ADDRESS_ERROR_RESPONSE);  // a hole
+  EXPECT_EQ(bus.read(0x0C), tlm::TLM_ADDRESS_ERROR_RESPONSE);  // an unused address
   EXPECT_EQ(bus.read(0x18), tlm::TLM_ADDRESS_ERROR_RESPONSE);
   EXPECT_EQ(bus.read(0x02), tlm::TLM_ADDRESS_ERROR_RESPONSE);
   EXPECT_EQ(bus.read(~std::uint64_t{3}), tlm::TLM_ADDRESS_ERROR_RESPONSE);
@@ -134,25 +134,26 @@ TEST_F(Registers, EachMisuseHasItsError) {
     bus.width = width;
     EXPECT_EQ(bus.write(0, 9), tlm::TLM_BURST_ERROR_RESPONSE) << width;
   }
-  EXPECT_EQ(bus.block.get(kControl), 5U);  // nothing of all that was written
+  EXPECT_EQ(bus.block.get(kControl), 5U);  // none of these writes took effect
   bus.width = 4;
   EXPECT_EQ(bus.access(tlm::TLM_IGNORE_COMMAND, 0), tlm::TLM_OK_RESPONSE);
 }
 
-TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
+TEST_F(Registers, DebugTransportStopsAtUnusedAddress) {
   std::uint32_t words[4] = {1, 2, 3, 4};
   tlm::tlm_generic_payload payload;
   payload.set_command(tlm::TLM_WRITE_COMMAND);
   payload.set_address(0);
   payload.set_data_ptr(reinterpret_cast<unsigned char*>(words));
   payload.set_data_length(16);
-  EXPECT_EQ(bus.socket->transport_dbg(payload), 12U);  // even what the bus may not write
+  EXPECT_EQ(bus.socket->transport_dbg(payload),
+            12U);  // including registers that the bus may not write
   EXPECT_EQ(bus.block.get(kStatus), 2U);
   std::memset(words, 0, sizeof words);
   payload.set_command(tlm::TLM_READ_COMMAND);
   EXPECT_EQ(bus.socket->transport_dbg(payload), 12U);
   EXPECT_EQ(words[2], 3U);
-  // One word, and no byte beyond it; less than one is nothing.
+  // One word and no byte beyond it; less than one word transfers nothing.
   words[0] = words[1] = 0x55555555;
   payload.set_address(4);
   payload.set_data_length(4);
@@ -165,7 +166,7 @@ TEST_F(Registers, DebugTransportCoversSpansUpToAHole) {
   EXPECT_EQ(bus.socket->transport_dbg(payload), 0U);
 }
 
-TEST_F(Registers, ADebugWriteHasAnActionOfItsOwn) {
+TEST_F(Registers, DebugWriteHasItsOwnAction) {
   std::vector<std::uint32_t> by_bus, by_debug;
   bus.block.on_write(kCommand, [&](std::uint32_t value) { by_bus.push_back(value); });
   bus.block.on_debug_write(kCommand, [&](std::uint32_t value) { by_debug.push_back(value); });
@@ -186,12 +187,12 @@ TEST_F(Registers, ADebugWriteHasAnActionOfItsOwn) {
 // Software that runs ahead of simulated time.
 struct Ahead : sc_core::sc_module {
   tlm_utils::simple_initiator_socket<Ahead> socket{"socket"};
-  std::vector<std::string> written;  // time of the write, time of its end, delay then
+  std::vector<std::string> written;  // time of the write, time of its end, remaining delay
   sc_core::sc_time took_effect;
   sc_core::sc_event never;
   SC_HAS_PROCESS(Ahead);
   explicit Ahead(const sc_core::sc_module_name& name) : sc_module(name) { SC_THREAD(run); }
-  // Gives the delay that the access comes back with.
+  // Returns the delay that the access gives back.
   sc_core::sc_time write(const sc_core::sc_time& ahead) {
     std::uint32_t word = 7;
     tlm::tlm_generic_payload payload;
@@ -210,12 +211,12 @@ struct Ahead : sc_core::sc_module {
       written.push_back(took_effect.to_string() + ", " + sc_core::sc_time_stamp().to_string() +
                         ", " + delay.to_string());
     }
-    // The leak check reads the stack that ran last, so it must not be gone.
+    // The leak check reads the stack of the last process, so the process must not end.
     wait(never);
   }
 };
 
-TEST(RegisterTime, AThreadThatIsAheadWaitsForItsAccess) {
+TEST(RegisterTime, ThreadAheadOfTimeWaitsForItsAccess) {
   rtl::RegisterBlock block("block", kTable);
   Ahead ahead("ahead");
   ahead.socket.bind(block.bus);
@@ -223,13 +224,14 @@ TEST(RegisterTime, AThreadThatIsAheadWaitsForItsAccess) {
   sc_core::sc_start(sc_core::sc_time(100, sc_core::SC_NS));
   EXPECT_THAT(ahead.written,
               testing::ElementsAre("0 s, 0 s, 0 s", "30 ns, 30 ns, 0 s", "35 ns, 35 ns, 0 s"));
-  // From outside of processes nobody can wait: at once, and the delay stays the caller's.
+  // A call from outside a process cannot wait: it completes at once and the delay stays with the
+  // caller.
   EXPECT_EQ(ahead.write(sc_core::sc_time(30, sc_core::SC_NS)),
             sc_core::sc_time(30, sc_core::SC_NS));
   EXPECT_EQ(ahead.took_effect, sc_core::sc_time(100, sc_core::SC_NS));
 }
 
-// Approximately timed: BEGIN_REQ, and the response comes by a call.
+// Approximately timed: BEGIN_REQ, and the response arrives by a call.
 struct NonBlocking : sc_core::sc_module, tlm::tlm_mm_interface {
   tlm_utils::simple_initiator_socket<NonBlocking> socket{"socket"};
   std::vector<tlm::tlm_response_status> responses;
@@ -265,7 +267,7 @@ struct NonBlocking : sc_core::sc_module, tlm::tlm_mm_interface {
   }
 };
 
-TEST(RegisterTime, AnswersNonBlockingAccessesToo) {
+TEST(RegisterTime, AnswersNonBlockingAccesses) {
   rtl::RegisterBlock block("block", kTable);
   NonBlocking bus("bus");
   bus.socket.bind(block.bus);
@@ -286,8 +288,8 @@ TEST(RegisterTime, AnswersNonBlockingAccessesToo) {
                                                   tlm::TLM_ADDRESS_ERROR_RESPONSE));
 }
 
-// An initiator that ends each response late: the next request goes as soon as the last one is
-// ended, and its response has to wait for the end of the one before (response exclusion).
+// An initiator that ends each response late: the next request leaves as soon as the last one has
+// ended, and its response waits for the end of the previous one (response exclusion).
 struct Late : sc_core::sc_module, tlm::tlm_mm_interface {
   struct Access {
     tlm::tlm_generic_payload payload;
@@ -297,7 +299,7 @@ struct Late : sc_core::sc_module, tlm::tlm_mm_interface {
   std::vector<std::unique_ptr<Access>> accesses;
   std::vector<std::string> seen;  // phase, access, time in ns
   std::size_t sent = 0;
-  tlm::tlm_generic_payload* open = nullptr;  // a response that is not ended
+  tlm::tlm_generic_payload* open = nullptr;  // a response that has not ended
   sc_core::sc_event end;
   SC_HAS_PROCESS(Late);
   explicit Late(const sc_core::sc_module_name& name) : sc_module(name) {
@@ -356,7 +358,7 @@ struct Late : sc_core::sc_module, tlm::tlm_mm_interface {
   }
 };
 
-TEST(RegisterTime, AResponseWaitsForTheEndOfTheOneBefore) {
+TEST(RegisterTime, ResponseWaitsForEndOfPreviousOne) {
   rtl::RegisterBlock block("block", kTable);
   Late late("late");
   late.socket.bind(block.bus);
@@ -375,7 +377,7 @@ TEST(RegisterTime, AResponseWaitsForTheEndOfTheOneBefore) {
   for (const auto& access : late.accesses) EXPECT_EQ(access->payload.get_ref_count(), 0);
 }
 
-TEST_F(Registers, NamesAndTexts) {
+TEST_F(Registers, ProvideNamesAndTexts) {
   EXPECT_EQ(bus.block.index_of("CONTROL"), std::size_t{kControl});
   EXPECT_EQ(bus.block.index_of("FLAGS"), std::size_t{kFlags});
   EXPECT_EQ(bus.block.index_of("COUNT"), std::size_t{kCount});
@@ -385,7 +387,7 @@ TEST_F(Registers, NamesAndTexts) {
       testing::HasSubstr("| 0x010 | `FLAGS` | W1C | 0x00000000 | bit i: error i was seen |"));
 }
 
-// Values by hand: three fields, of which one is a choice, and two registers that share theirs.
+// Values by hand: three fields, one of them a choice, and two registers that share their fields.
 namespace fields {
 constexpr std::string_view kCodes[] = {"off", "own-way"};
 constexpr spec::Field kMode{"a.mode", 1, 0, Access::kReadWrite, "off where it is not built",
@@ -401,7 +403,7 @@ constexpr spec::RegisterInfo kTable[] = {{0x00, "ID", "which one", kId},
                                          {0x18, "TO", "target", kLow}};
 }  // namespace fields
 
-TEST(RegisterFields, AreTakenOutAndPutInWhereTheyStand) {
+TEST(RegisterFields, ExtractAndInsertAtTheirPosition) {
   EXPECT_EQ(fields::kMode.mask(), 0x3u);
   EXPECT_EQ(fields::kCount.mask(), 0x1F00u);
   EXPECT_EQ(fields::kTop.mask(), 0x80000000u);
@@ -415,7 +417,7 @@ TEST(RegisterFields, AreTakenOutAndPutInWhereTheyStand) {
   EXPECT_EQ(fields::kTable[1].mask(), 0x80001F03u);
 }
 
-TEST(RegisterFields, AreOrderedAndShareNoBit) {
+TEST(RegisterFields, RejectUnorderedOrOverlappingFields) {
   EXPECT_TRUE(spec::fields_are_in_order(fields::kTable));
   const auto ordered = [](std::initializer_list<spec::Field> list) {
     const std::vector<spec::Field> all(list);
@@ -436,7 +438,7 @@ TEST(RegisterFields, AreOrderedAndShareNoBit) {
   EXPECT_FALSE(ordered({{"a", 1, 1, Access::kCommand, {}, {}, 1}})) << "that does not read as 0";
 }
 
-TEST(RegisterFields, StandInATableOfTheirOwn) {
+TEST(RegisterFields, FillTheirOwnTable) {
   const std::string page = rtl::register_table_markdown(fields::kTable);
   for (const char* const row :
        {"| 0x010 | `RULES` | RW, RO | 0x00000001 | rules |\n",
@@ -445,7 +447,7 @@ TEST(RegisterFields, StandInATableOfTheirOwn) {
         "| `RULES` | [31] | `top` | RW | 0 | 0 off, 1 own-way |\n",
         "| `FROM`, `TO` | [31:6] | `address` | RW | 0 | a multiple of 64 |\n"})
     EXPECT_THAT(page, testing::HasSubstr(row));
-  // Where parameters load TO its fields are others than those of FROM; none without a reset.
+  // Where parameters load TO, its fields differ from those of FROM; there are none without a reset.
   constexpr spec::LoadedRegister kLoaded[] = {{0x18, 0x80}};
   const std::string loaded = rtl::register_table_markdown(fields::kTable, kLoaded);
   for (const char* const row : {"| 0x018 | `TO` | RW | 0x00000080 | target |\n",
@@ -486,7 +488,7 @@ TEST(RegisterFields, BecomeMacrosOfC) {
 }
 
 // A table may be in any order.
-TEST(RegisterTable, FindsEachRegisterWhereverItStands) {
+TEST(RegisterTable, FindsRegistersInAnyOrder) {
   static constexpr std::array one = spec::number(Access::kReadWrite, 1),
                               two = spec::number(Access::kReadWrite, 2),
                               three = spec::number(Access::kReadWrite, 3),
@@ -504,7 +506,7 @@ TEST(RegisterTable, FindsEachRegisterWhereverItStands) {
     EXPECT_EQ(host.try_write(hole, 0), tlm::TLM_ADDRESS_ERROR_RESPONSE) << hole;
 }
 
-TEST(RegisterTable, MistakesAreCaught) {
+TEST(RegisterTable, MistakesAreRejected) {
   static constexpr spec::RegisterInfo twice[] = {{0, "A", "a", spec::kNumber},
                                                  {0, "B", "b", spec::kNumber}};
   static constexpr spec::RegisterInfo odd[] = {{2, "A", "a", spec::kNumber}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small pipeline with random stalls, and what is said of a rejection.
+// A small pipeline with random stalls, and helpers for rejections.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@
 
 namespace deburr::tb {
 
-// What the error says that an action ends with.
+// Returns the message of the error that an action ends with.
 template <class Error, class F>
 std::string text_of(F&& action) {
   try {
@@ -47,8 +47,8 @@ struct Token {
   friend bool operator==(const Token&, const Token&) = default;
 };
 
-// Adds its key to each token; stalls at random. `raise` is called at each token, for tests of what
-// units may do to SystemC.
+// Adds its key to each token; stalls at random. `raise` is called at each token, for tests of the
+// SystemC calls that units may make.
 class Adder final : public rtl::Unit {
  public:
   rtl::In<Token> tokens_in{"tokens_in"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Waves: what is in the file is what happened, in the window and scope that were asked for.
+// Waves: the file shows what happened, within the requested interval and scope.
 #include "rtl_model/fabric/trace.h"
 
 #include <gtest/gtest.h>
@@ -24,12 +24,12 @@ namespace {
 
 using rtl::Cycle;
 
-// A reader that knows as much of VCD as the writer uses.
+// A VCD reader for the subset that the writer uses.
 struct Vcd {
   std::map<std::string, std::string> ids;  // full name -> id
   std::map<std::string, std::vector<std::pair<std::uint64_t, std::string>>> changes;  // by id
   std::map<std::string, std::string> widths;    // "wire 64 [63:0]", by full name
-  std::map<std::string, std::set<char>> kinds;  // how its values are written: 0 for a bit; by id
+  std::map<std::string, std::set<char>> kinds;  // how its values are written, by id; 0 for a bit
   std::string timescale;
 
   explicit Vcd(const std::string& file) {
@@ -117,7 +117,7 @@ TEST(Trace, ShowsWhatHappened) {
         << c;
   }
   EXPECT_EQ(number(vcd.value("deburr.top.answer", 0)), 42U);
-  // Every hand-shake in its clock.
+  // Every handshake in its cycle.
   std::uint64_t pushes = 0, pops = 0;
   for (Cycle c = 0; c < 300; ++c) {
     const bool push = vcd.value("deburr.link_1.push", c * 10'000) == "1",
@@ -136,7 +136,7 @@ TEST(Trace, ShowsWhatHappened) {
   }
 }
 
-TEST(Trace, HasAClockAndTheNumberOfItsCycle) {
+TEST(Trace, ShowsClockAndCycleNumber) {
   const std::string file = testing::TempDir() + "clock.vcd";
   Pipeline p(100);
   {
@@ -155,7 +155,7 @@ TEST(Trace, HasAClockAndTheNumberOfItsCycle) {
   for (const auto& [name, id] : vcd.ids) EXPECT_TRUE(name.starts_with("bed.")) << name;
 }
 
-// Passes triples on.
+// Forwards triples.
 struct Triple {
   std::array<std::array<std::uint8_t, 3>, 2> pixel{};
   std::int16_t slope = 0;
@@ -169,7 +169,7 @@ struct Triple {
   friend bool operator==(const Triple&, const Triple&) = default;
 };
 
-TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
+TEST(Trace, ShowsEveryFieldAsBuilt) {
   const std::string file = testing::TempDir() + "fields.vcd";
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Triple> link("link", 2, {.lanes = 1});
@@ -194,7 +194,7 @@ TEST(Trace, ShowsEveryFieldAsItIsBuilt) {
   EXPECT_EQ(vcd.value("deburr.link.last", 20'000), "0");
 }
 
-TEST(Trace, ShowsEveryFieldOfAWire) {
+TEST(Trace, ShowsEveryFieldOfWire) {
   const std::string file = testing::TempDir() + "fields_of_a_wire.vcd";
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Triple triple;
@@ -227,7 +227,7 @@ struct Extremes {
   }
 };
 
-TEST(Trace, ShowsEveryBitOfWideAndOfSignedFields) {
+TEST(Trace, ShowsEveryBitOfWideAndSignedFields) {
   const std::string file = testing::TempDir() + "extremes.vcd";
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Extremes> link("link");
@@ -250,7 +250,7 @@ TEST(Trace, ShowsEveryBitOfWideAndOfSignedFields) {
   EXPECT_EQ(vcd.value("deburr.link.part", 10'000), std::string(17, '1'));
 }
 
-TEST(Trace, ScopeAndWindow) {
+TEST(Trace, RespectsScopeAndInterval) {
   const std::string file = testing::TempDir() + "window.vcd";
   Pipeline p(100);
   {
@@ -263,13 +263,13 @@ TEST(Trace, ScopeAndWindow) {
   EXPECT_FALSE(vcd.ids.count("deburr.link_2.number"));
   ASSERT_TRUE(vcd.ids.count("deburr.adder_3.activity"));
   for (const auto& [id, list] : vcd.changes) {
-    EXPECT_EQ(list.front().first, 400'000U);  // everything has its value at the beginning
+    EXPECT_EQ(list.front().first, 400'000U);  // every signal has its initial value
     EXPECT_LT(list.back().first, 600'000U);
     for (const auto& [time, value] : list) EXPECT_NE(value, "reset");
   }
 }
 
-TEST(Trace, GoesOnThroughAReset) {
+TEST(Trace, ContinuesThroughReset) {
   const std::string file = testing::TempDir() + "reset.vcd";
   Pipeline p(100);
   {
@@ -291,8 +291,8 @@ TEST(Trace, GoesOnThroughAReset) {
   EXPECT_GT(changes.back().first, 250'000U);
 }
 
-// The first clock of a window shows what was done in it, not all that was done before.
-TEST(Trace, AWindowBeginsWithItsOwnClock) {
+// The first cycle of an interval shows only what happened in that cycle.
+TEST(Trace, IntervalBeginsWithItsOwnCycle) {
   for (const Cycle from : {Cycle{0}, Cycle{1}, Cycle{2}, Cycle{37}, Cycle{120}})
     EXPECT_EQ(in_child([&] {
                 const std::string file = testing::TempDir() + fmt::format("begin_{}.vcd", from);
@@ -326,7 +326,7 @@ TEST(Trace, AWindowBeginsWithItsOwnClock) {
         << from;
 }
 
-TEST(Trace, AttachedInMidRunItShowsNothingOfBefore) {
+TEST(Trace, AttachedDuringRunShowsNoEarlierEvents) {
   const std::string file = testing::TempDir() + "attached.vcd";
   Pipeline p(3, 0);
   p.clock.run(50);
@@ -339,8 +339,8 @@ TEST(Trace, AttachedInMidRunItShowsNothingOfBefore) {
   EXPECT_EQ(vcd.value("deburr.adder_1.activity", 50 * 10'000), "idle");
 }
 
-// By VCD's own rules: a range for what has more than one bit, and no two signals of one name.
-TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
+// By VCD's own rules: a range for signals wider than one bit, and unique signal names.
+TEST(Trace, DeclaresSignalsWithWidthAndUniqueIdentifier) {
   static constexpr std::array kControl = spec::number(spec::Access::kReadWrite, 5);
   static constexpr spec::RegisterInfo kTable[] = {{0x00, "CONTROL", "a register", kControl}};
   const std::string file = testing::TempDir() + "widths.vcd";
@@ -370,7 +370,7 @@ TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
     const char kind = width == "string 1" ? 's' : width == "wire 1" ? '0' : 'b';
     EXPECT_EQ(vcd.kinds.at(id), std::set<char>{kind}) << name;
   }
-  // As short as 94 characters allow.
+  // Identifiers are as short as 94 characters allow.
   std::map<std::string, int> names;
   int of_one_character = 0;
   for (const auto& [name, id] : vcd.ids) {
@@ -382,8 +382,8 @@ TEST(Trace, DeclaresEachSignalWithItsWidthAndAnIdentifierOfItsOwn) {
   EXPECT_EQ(of_one_character, 94);
 }
 
-// A period of two units of time has a half, of one has none: there the clock stays up.
-TEST(Trace, TheClockFallsAfterHalfAPeriodIfThereIsOne) {
+// A period of two time units has a half; with a period of one the clock stays high.
+TEST(Trace, ClockFallsAfterHalfPeriodIfRepresentable) {
   const std::vector<std::string> waves = {"1@0 1@1 ", "1@0 0@1 1@2 0@3 ", "1@0 0@1 1@3 0@4 "};
   for (std::uint64_t period = 1; period <= waves.size(); ++period) {
     const std::string wave = in_child([period] {
@@ -403,8 +403,8 @@ TEST(Trace, TheClockFallsAfterHalfAPeriodIfThereIsOne) {
   }
 }
 
-// The simulation goes on, and the file can be read already.
-TEST(Trace, AWindowThatHasEndedIsInTheFile) {
+// The file can be read while the simulation continues.
+TEST(Trace, FinishedIntervalIsInTheFile) {
   const std::string file = testing::TempDir() + "ended.vcd";
   Pipeline p(100);
   const rtl::Trace trace(p.clock, {.file = file, .scopes = {"link_1"}, .from = 5, .to = 8});
@@ -414,7 +414,7 @@ TEST(Trace, AWindowThatHasEndedIsInTheFile) {
   EXPECT_EQ(vcd.changes.at(vcd.ids.at("deburr.clk")).back().first, 75'000U);
 }
 
-TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
+TEST(Trace, ShowsRegistersByScopeNames) {
   static constexpr std::array kMode = spec::number(spec::Access::kReadWrite, 5);
   static constexpr spec::RegisterInfo table[] = {{0, "MODE", "a mode", kMode},
                                                  {4, "COUNT", "a count", spec::kCounter}};
@@ -438,7 +438,7 @@ TEST(Trace, ShowsRegistersByTheNamesThatAScopeCanChoose) {
 }
 
 // Registers of a user's module may belong to none of several domains.
-TEST(Trace, LeavesOutRegistersOfNoDomain) {
+TEST(Trace, OmitsRegistersOutsideAnyDomain) {
   static constexpr std::array kMode = spec::number(spec::Access::kReadWrite, 5);
   static constexpr spec::RegisterInfo table[] = {{0, "MODE", "a mode", kMode}};
   rtl::RegisterBlock block("block", table);
@@ -466,7 +466,7 @@ TEST(Trace, ShowsCounters) {
   EXPECT_EQ(number(vcd.value("deburr.counter", 10'000)), 5U);
 }
 
-TEST(Trace, NamesEveryKindThatAScopeCanChoose) {
+TEST(Trace, NamesEverySelectableKind) {
   const Pipeline p(1);
   const rtl::Wire<bool> wire("wire", false);
   const rtl::Counter counter("counter", "lines", "lines fetched");
@@ -480,7 +480,7 @@ TEST(Trace, UnwritableFileIsAnError) {
                spec::FileError);
 }
 
-TEST(Trace, AFullDiskIsAnErrorThatLeavesNoFile) {
+TEST(Trace, FullDiskIsErrorAndLeavesNoFile) {
   const std::string file = testing::TempDir() + "trace_full_disk.vcd";
   {
     rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
@@ -504,7 +504,8 @@ TEST(Glob, Matches) {
   EXPECT_FALSE(rtl::glob_match("", "a"));
   EXPECT_FALSE(rtl::glob_match("?", ""));
   EXPECT_FALSE(rtl::glob_match("a*bc", "abxc"));
-  EXPECT_FALSE(rtl::glob_match("ab*ba*", "abac"));  // a character is for one of the pattern
+  EXPECT_FALSE(
+      rtl::glob_match("ab*ba*", "abac"));  // one character matches one character of the pattern
 }
 
 }  // namespace

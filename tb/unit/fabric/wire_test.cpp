@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Level signals: the clock in which a value is there, what is undriven, who may drive, what is
-// counted and traced, and that the order in which units are ticked is of no account.
+// Level signals: timing of values, undriven reads, permitted drivers, counters and traces, and
+// independence of the evaluation order.
 #include "rtl_model/fabric/wire.h"
 
 #include <gtest/gtest.h>
@@ -27,9 +27,9 @@ using rtl::WireKind;
 using rtl::WireOut;
 using testing::HasSubstr;
 
-// ---- A register
+// ---- Registered wires --------------------------------------------------------------------------
 
-TEST(Wire, AValueIsThereOneClockLaterNotEarlierAndStays) {
+TEST(Wire, RegisteredValueArrivesOneCycleLater) {
   Wire<int> wire("wire", 7);
   EXPECT_EQ(wire.read(0), 7);
   EXPECT_EQ(wire.driven(), 7);
@@ -43,7 +43,7 @@ TEST(Wire, AValueIsThereOneClockLaterNotEarlierAndStays) {
   EXPECT_EQ(wire.read(1'000'000), 9);
 }
 
-TEST(Wire, IsDrivenOnceAClock) {
+TEST(Wire, RejectsSecondDriveInOneCycle) {
   Wire<int> wire("wire", 7);
   wire.drive(3, 1);
   EXPECT_THAT(text_of<spec::CheckFailed>([&] { wire.drive(3, 1); }),
@@ -51,7 +51,7 @@ TEST(Wire, IsDrivenOnceAClock) {
   wire.drive(4, 2);
 }
 
-TEST(Wire, AResetShowsTheValueOfItsDeclarationAtOnce) {
+TEST(Wire, ResetShowsDeclaredValueAtOnce) {
   Wire<int> wire("wire", 7);
   wire.drive(3, 1);
   wire.drive(4, 2);
@@ -63,9 +63,8 @@ TEST(Wire, AResetShowsTheValueOfItsDeclarationAtOnce) {
   EXPECT_EQ(wire.read(6), 1);
 }
 
-// Without a value in its declaration: before it is driven, and again after a reset, nobody reads
-// it.
-TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
+// Without a declared value, no unit may read it before it is driven, or after a reset.
+TEST(Wire, UndrivenWithoutResetValue) {
   Wire<int> wire("wire", kNoReset);
   const auto rejected = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
@@ -83,9 +82,9 @@ TEST(Wire, WithoutAResetValueItIsUndrivenUntilItIsDriven) {
   EXPECT_EQ(wire.seen(11), nullptr);
 }
 
-// ---- Combinational
+// ---- Combinational wires -----------------------------------------------------------------------
 
-TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
+TEST(Wire, CombinationalValueHoldsInItsCycleOnly) {
   CombinationalWire<int> wire("wire");
   const auto rejected = [&](Cycle cycle) {
     return text_of<spec::CheckFailed>([&] { wire.read(cycle); });
@@ -101,9 +100,9 @@ TEST(Wire, CombinationalIsThereInItsClockAndInNoOther) {
   EXPECT_THAT(rejected(5), HasSubstr("cycle 5"));
 }
 
-// ---- A pulse
+// ---- Pulses ------------------------------------------------------------------------------------
 
-TEST(Pulse, IsHighInItsClockAndLowInEveryOther) {
+TEST(Pulse, HighInItsCycleOnly) {
   Pulse pulse("pulse");
   EXPECT_FALSE(pulse.read(0));
   pulse.raise(0);
@@ -121,7 +120,7 @@ TEST(Pulse, IsHighInItsClockAndLowInEveryOther) {
   pulse.reset();
   EXPECT_FALSE(pulse.read(4));
 }
-TEST(Pulse, CountsBothItsEdges) {
+TEST(Pulse, CountsBothEdges) {
   Pulse pulse("pulse");
   for (const Cycle cycle : {0, 3, 4, 5, 9}) pulse.raise(cycle);
   EXPECT_EQ(pulse.changes(), 6u);
@@ -133,7 +132,7 @@ TEST(Pulse, CountsBothItsEdges) {
 
 // ---- Units
 
-// A counter that others look at.
+// A counter that other units read.
 template <WireKind kKind>
 class CountDriver final : public rtl::Unit {
  public:
@@ -167,7 +166,8 @@ using DriverNow = CountDriver<WireKind::kCombinational>;
 using ReaderNow = CountReader<WireKind::kCombinational>;
 const sc_core::sc_time kPeriod(10, sc_core::SC_NS);
 
-// What both readers saw, in six cycles around a reset; they stand on both sides of the driver.
+// The values that both readers saw in six cycles around a reset; one is added before the driver,
+// one after it.
 std::string counted(std::uint64_t shuffle) {
   return in_child([shuffle] {
     ClockDomain clock("clock", kPeriod);
@@ -187,13 +187,13 @@ std::string counted(std::uint64_t shuffle) {
     return first.text + (first.text == last.text ? "| same" : "| " + last.text);
   });
 }
-TEST(Wire, WhoeverIsTickedFirstReadersSeeTheSame) {
+TEST(Wire, ReadersSeeTheSameInAnyOrder) {
   for (std::uint64_t shuffle = 0; shuffle < 20; ++shuffle)
     EXPECT_EQ(counted(shuffle), "100 1 2 3 reset 100 1 | same") << shuffle;
 }
 
-// Three in a chain: the domain keeps their order however it shuffles, and nobody else's.
-TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
+// Three in a chain: the domain keeps their order in every shuffle, and constrains no other unit.
+TEST(Wire, CombinationalChainKeepsItsOrder) {
   for (std::uint64_t shuffle = 0; shuffle < 20; ++shuffle) {
     const std::string got = in_child([shuffle] {
       ClockDomain clock("clock", kPeriod);
@@ -215,7 +215,7 @@ TEST(Wire, CombinationalKeepsItsUnitsInOrder) {
   }
 }
 
-// A driver and a reader of its clock, ticked in this order.
+// A driver and a reader in the same cycle, ticked in this order.
 struct Joined {
   ClockDomain clock{"clock", kPeriod};
   DriverNow driver{"driver", clock};
@@ -227,7 +227,7 @@ struct Joined {
   }
 };
 
-TEST(Wire, CombinationalKeepsAPairInOrder) {
+TEST(Wire, CombinationalPairKeepsItsOrder) {
   for (std::uint64_t shuffle = 1; shuffle <= 20; ++shuffle)
     EXPECT_EQ(in_child([shuffle] {
                 Joined joined;
@@ -239,8 +239,8 @@ TEST(Wire, CombinationalKeepsAPairInOrder) {
         << shuffle;
 }
 
-// What does the work of the driver drives before all units.
-TEST(Wire, AReplacedUnitHasNoPlaceInAShuffledOrder) {
+// The replacement of the driver drives before all units.
+TEST(Wire, ReplacedUnitIsNotInShuffledOrder) {
   struct Instead final : rtl::Clocked {
     CombinationalWire<std::uint8_t>& wire;
     explicit Instead(CombinationalWire<std::uint8_t>& of) : wire(of) {}
@@ -262,7 +262,7 @@ TEST(Wire, AReplacedUnitHasNoPlaceInAShuffledOrder) {
             "5 6 7 ");
 }
 
-TEST(Wire, CombinationalNeedsItsDriverFirst) {
+TEST(Wire, CombinationalNeedsDriverFirst) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
                 ReaderNow reader("reader", clock);
@@ -276,8 +276,8 @@ TEST(Wire, CombinationalNeedsItsDriverFirst) {
               HasSubstr("wire is combinational, so driver must be ticked before reader"));
 }
 
-// The driver stops: its readers get no old value.
-TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
+// The driver stops: its readers do not get an old value.
+TEST(Wire, SkippedDriveIsDetected) {
   EXPECT_THAT(in_child([] {
                 Joined joined;
                 joined.clock.run(2);
@@ -288,8 +288,8 @@ TEST(Wire, ADriverThatLeavesAClockOutIsFound) {
               HasSubstr("wire: cycle 2: read before it was driven in this cycle (combinational "
                         "wire; driver driver.count_out, readers reader.count_in)"));
 }
-// A driver that forgets its first value: an error in the reader, whatever the order.
-TEST(Wire, AReaderOfNothingIsFound) {
+// A driver that omits its first value: an error in the reader, in any order.
+TEST(Wire, ReadOfUndrivenWireIsDetected) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
                 Driver driver("driver", clock);
@@ -303,7 +303,7 @@ TEST(Wire, AReaderOfNothingIsFound) {
               HasSubstr("wire: cycle 0: read before it was driven (registered wire"));
 }
 
-TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
+TEST(Wire, RejectsSecondDriverAndUnboundPort) {
   EXPECT_THAT(in_child([] {
                 ClockDomain clock("clock", kPeriod);
                 Driver a("a", clock), b("b", clock);
@@ -333,7 +333,7 @@ TEST(Wire, HasOneDriverOfOneClockAndNoLoosePort) {
               HasSubstr("wire joins two clock domains"));
 }
 
-TEST(Wire, APortIsBoundOnceAndHasOneDriverInside) {
+TEST(Wire, PortIsBoundOnceWithOneInnerDriver) {
   Wire<int> wire("wire", 0), other("other", 0);
   WireIn<int> outer("outer"), a("a"), b("b");
   const auto rejected = [](auto& port, auto& to) {
@@ -342,7 +342,7 @@ TEST(Wire, APortIsBoundOnceAndHasOneDriverInside) {
   a(wire);
   EXPECT_THAT(rejected(a, other), HasSubstr("a is bound twice"));
   EXPECT_THAT(rejected(a, outer), HasSubstr("a is bound twice"));
-  b(outer);  // which has no wire yet
+  b(outer);  // has no wire yet
   EXPECT_THAT(rejected(b, wire), HasSubstr("b is bound twice"));
   EXPECT_THAT(rejected(b, outer), HasSubstr("b is bound twice"));
   WireOut<int> around("around"), c("c"), d("d");
@@ -352,8 +352,8 @@ TEST(Wire, APortIsBoundOnceAndHasOneDriverInside) {
   EXPECT_EQ(wire.driver(), "c");
 }
 
-// Registers that nothing ticks: a write between edges is a pulse in the clock that comes; the unit
-// answers in that clock, and the registers answer it.
+// Registers that are not ticked: a write between edges is a pulse in the next cycle; the unit
+// answers in that cycle, and the registers load its answer.
 class Registers final : public sc_core::sc_module {
  public:
   rtl::PulseOut go_out{"go_out"};
@@ -399,15 +399,15 @@ struct LoaderBench {
   Pulse go{"go"}, load{"load"};
   CombinationalWire<std::uint8_t> value{"value"};
 };
-TEST(Pulse, JoinsAUnitAndRegistersInAClock) {
+TEST(Pulse, ConnectsUnitAndRegistersWithinOneCycle) {
   EXPECT_EQ(in_child([] {
               LoaderBench b;
               b.write(7);
-              b.registers.written = 8;  // counts: it is loaded at the edge
+              b.registers.written = 8;  // effective: loaded at the edge
               b.clock.run(3);
               b.write(9);
               b.clock.run(3);
-              b.write(10);  // a reset falls upon it
+              b.write(10);  // coincides with a reset
               b.clock.set_reset_n(false);
               b.clock.run(1);
               b.clock.set_reset_n(true);
@@ -416,8 +416,8 @@ TEST(Pulse, JoinsAUnitAndRegistersInAClock) {
             }),
             "0:8 3:9 9");
 }
-// Also of what is no unit.
-TEST(Pulse, HasNoLoosePort) {
+// Also in a module that is not a unit.
+TEST(Pulse, RejectsUnboundPort) {
   EXPECT_THAT(in_child([] {
                 LoaderBench b(false);
                 b.clock.run(1);
@@ -426,8 +426,8 @@ TEST(Pulse, HasNoLoosePort) {
               HasSubstr("registers.load_in is not bound to a wire"));
 }
 
-// Ports of a module around units hand the wire on, whichever is bound first.
-TEST(Wire, GoesThroughThePortsOfAModuleAround) {
+// Ports of an enclosing module forward the wire, in any order of binding.
+TEST(Wire, PassesThroughPortsOfEnclosingModule) {
   for (const bool inside_first : {true, false}) {
     const std::string got = in_child([inside_first] {
       ClockDomain clock("clock", kPeriod);
@@ -454,12 +454,12 @@ TEST(Wire, GoesThroughThePortsOfAModuleAround) {
   }
 }
 
-// ---- Counted
+// ---- Counters ----------------------------------------------------------------------------------
 
-TEST(Wire, CountsChangesAndClocksHigh) {
+TEST(Wire, CountsChangesAndHighCycles) {
   Wire<bool> wire("wire", false);
   EXPECT_EQ(wire.high_cycles(10), 0u);
-  wire.drive(2, true);  // read from 3 on
+  wire.drive(2, true);  // visible from cycle 3 on
   EXPECT_EQ(wire.high_cycles(3), 0u);
   EXPECT_EQ(wire.high_cycles(10), 7u);
   wire.drive(9, true);  // no change
@@ -479,7 +479,7 @@ TEST(Wire, CountsChangesAndClocksHigh) {
   EXPECT_EQ(moves.changes(), 2u);
   EXPECT_EQ(moves.high_cycles(99), 3u);
 }
-TEST(Wire, CountsClocksHighFromItsResetOn) {
+TEST(Wire, CountsHighCyclesFromReset) {
   ClockDomain clock("clock", kPeriod);
   Driver driver("driver", clock);
   Wire<std::uint8_t> wire("wire", 100);
@@ -494,7 +494,7 @@ TEST(Wire, CountsClocksHighFromItsResetOn) {
   clock.run(3);
   EXPECT_EQ(wire.high_cycles(clock.cycle()), 3u);
 }
-TEST(Wire, StandsInTheStatistics) {
+TEST(Wire, StatisticsListIt) {
   EXPECT_EQ(in_child([] {
               ClockDomain clock("clock", kPeriod);
               Driver driver("driver", clock);
@@ -506,9 +506,9 @@ TEST(Wire, StandsInTheStatistics) {
             R"({"wire":{"bits":4,"changes":7,"high":6}})");
 }
 
-// ---- Traced
+// ---- Traces ------------------------------------------------------------------------------------
 
-TEST(Wire, IsInTheWavesAsReadersSeeIt) {
+TEST(Wire, WaveShowsWhatReadersSee) {
   const std::string got = in_child([] {
     const std::string file = testing::TempDir() + "wire.vcd";
     ClockDomain clock("clock", kPeriod);
@@ -524,7 +524,7 @@ TEST(Wire, IsInTheWavesAsReadersSeeIt) {
     return text.substr(text.find("$scope"));
   });
   EXPECT_THAT(got, HasSubstr("$var wire 3 ! wire [2:0] $end"));
-  // Driven in clock 0, seen in clock 1 (at 10 ns; the resolution is 1 ps).
+  // Driven in cycle 0, visible in cycle 1 (at 10 ns; the resolution is 1 ps).
   const std::size_t undriven = got.find("bx !"), one = got.find("b001 !"), two = got.find("b010 !");
   ASSERT_NE(two, std::string::npos) << got;
   EXPECT_LT(undriven, got.find("#10000\n"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Injected faults: each check of the harness must be able to fail, with the right exit code and a
-// text that says where.
+// Injected faults: each check of the harness must be able to fail, with the correct exit code and a
+// message that names the place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ void run(const std::vector<std::string>& faults, bool check_links, Cycle patienc
   Bench bench(p.clock, options);
   std::uint64_t idle = 0, seen = 0;
   bench.run(
-      [&] {  // until nothing has come for a while after the driver has ended
+      [&] {  // until no token has arrived for a while after the end of the driver
         idle = p.sink.received() == seen ? idle + 1 : 0;
         seen = p.sink.received();
         return p.driver.done() && idle > 200;
@@ -64,48 +64,48 @@ void run(const std::vector<std::string>& faults, bool check_links, Cycle patienc
   board.check();
 }
 
-TEST(Negative, TheSameRunWithoutAFaultPasses) { EXPECT_NO_THROW(run({}, true)); }
+TEST(Negative, SameRunWithoutFaultPasses) { EXPECT_NO_THROW(run({}, true)); }
 
-TEST(Negative, DroppedBeatIsSeenByTheScoreboard) {
+TEST(Negative, ScoreboardDetectsDroppedBeat) {
   const std::string text = text_of([] { run({"drop:link_2:100"}, false); }, ExitCode::kMismatch);
   EXPECT_THAT(text, AllOf(HasSubstr("1 mismatches in 299"),
                           HasSubstr("item 100: expected token 100 = 100010, got nothing"),
                           HasSubstr("next came token 101")));
 }
-TEST(Negative, DroppedBeatIsSeenByTheLinkChecker) {
+TEST(Negative, LinkCheckerDetectsDroppedBeat) {
   const std::string text = text_of([] { run({"drop:link_2:100"}, true); }, ExitCode::kSimulation);
   EXPECT_THAT(text, AllOf(HasSubstr("link_2"), HasSubstr("vanished"), HasSubstr("adder_1"),
                           HasSubstr("101 beats have gone in, 102 were pushed")));
 }
-TEST(Negative, DuplicatedBeatIsSeenByTheScoreboard) {
+TEST(Negative, ScoreboardDetectsDuplicatedBeat) {
   const std::string text = text_of([] { run({"duplicate:link_0:7"}, false); }, ExitCode::kMismatch);
   EXPECT_THAT(text, HasSubstr("item 7: expected it once, got again token 7"));
 }
-TEST(Negative, DuplicatedBeatIsSeenByTheLinkChecker) {
+TEST(Negative, LinkCheckerDetectsDuplicatedBeat) {
   const std::string text =
       text_of([] { run({"duplicate:link_4:299"}, true); }, ExitCode::kSimulation);
   EXPECT_THAT(text, AllOf(HasSubstr("link_4"), HasSubstr("appeared")));
 }
-TEST(Negative, FlippedBitIsSeenByTheScoreboard) {
+TEST(Negative, ScoreboardDetectsFlippedBit) {
   const std::string text = text_of([] { run({"flip:link_3:50:35"}, false); }, ExitCode::kMismatch);
   EXPECT_THAT(text, AllOf(HasSubstr("1 mismatches in 300"), HasSubstr("item 50")));
 }
 // Bit 35 is bit 3 of the second field.
 class FlippedBit : public testing::TestWithParam<const char*> {};
-TEST_P(FlippedBit, IsNamedByFieldOrByNumber) {
+TEST_P(FlippedBit, NameableByFieldOrNumber) {
   const std::string text = text_of(
       [&] { run({std::string("flip:link_3:50:") + GetParam()}, false); }, ExitCode::kMismatch);
   EXPECT_THAT(text, HasSubstr("(expected/got: value=50010/50018)"));
 }
 INSTANTIATE_TEST_SUITE_P(Negative, FlippedBit, testing::Values("35", "value.3"));
 
-TEST(Negative, FlippedBitIsSeenByTheLinkChecker) {
+TEST(Negative, LinkCheckerDetectsFlippedBit) {
   const std::string text = text_of([] { run({"flip:link_3:50:35"}, true); }, ExitCode::kSimulation);
   EXPECT_THAT(text,
               AllOf(HasSubstr("beat 50 changed while it waited"), HasSubstr("value=50006/50014")));
 }
 
-TEST(Negative, StuckReadyIsADeadlockWithAPicture) {
+TEST(Negative, StuckReadyIsDeadlockWithDump) {
   const std::string text =
       text_of([] { run({"stuck_ready:link_3:150"}, true); }, ExitCode::kDeadlock);
   EXPECT_THAT(text, HasSubstr("no link has moved a beat for 1"));
@@ -116,7 +116,7 @@ TEST(Negative, StuckReadyIsADeadlockWithAPicture) {
   EXPECT_THAT(text, testing::ContainsRegex("adder_3 +idle"));
 }
 
-TEST(Negative, WatchdogIsNeitherEarlyNorMuchTooLate) {
+TEST(Negative, WatchdogFiresShortlyAfterItsLimit) {
   Pipeline p(1'000'000, 0);
   FaultInjector faults(p.clock, {Fault::parse("stuck_ready:link_0:5000")});
   Watchdog watchdog(p.clock, 400);
@@ -129,7 +129,7 @@ TEST(Negative, FaultThatIsNeverReachedIsNoResult) {
               HasSubstr("never reached"));
 }
 
-TEST(Negative, FaultsThatDoNotExist) {
+TEST(Negative, RejectsUnknownFaults) {
   Pipeline p(10);
   for (const char* text :
        {"melt:link_0:1", "drop:link_0", "drop:link_0:x", "flip:link_0:1", "flip:link_0:1:64",
@@ -139,7 +139,7 @@ TEST(Negative, FaultsThatDoNotExist) {
     EXPECT_THROW(FaultInjector(p.clock, {Fault::parse(text)}), spec::ConfigError) << text;
 }
 
-// Leaves a field out of every third token.
+// Omits a field in every third token.
 class Forgetful final : public rtl::Unit {
  public:
   rtl::In<Token> tokens_in{"tokens_in"};
@@ -157,7 +157,7 @@ class Forgetful final : public rtl::Unit {
   void reset() override {}
 };
 
-// All tokens have the same value, so what is forgotten is hidden by what was there before.
+// All tokens have the same value, so the previous value hides the omission.
 std::uint64_t forgotten(bool poison) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Driver<Token> driver("driver", clock);
@@ -178,10 +178,10 @@ std::uint64_t forgotten(bool poison) {
   return wrong;
 }
 
-TEST(Negative, AFieldThatIsNotWrittenIsHiddenByTheBeatBefore) { EXPECT_EQ(forgotten(false), 0U); }
-TEST(Negative, AFieldThatIsNotWrittenIsNoticedUnderPoison) { EXPECT_EQ(forgotten(true), 30U); }
+TEST(Negative, UnwrittenFieldIsHiddenWithoutPoison) { EXPECT_EQ(forgotten(false), 0U); }
+TEST(Negative, UnwrittenFieldIsDetectedUnderPoison) { EXPECT_EQ(forgotten(true), 30U); }
 
-TEST(Negative, PoisonNeedsALink) {
+TEST(Negative, PoisonNeedsLink) {
   Pipeline p(10);
   EXPECT_THROW(Poison(p.clock, 1, "nothing"), spec::ConfigError);
 }
@@ -195,7 +195,7 @@ struct Nibble {
   }
 };
 
-TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
+TEST(Negative, LinkCheckerDetectsValueWiderThanField) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Driver<Nibble> driver("driver", clock);
   Sink<Nibble> sink("sink", clock);
@@ -211,7 +211,7 @@ TEST(Negative, AValueWiderThanItsFieldIsSeenByTheLinkChecker) {
       HasSubstr("link: cycle 2: beat 2: the value of value needs more than its 4 bits"));
 }
 
-// A link whose ends do as they like: the link itself would reject all of this.
+// A link whose ends follow no protocol: a normal link would reject all of this.
 class Rogue final : public rtl::LinkBase, public rtl::Clocked {
  public:
   using Acts = std::function<void(Rogue&, Cycle)>;
@@ -253,16 +253,14 @@ std::string rogue(const Rogue::Acts& acts, bool widths = false) {
   }
   return fmt::format("{} beats", checker.beats());
 }
-// A beat pushed in every clock and popped in the next: both in the same clock all the time.
+// A beat is pushed in every cycle and popped in the next: a push and a pop in each cycle.
 void stream(Rogue& link, Cycle cycle) {
   if (cycle > 0) link.pop(cycle);
   link.push(cycle, Token{static_cast<std::uint32_t>(cycle), 7});
 }
 
-TEST(LinkChecker, IsSilentWhileBeatsComeAndGoInTheSameClock) {
-  EXPECT_EQ(rogue(&stream), "19 beats");
-}
-TEST(LinkChecker, FindsABeatThatChangesWhereBeatsComeAndGoInTheSameClock) {
+TEST(LinkChecker, AcceptsPushAndPopInSameCycle) { EXPECT_EQ(rogue(&stream), "19 beats"); }
+TEST(LinkChecker, DetectsChangedBeatDuringPushAndPop) {
   EXPECT_THAT(
       rogue([](Rogue& link, Cycle cycle) {
         if (cycle == 9) link.beat(link.pops())[0] ^= std::byte{4};
@@ -284,8 +282,7 @@ void expect_every_byte_compared() {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Bytes<kBytes>> link("link", 3);
   LinkChecker checker(clock);
-  // In every slot, and in the first one again; where a beat comes in the same clock, and where none
-  // does.
+  // In every slot, and in the first one again; in cycles with and without a push.
   for (std::size_t changed = 0; changed < kBytes; ++changed)
     for (std::uint64_t number = 0; number < 8; ++number) {
       const std::uint64_t beat = number / 2;
@@ -312,7 +309,7 @@ TEST(LinkChecker, ComparesEveryByteOfBeatsOfAnySize) {
       std::index_sequence<1, 4, 7, 8, 9, 12, 15, 16, 17, 20, 31, 32, 33, 40, 56, 100>());
 }
 
-TEST(LinkChecker, FindsAPopInTheClockOfThePush) {
+TEST(LinkChecker, DetectsPopInCycleOfPush) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle != 5) return;
                 link.push(cycle, {});
@@ -320,16 +317,16 @@ TEST(LinkChecker, FindsAPopInTheClockOfThePush) {
               }),
               HasSubstr("rogue: cycle 5: a pop of a beat that was pushed in the same cycle"));
 }
-TEST(LinkChecker, FindsAPushIntoAFullLink) {
+TEST(LinkChecker, DetectsPushIntoFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
               HasSubstr("rogue: cycle 2: a push into a link that was full"));
 }
-// The same of a link whose beats have no follower of their own: this one checks widths, too.
-TEST(LinkChecker, FindsAPushIntoAFullLinkWithWidths) {
+// The same for a link whose beats have no checker of their own: this one also checks widths.
+TEST(LinkChecker, DetectsPushIntoFullLinkWithWidths) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }, true),
               HasSubstr("rogue: cycle 2: a push into a link that was full"));
 }
-TEST(LinkChecker, CountsTheBeatsBeforeAReset) {
+TEST(LinkChecker, CountsBeatsBeforeReset) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> link("link");
   LinkChecker checker(clock);
@@ -344,21 +341,21 @@ TEST(LinkChecker, CountsTheBeatsBeforeAReset) {
   }
   EXPECT_EQ(checker.beats(), 2u);
 }
-// As if its beat had come, or gone, in a clock that is over.
-TEST(LinkChecker, FindsABeatThatAppearsWhileALinkRests) {
+// As if the beat had been pushed, or popped, in an earlier cycle.
+TEST(LinkChecker, DetectsBeatThatAppearsOnIdleLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 5) link.push(4, {});
               }),
               HasSubstr("rogue: cycle 5: 1 beats have gone in, 0 were pushed"));
 }
-TEST(LinkChecker, FindsABeatThatVanishesWhileALinkRests) {
+TEST(LinkChecker, DetectsBeatThatVanishesFromIdleLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 3) link.push(3, {});
                 if (cycle == 5) link.pop(4);
               }),
               HasSubstr("rogue: cycle 5: 1 beats have gone out, 0 were popped"));
 }
-TEST(LinkChecker, FindsTwoPopsInAClock) {
+TEST(LinkChecker, DetectsTwoPopsInOneCycle) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle < 2) link.push(cycle, {});
                 if (cycle != 4) return;
@@ -368,8 +365,8 @@ TEST(LinkChecker, FindsTwoPopsInAClock) {
               HasSubstr("rogue: cycle 4: 2 beats have gone out, 1 were popped"));
 }
 
-// A pop moves a beat, too.
-TEST(Watchdog, ALinkThatOnlyDrainsMoves) {
+// A pop counts as progress as well.
+TEST(Watchdog, PopsCountAsProgress) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Rogue link(clock, [](Rogue& l, Cycle cycle) {
     if (cycle < 2) l.push(cycle, {});
@@ -381,14 +378,14 @@ TEST(Watchdog, ALinkThatOnlyDrainsMoves) {
   EXPECT_THROW(clock.run(10), spec::DeadlockError);
 }
 
-TEST(Negative, ScoreboardWithTooFewComparisons) {
+TEST(Negative, ScoreboardRejectsTooFewComparisons) {
   Scoreboard<int> board("board", 2);
   board.expect(1);
   board.got(1);
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
               HasSubstr("only 1 comparisons, at least 2 are needed"));
 }
-TEST(Negative, ScoreboardWithLeftovers) {
+TEST(Negative, ScoreboardRejectsLeftovers) {
   Scoreboard<int> board("board", 1);
   board.expect(1);
   board.expect(2);
@@ -396,7 +393,7 @@ TEST(Negative, ScoreboardWithLeftovers) {
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
               HasSubstr("1 expected but never came, the first: item 1: 2"));
 }
-TEST(Negative, ScoreboardLooksAtTheLastItemToo) {
+TEST(Negative, ScoreboardChecksLastItem) {
   Scoreboard<int> board("board", 3);
   for (const int i : {1, 2, 3}) board.expect(i);
   for (const int i : {1, 2, 4}) board.got(i);
@@ -421,17 +418,17 @@ TEST(Negative, ScoreboardShowsTenAndCountsTheRest) {
     EXPECT_EQ(text.ends_with("\n  and 1 more"), wrong == 11) << text;
   }
 }
-TEST(Negative, ScoreboardThatNeedsMoreThanItWasBuiltWith) {
+TEST(Negative, ScoreboardUsesLargestRequirement) {
   Scoreboard<int> board("board", 0);
   EXPECT_NO_THROW(board.check());
   board.require(2);
-  board.require(1);  // the most that was asked counts
+  board.require(1);  // the largest requirement counts
   board.expect(1);
   board.got(1);
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
               HasSubstr("only 1 comparisons, at least 2 are needed"));
 }
-TEST(Negative, ScoreboardThatLooksAway) {
+TEST(Negative, ScoreboardWithoutComparisonsFailsAfterLookAway) {
   Scoreboard<int> board("board", 1);
   board.look_away();
   board.expect(1);
@@ -440,7 +437,7 @@ TEST(Negative, ScoreboardThatLooksAway) {
   EXPECT_THAT(text_of([&] { board.check(); }, ExitCode::kMismatch),
               HasSubstr("only 0 comparisons"));
 }
-TEST(Negative, ScoreboardWithWhatNobodyExpects) {
+TEST(Negative, ScoreboardRejectsUnexpectedItem) {
   Scoreboard<int> board("board", 1, {}, [](int v) { return static_cast<std::uint64_t>(v) / 10; });
   board.expect(15);
   board.got(15);
@@ -449,8 +446,8 @@ TEST(Negative, ScoreboardWithWhatNobodyExpects) {
               HasSubstr("cycle 7: expected nothing, got 25"));
 }
 
-// One item that is lost, comes twice or comes late is as many mismatches as items are concerned,
-// whatever comes behind it.
+// A lost, duplicated or late item causes mismatches of the affected items only; later items still
+// match.
 class OutOfStep : public testing::Test {
  protected:
   void run(const std::vector<int>& come) {
@@ -465,7 +462,7 @@ class OutOfStep : public testing::Test {
   Scoreboard<int> board_{"board", 1};
 };
 
-TEST_F(OutOfStep, Lost) {
+TEST_F(OutOfStep, LostItemsCountOnceEach) {
   std::vector<int> come = counted();
   come.erase(come.begin() + 100, come.begin() + 103);
   run(come);
@@ -474,7 +471,7 @@ TEST_F(OutOfStep, Lost) {
   EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
               HasSubstr("item 100: expected 100, got nothing, or it later: next came 103"));
 }
-TEST_F(OutOfStep, Twice) {
+TEST_F(OutOfStep, DuplicatedItemCountsOnce) {
   std::vector<int> come = counted();
   come.insert(come.begin() + 100, 99);
   run(come);
@@ -483,14 +480,14 @@ TEST_F(OutOfStep, Twice) {
   EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
               HasSubstr("item 99: expected it once, got again 99"));
 }
-TEST_F(OutOfStep, Late) {
+TEST_F(OutOfStep, LateItemCountsTwice) {
   std::vector<int> come = counted();
   std::rotate(come.begin() + 100, come.begin() + 101, come.begin() + 110);
   run(come);
   EXPECT_EQ(board_.mismatches(), 2u);
   EXPECT_EQ(board_.leftovers(), 0u);
 }
-TEST_F(OutOfStep, WrongAndLostAreBothFound) {
+TEST_F(OutOfStep, WrongAndLostItemsAreBothFound) {
   std::vector<int> come = counted();
   come[50] = -1;
   come.erase(come.begin() + 100);
@@ -498,17 +495,17 @@ TEST_F(OutOfStep, WrongAndLostAreBothFound) {
   EXPECT_EQ(board_.mismatches(), 2u);
   EXPECT_EQ(board_.leftovers(), 0u);
 }
-TEST_F(OutOfStep, FurtherThanAnybodyLooks) {
+TEST_F(OutOfStep, LossBeyondSearchRangeIsReported) {
   std::vector<int> come = counted();
   come.erase(come.begin() + 100, come.begin() + 300);
   run(come);
   EXPECT_GT(board_.mismatches() + board_.leftovers(), 200u);
 }
-TEST(Negative, ScoreboardThatSawNothing) {
+TEST(Negative, ScoreboardWithoutItemsFails) {
   EXPECT_THROW(Scoreboard<int>("board", 1).check(), Mismatch);
 }
 
-TEST(Negative, BeatsLeftInALink) {
+TEST(Negative, DetectsBeatsLeftInLink) {
   Pipeline p(300);
   Bench bench(p.clock);
   EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 200; }, 10'000); },
@@ -516,7 +513,7 @@ TEST(Negative, BeatsLeftInALink) {
               HasSubstr("links are not empty"));
 }
 
-TEST(Negative, RunThatDoesNotEnd) {
+TEST(Negative, DetectsRunThatDoesNotEnd) {
   Pipeline p(300);
   Bench bench(p.clock);
   EXPECT_THAT(text_of([&] { bench.run([&] { return p.sink.received() == 301; }, 5000); },
@@ -524,7 +521,7 @@ TEST(Negative, RunThatDoesNotEnd) {
               HasSubstr("not done after 5000 cycles"));
 }
 
-TEST(Negative, ABudgetThatIsSpentSaysHowFarItCame) {
+TEST(Negative, ExhaustedBudgetReportsProgress) {
   Pipeline p(300);
   BenchOptions options;
   options.at_limit = [&] { return "only " + std::to_string(p.sink.received()) + " came"; };
@@ -534,7 +531,7 @@ TEST(Negative, ABudgetThatIsSpentSaysHowFarItCame) {
               testing::ContainsRegex("^clock: only [1-9][0-9]* came\n\nlinks "));
 }
 
-TEST(Negative, ScopeOfATraceThatMatchesNothing) {
+TEST(Negative, RejectsTraceScopeWithoutMatch) {
   Pipeline p(10);
   BenchOptions options;
   options.trace = rtl::TraceOptions{testing::TempDir() + "none.vcd", {"link_*", "adder"}};
@@ -544,7 +541,7 @@ TEST(Negative, ScopeOfATraceThatMatchesNothing) {
   EXPECT_THAT(text, HasSubstr("\n  adder_2"));
 }
 
-TEST(Negative, ImpossibleStallsAndMemories) {
+TEST(Negative, RejectsInvalidStallsAndMemories) {
   Pipeline p(300);
   EXPECT_THROW(StallInjector(p.clock, {1000, 0, 1, "*"}), spec::ConfigError);
   EXPECT_THROW(StallInjector(p.clock, {10, 0, 1, "nothing"}), spec::ConfigError);
@@ -553,8 +550,8 @@ TEST(Negative, ImpossibleStallsAndMemories) {
   EXPECT_THROW(platform::MemoryModel("memory", p.clock.period(), parameters), spec::ConfigError);
 }
 
-// A response that never comes.
-TEST(Negative, LostResponseIsADeadlock) {
+// A response that never arrives.
+TEST(Negative, LostResponseIsDeadlock) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Driver<rtl::MemoryRequest> driver("driver", clock);
   rtl::MemoryPort port("port", clock);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What watches a run over time: windows lose nothing, however many become one; a timeline says what
-// every unit did in every cycle.
+// Observers of a run over time: merged sampling intervals lose nothing; a timeline shows every
+// unit's state in every cycle.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ constexpr Cycle kRun = 1000;
 
 const std::vector<std::string> kActivities = {"idle", "busy", "stalls.downstream"};
 
-// Half of the cycles the second link is held, so that the units before it stall.
+// The second link is blocked in half of the cycles, so that the units before it stall.
 struct Watched {
   Pipeline p{100'000, 0};
   StallInjector stalls{p.clock, {500, 0, 1, "link_2"}};
@@ -50,7 +50,7 @@ std::map<std::string, std::vector<std::uint64_t>> series(const IntervalRecorder&
   return all;
 }
 
-TEST(IntervalRecorder, AddsUpToWhatTheUnitsCount) {
+TEST(IntervalRecorder, AddsUpToTheUnitsCounters) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {300, 1024, {}});
   w.show(recorder);
@@ -71,7 +71,7 @@ TEST(IntervalRecorder, AddsUpToWhatTheUnitsCount) {
   EXPECT_EQ(sum(all.at("links.link.beats")), w.p.links[1]->pushes());
 }
 
-TEST(IntervalRecorder, RecordsHowFullALinkWas) {
+TEST(IntervalRecorder, RecordsLinkOccupancy) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {300, 1024, {}});
   w.show(recorder);
@@ -90,7 +90,7 @@ TEST(IntervalRecorder, RecordsHowFullALinkWas) {
   EXPECT_THAT(series(recorder).at("links.link.most"), testing::Each(2));
 }
 
-TEST(IntervalRecorder, KeepsAsManyWindowsAsItMay) {
+TEST(IntervalRecorder, KeepsAtMostTheAllowedIntervals) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {10, 8, {}});
   w.show(recorder);
@@ -104,8 +104,8 @@ TEST(IntervalRecorder, KeepsAsManyWindowsAsItMay) {
   EXPECT_THAT(series(recorder).at("links.link.most"), testing::Each(2));
 }
 
-// Of two windows that become one the larger most stays, wherever it was.
-TEST(IntervalRecorder, MergedWindowsHaveTheLargestOfBoth) {
+// Merged intervals keep the larger of both maxima.
+TEST(IntervalRecorder, MergedIntervalsKeepLargestMaximum) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> link("link", 8);
   clock.add(link);
@@ -116,7 +116,7 @@ TEST(IntervalRecorder, MergedWindowsHaveTheLargestOfBoth) {
     link.push(clock.cycle(), Token{});
     clock.run(1);
   }
-  clock.run(1);  // 2 (behind a clock of 1), then 3 twice
+  clock.run(1);  // 2 (after one cycle of 1), then 3 twice
   for (int i = 0; i < 3; ++i) {
     link.pop(clock.cycle());
     clock.run(1);
@@ -126,7 +126,7 @@ TEST(IntervalRecorder, MergedWindowsHaveTheLargestOfBoth) {
   EXPECT_THAT(series(recorder).at("links.link.most"), ElementsAre(2, 3, 0));
 }
 
-TEST(IntervalRecorder, CanForgetAWindow) {
+TEST(IntervalRecorder, CanDiscardAnInterval) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {300, 1024, 2});
   w.show(recorder);
@@ -136,7 +136,7 @@ TEST(IntervalRecorder, CanForgetAWindow) {
   EXPECT_LT(sum(series(recorder).at("units.second.busy")), w.p.adders[1]->busy_cycles());
 }
 
-TEST(IntervalRecorder, AResetForgetsAllIntervals) {
+TEST(IntervalRecorder, ResetDiscardsAllIntervals) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {10, 8, {}});
   w.show(recorder);
@@ -151,8 +151,8 @@ TEST(IntervalRecorder, AResetForgetsAllIntervals) {
   EXPECT_EQ(sum(series(recorder).at("units.first.idle")), w.p.adders[0]->idle_cycles());
 }
 
-// What was seen of links before a reset is forgotten, and each window's most is its own.
-TEST(IntervalRecorder, AResetForgetsWhatLinksHeld) {
+// Link occupancy from before a reset is discarded, and each interval has its own maximum.
+TEST(IntervalRecorder, ResetDiscardsLinkOccupancy) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> deep("deep", 8), other("other", 4);
   clock.add(deep);
@@ -202,8 +202,8 @@ TEST(IntervalRecorder, AResetForgetsWhatLinksHeld) {
   EXPECT_THAT(recorder.occupancy()[1].cycles, ElementsAre(1, 0, 0, 0, 0));
 }
 
-// Codes that count as the same are one series; each part has its own.
-TEST(IntervalRecorder, AddsCodesThatCountAsTheSame) {
+// Codes with the same meaning are one series; each part has its own.
+TEST(IntervalRecorder, AddsCodesOfSameMeaning) {
   Watched w;
   IntervalRecorder recorder(w.p.clock, {100, 1024, {}});
   recorder.see("joined", *w.p.adders[1], {"idle", "busy", "idle"});
@@ -232,7 +232,7 @@ TEST(IntervalRecorder, AddsCodesThatCountAsTheSame) {
                 R"([{"label":"Beats","key":"work.beats","unit":"beat/clk","bound":0.5}])"));
 }
 
-// Requests in flight of two ports, whose memories answer after 20 and after 7 cycles.
+// Requests in flight of two ports, whose memories respond after 20 and after 7 cycles.
 struct Ports {
   struct One {
     Driver<rtl::MemoryRequest> driver;
@@ -274,7 +274,7 @@ struct Ports {
   }
 };
 
-TEST(IntervalRecorder, CountsWhatWaitsForEachMemory) {
+TEST(IntervalRecorder, CountsWaitingRequestsOfEachMemory) {
   Ports p;
   IntervalRecorder recorder(p.clock, {10, 1024, {}});
   recorder.see("slow", p.slow.port);
@@ -296,8 +296,8 @@ TEST(IntervalRecorder, CountsWhatWaitsForEachMemory) {
   EXPECT_GT(sum(quick), 0U);
 }
 
-// Every transaction begins and ends once, at its cycles, on its port; what is under way at the end
-// is not answered.
+// Every transaction begins and ends once, at its cycles, on its port; a transaction in flight at
+// the end has no response.
 TEST(Timeline, FollowsEveryTransaction) {
   struct Seen {
     Cycle from = 0, to = 0;
@@ -337,18 +337,18 @@ TEST(Timeline, FollowsEveryTransaction) {
       return text + levels;
     });
   };
-  // Asked in clock 1 and later; a line takes the latency and a clock of the bus.
+  // Requested from cycle 1 on; a line takes the latency and one cycle of the bus.
   EXPECT_EQ(seen(0, 100),
             "S0x0 1..22;Q0x280 1..9;S0x40 2..23;S0x80 3..24;"
             "S@0=0 Q@0=0 S@1=1 Q@1=1 S@2=2 S@3=3 Q@9=0 S@22=2 S@23=1 S@24=0 ");
-  // Of a part of the run: what is under way when it begins, and what is when it ends.
+  // A part of the run: transactions in flight at its begin and at its end.
   EXPECT_EQ(seen(3, 12),
             "S0x0 3..12 open;Q0x280 3..9;S0x40 3..12 open;S0x80 3..12 open;"
             "S@3=3 Q@3=1 Q@9=0 ");
   EXPECT_EQ(seen(9, 100), "S0x0 9..22;S0x40 9..23;S0x80 9..24;S@9=3 Q@9=0 S@22=2 S@23=1 S@24=0 ");
 }
 
-TEST(IntervalRecorder, LeavesOutWhatIsNoSum) {
+TEST(IntervalRecorder, OmitsValuesThatAreNotSums) {
   Watched w;
   rtl::Counter beats("beats", "beats", "beats seen"), most("most", "beats", "most at a time"),
       again("again", "clk", "of the last frame");
@@ -367,7 +367,7 @@ TEST(IntervalRecorder, LeavesOutWhatIsNoSum) {
   EXPECT_THAT(all.at("work.beats"), ElementsAre(5, 0));
 }
 
-TEST(Timeline, HasASliceForEveryCycleThatIsNotIdle) {
+TEST(Timeline, CoversEveryBusyCycleWithOneSlice) {
   constexpr Cycle kFrom = 200, kTo = 500;
   Watched w;
   IntervalRecorder recorder(w.p.clock, {100, 1024, {}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of one process simulate, each for itself (tb/harness/own_simulation.cpp).
+// Each test of one process has its own simulation (tb/harness/own_simulation.cpp).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -16,12 +16,12 @@ struct Sleeper : sc_core::sc_module {
   void sleep() {
     wait(3, sc_core::SC_NS);
     woken = true;
-    wait();  // with its thread still there, as those of units
+    wait();  // its thread still exists, as those of units
   }
   bool woken = false;
 };
 
-TEST(OwnSimulation, StartsWithNothingOfAnother) {
+TEST(OwnSimulation, StartsWithoutStateOfOthers) {
   EXPECT_EQ(sc_core::sc_get_status(), sc_core::SC_ELABORATION);
   EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::SC_ZERO_TIME);
   EXPECT_TRUE(sc_core::sc_get_top_level_objects().empty());
@@ -32,7 +32,7 @@ TEST(OwnSimulation, StartsWithNothingOfAnother) {
   EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::sc_time(5, sc_core::SC_NS));
 }
 
-TEST(OwnSimulation, IsOneOfEachTestOfAProcess) {
+TEST(OwnSimulation, EachTestOfProcessHasItsOwn) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe");
   const std::string twice =
       "'" + program + "' --gtest_filter=OwnSimulation.Starts* --gtest_repeat=2 --gtest_brief=1";

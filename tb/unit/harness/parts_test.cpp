@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The harness does its work: stalls change time and no data, checkers are silent on good runs,
-// monitors see everything.
+// Functions of the harness: stalls change timing but no data, checkers do not report correct runs,
+// monitors observe everything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,17 +24,18 @@ namespace {
 
 using rtl::Cycle;
 
-TEST(Random, IsReproducibleAndEven) {
+TEST(Random, ReproducibleAndUniform) {
   Random random(1);
-  EXPECT_EQ(random.next(), 0x910A2DEC89025CC1ULL);  // splitmix64's published first number for 1
+  EXPECT_EQ(random.next(),
+            0x910A2DEC89025CC1ULL);  // splitmix64's published first number for seed 1
   int hits = 0;
   for (int i = 0; i < 100'000; ++i) hits += random.chance(250);
   EXPECT_NEAR(hits, 25'000, 700);
   EXPECT_NE(Random(1, "a").next(), Random(1, "b").next());
 }
 
-// What fails in a child would be forgotten with it.
-TEST(Forked, AnExpectationThatFailsInTheChildIsAnErrorHere) {
+// Without this, a failure in a child process would be lost.
+TEST(Forked, FailedExpectationInChildIsAnError) {
   const auto equal = [](int a, int b) {
     return [=] {
       EXPECT_EQ(a, b) << "as it should be, if this is 2 and 3";
@@ -47,7 +48,7 @@ TEST(Forked, AnExpectationThatFailsInTheChildIsAnErrorHere) {
                   testing::HasSubstr("an expectation failed in the child process: text")));
 }
 
-TEST(Scoreboard, InOrder) {
+TEST(Scoreboard, ComparesInOrder) {
   Scoreboard<int> board("board", 3);
   for (const int i : {1, 2, 3}) board.expect(i);
   for (const int i : {1, 2, 3}) board.got(i);
@@ -55,7 +56,7 @@ TEST(Scoreboard, InOrder) {
   EXPECT_NO_THROW(board.check());
 }
 
-TEST(Scoreboard, ByKey) {
+TEST(Scoreboard, ComparesByKey) {
   Scoreboard<Token> board("board", 4, {}, [](const Token& t) { return t.number; });
   board.expect({1, 10});
   board.expect({2, 20});
@@ -68,8 +69,8 @@ TEST(Scoreboard, ByKey) {
   EXPECT_NO_THROW(board.check());
 }
 
-// After a reset what was expected will not come, whatever its key.
-TEST(Scoreboard, ByKeyBeginsAgain) {
+// After a reset, items expected before it do not arrive, whatever their key.
+TEST(Scoreboard, ResetClearsExpectedKeys) {
   Scoreboard<Token> board("board", 1, {}, [](const Token& t) { return t.number; });
   board.expect({1, 10});
   board.expect({2, 20});
@@ -99,12 +100,12 @@ std::string beats_and_cycles(const BenchOptions& options) {
   });
 }
 
-TEST(Bench, WithoutStallsOneATheClock) {
+TEST(Bench, UnstalledRunMovesOneBeatPerCycle) {
   // driver, four adders, sink: the first beat is pushed in 0 and popped by the sink in 5.
   EXPECT_EQ(beats_and_cycles({}), "1005");
 }
 
-TEST(Bench, StallsChangeTimeButNoData) {
+TEST(Bench, StallsChangeTimingButNoData) {
   BenchOptions options;
   std::string last = beats_and_cycles(options);
   for (const std::uint32_t stalls : {100U, 300U, 600U}) {
@@ -124,7 +125,7 @@ TEST(Bench, StallsChangeTimeButNoData) {
   }
 }
 
-TEST(Bench, TraceIsWritten) {
+TEST(Bench, WritesTrace) {
   BenchOptions options;
   const std::string file = testing::TempDir() + "bench.vcd";
   std::filesystem::remove(file);
@@ -139,11 +140,11 @@ TEST(Bench, TraceIsWritten) {
   EXPECT_THAT(waves, testing::Not(testing::HasSubstr("adder")));
 }
 
-// Keeps a reference to what it has popped, and looks at it a clock later.
+// Keeps a reference to the popped token, and reads it one cycle later.
 class Lingerer final : public rtl::Unit {
  public:
   rtl::In<Token> tokens_in{"tokens_in"};
-  std::uint32_t in_time = 0, too_late = 0;  // looks that saw the token
+  std::uint32_t in_time = 0, too_late = 0;  // reads that saw the token
   Lingerer(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle cycle) override {
     if (const Token* const token = std::exchange(popped_, nullptr)) too_late += token->value == 7;
@@ -159,7 +160,7 @@ class Lingerer final : public rtl::Unit {
   const Token* popped_ = nullptr;
 };
 
-TEST(Poison, ALookAfterThePopGivesNoise) {
+TEST(Poison, ReadAfterPopReturnsNoise) {
   for (const bool poison : {false, true}) {
     const std::string looks = in_child([&] {
       rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
@@ -180,7 +181,7 @@ TEST(Poison, ALookAfterThePopGivesNoise) {
   }
 }
 
-TEST(Poison, FillsWhatHasBeenPoppedAndBeginsAgainAtAReset) {
+TEST(Poison, FillsPoppedSlotsAndRestartsAtReset) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   rtl::Link<Token> link("link");
   clock.add(link);
@@ -199,10 +200,10 @@ TEST(Poison, FillsWhatHasBeenPoppedAndBeginsAgainAtAReset) {
   const Token token{3, 7};
   link.push(clock.cycle(), token);
   clock.run(1);
-  EXPECT_EQ(slot(0), token);  // as long as it waits
+  EXPECT_EQ(slot(0), token);  // while it waits
   link.pop(clock.cycle());
   EXPECT_EQ(slot(0), token);
-  clock.run(1);  // noise comes before units are ticked: the pop was in the clock before
+  clock.run(1);  // noise is written before units are ticked: the pop was in the previous cycle
   EXPECT_FALSE(slot(0) == token);
   EXPECT_FALSE(slot(0) == noise[0]);
   EXPECT_EQ(slot(1), noise[1]);
@@ -216,7 +217,7 @@ TEST(Poison, FillsWhatHasBeenPoppedAndBeginsAgainAtAReset) {
   EXPECT_EQ(poison.slots(), 5U);
 }
 
-TEST(StallInjector, OnOneSideOfOneLink) {
+TEST(StallInjector, StallsOneSideOfOneLink) {
   Pipeline p(1000, 0);
   StallInjector stalls(p.clock, {500, 0, 1, "link_2"});
   EXPECT_EQ(stalls.links(), 1U);
@@ -226,7 +227,7 @@ TEST(StallInjector, OnOneSideOfOneLink) {
   EXPECT_EQ(p.adders[2]->cycles_of(rtl::kStalledDownstream), 0U);
 }
 
-TEST(StallInjector, OnTheOtherSideOfOneLink) {
+TEST(StallInjector, StallsOtherSideOfOneLink) {
   Pipeline p(1000, 0);
   StallInjector stalls(p.clock, {0, 500, 1, "link_2"});
   p.clock.run_until([&] { return p.sink.received() == 1000; }, 100'000);
@@ -234,14 +235,14 @@ TEST(StallInjector, OnTheOtherSideOfOneLink) {
   EXPECT_NEAR(static_cast<double>(p.adders[2]->idle_cycles()), 1000, 150);
 }
 
-TEST(StallInjector, LeavesOneClockOfAThousandAtLeast) {
+TEST(StallInjector, LeavesAtLeastOneOfThousandCycles) {
   Pipeline p(1);
   EXPECT_NO_THROW(StallInjector(p.clock, {999, 999, 1, "*"}));
   EXPECT_THROW(StallInjector(p.clock, {1000, 0, 1, "*"}), spec::ConfigError);
   EXPECT_THROW(StallInjector(p.clock, {0, 1000, 1, "*"}), spec::ConfigError);
 }
 
-// Cycles in which an end that is always willing did nothing, although the other one let it.
+// Cycles in which an always willing end did nothing although the other end allowed it.
 struct Held final : rtl::Clocked {
   Held(rtl::ClockDomain& clock, Pipeline& p) : pipeline(p) { clock.add_after(*this); }
   rtl::Activity tick(Cycle cycle) override {
@@ -270,7 +271,7 @@ std::string held_in_a_run(std::uint32_t stall_permille) {
   return fmt::format("{} {}", held.pushes > 200, held.pops > 200);
 }
 TEST(Bench, StallsBothSidesOfEveryLink) { EXPECT_EQ(held_in_a_run(300), "true true"); }
-TEST(Bench, WithoutStallsHoldsNobody) { EXPECT_EQ(held_in_a_run(0), "false false"); }
+TEST(Bench, UnstalledRunHoldsNoLink) { EXPECT_EQ(held_in_a_run(0), "false false"); }
 
 TEST(Monitor, ObservesEveryBeatAtBothEnds) {
   Pipeline p(200);
@@ -291,7 +292,7 @@ TEST(Monitor, ObservesEveryBeatAtBothEnds) {
   }
 }
 
-TEST(Bench, ResetInMidRunWithEverythingAttached) {
+TEST(Bench, ResetDuringRunWithEverythingAttached) {
   Pipeline p(500);
   BenchOptions options;
   options.stall_permille = 100;

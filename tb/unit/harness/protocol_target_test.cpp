@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The target that checks the base protocol sees each thing that an initiator may not do, and
-// nothing else. An initiator that does one of them at a time, with a memory manager of its own.
+// The target that checks the base protocol detects each violation of an initiator and reports
+// nothing else. The initiator here makes one violation at a time, with its own memory manager.
 #include "tb/harness/protocol_target.h"
 
 #include <fmt/format.h>
@@ -23,16 +23,16 @@ using sc_core::sc_time;
 const sc_time kTick(10, sc_core::SC_NS);
 
 struct Script {
-  // What is done to the payload before BEGIN_REQ, and while the target has it.
+  // Changes to the payload before BEGIN_REQ, and while the target has it.
   std::function<void(tlm::tlm_generic_payload&)> spoil{}, disturb{};
   tlm::tlm_sync_enum answer = tlm::TLM_COMPLETED;  // to BEGIN_RESP
   tlm::tlm_phase answer_phase = tlm::BEGIN_RESP;
   tlm::tlm_sync_enum answer_end_request = tlm::TLM_ACCEPTED;
-  bool turn_back = false;  // answers at an earlier time
+  bool turn_back = false;  // responds at an earlier time
   bool again = false;      // BEGIN_REQ of the same payload at once
   bool second = false;     // another BEGIN_REQ at once
-  int end_calls = 0;       // END_RESP so often, at the end of all
-  bool early_end = false;  // END_RESP before there is a response
+  int end_calls = 0;       // number of END_RESP calls at the end
+  bool early_end = false;  // END_RESP before a response exists
   bool past_end = false;   // END_RESP before the annotated time of the response
   bool strange_phase = false;
   sc_time next = 10 * kTick;  // delay of the second request
@@ -73,7 +73,7 @@ struct Initiator : sc_core::sc_module, tlm::tlm_mm_interface {
   }
 };
 
-// The first violation, "" for none, and whether all is over.
+// The first violation, "" for none, and whether every transaction has ended.
 std::string seen(const Script& script, const ProtocolTargetParameters& parameters = {}) {
   return forked_text([&] {
     Initiator initiator("initiator");
@@ -102,7 +102,7 @@ std::string seen(const Script& script, const ProtocolTargetParameters& parameter
   });
 }
 
-TEST(ProtocolTarget, FindsNothingInWhatIsAllowed) {
+TEST(ProtocolTarget, AcceptsEveryAllowedSequence) {
   for (const Answer answer : {Answer::kFourPhases, Answer::kEndRequest, Answer::kNoEndRequest,
                               Answer::kAnnotated, Answer::kBeginResponse, Answer::kComplete}) {
     const ProtocolTargetParameters parameters{.answer = answer, .request_time = 2 * kTick};
@@ -121,7 +121,7 @@ TEST(ProtocolTarget, FindsNothingInWhatIsAllowed) {
   EXPECT_EQ(seen({.second = true}, {.answer = Answer::kEndRequest}), "fine");
 }
 
-TEST(ProtocolTarget, IgnoresTheEndsThatItDoesNotAccept) {
+TEST(ProtocolTarget, IgnoresEndsThatItDoesNotAccept) {
   EXPECT_EQ(seen({}, {.accepts = {.completed = false}}), "open");
   EXPECT_EQ(seen({.answer = tlm::TLM_UPDATED, .answer_phase = tlm::END_RESP},
                  {.accepts = {.updated = false}}),
@@ -130,7 +130,7 @@ TEST(ProtocolTarget, IgnoresTheEndsThatItDoesNotAccept) {
             "open");
 }
 
-TEST(ProtocolTarget, FindsEachViolation) {
+TEST(ProtocolTarget, DetectsEachViolation) {
   const auto expect = [](const Script& script, const std::string& what,
                          const ProtocolTargetParameters& parameters = {}) {
     EXPECT_THAT(seen(script, parameters), testing::HasSubstr(what));

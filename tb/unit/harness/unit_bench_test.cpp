@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The ends of a unit that a test looks at alone: in which cycles they push and take.
+// The source and sink of a unit under test: in which cycles they push and take.
 #include "tb/harness/unit_bench.h"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 using rtl::Cycle;
 using testing::ElementsAre;
 
-// Source -> link -> Sink: what is pushed in a clock is taken in the next one.
+// Source -> link -> Sink: a token pushed in one cycle is taken in the next.
 struct Pair {
   explicit Pair(Cycle opens = 0, std::uint32_t depth = 2)
       : link("link", depth), sink("sink", clock, opens) {
@@ -30,7 +30,7 @@ struct Pair {
   unit_bench::Sink<Token> sink;
 };
 
-TEST(UnitBench, TokensWithoutAClockAreSentAsFastAsTheyAreTaken) {
+TEST(UnitBench, UnscheduledTokensAreSentAsFastAsTaken) {
   Pair pair;
   for (std::uint32_t i = 0; i < 4; ++i) pair.source.add({i, i});
   EXPECT_THAT(pair.cycles(3), ElementsAre(1, 2));
@@ -41,8 +41,8 @@ TEST(UnitBench, TokensWithoutAClockAreSentAsFastAsTheyAreTaken) {
   EXPECT_EQ(unit_bench::tokens_of(pair.sink)[3], (Token{3, 3}));
 }
 
-// Each in its clock; one that is late, or has none, right after the one before.
-TEST(UnitBench, ClockedTokensWaitForTheirClocks) {
+// Each token in its cycle; a late one, or one without a cycle, directly after the previous one.
+TEST(UnitBench, ScheduledTokensWaitForTheirCycles) {
   Pair pair;
   pair.source.add(3, {0, 0});
   pair.source.add(3, {1, 1});
@@ -51,7 +51,7 @@ TEST(UnitBench, ClockedTokensWaitForTheirClocks) {
   EXPECT_THAT(pair.cycles(20), ElementsAre(4, 5, 10, 11));
 }
 
-TEST(UnitBench, DelayedTokensComeInOneClockAndThoseBeforeStay) {
+TEST(UnitBench, DelayedTokensArriveTogetherAndOthersKeepCycles) {
   Pair pair;
   pair.source.add(1, {0, 0});
   pair.source.add(2, {1, 1});
@@ -60,8 +60,8 @@ TEST(UnitBench, DelayedTokensComeInOneClockAndThoseBeforeStay) {
   EXPECT_THAT(pair.cycles(20), ElementsAre(2, 7, 8));
 }
 
-// Nothing is taken before, and the link is as full as it gets.
-TEST(UnitBench, ASinkOpensInItsClock) {
+// Nothing is taken before, and the link fills up.
+TEST(UnitBench, SinkOpensInItsCycle) {
   Pair pair(8);
   for (std::uint32_t i = 0; i < 4; ++i) pair.source.add({i, i});
   pair.clock.run(8);
@@ -69,7 +69,7 @@ TEST(UnitBench, ASinkOpensInItsClock) {
   EXPECT_THAT(pair.cycles(12), ElementsAre(8, 9, 10, 11));
 }
 
-TEST(UnitBench, ASinkHoldsFromOneClockToAnother) {
+TEST(UnitBench, SinkHoldsFromOneCycleToAnother) {
   Pair pair;
   for (std::uint32_t i = 0; i < 5; ++i) pair.source.add({i, i});
   pair.sink.hold_from = 2;
@@ -77,8 +77,8 @@ TEST(UnitBench, ASinkHoldsFromOneClockToAnother) {
   EXPECT_THAT(pair.cycles(20), ElementsAre(1, 6, 7, 8, 9));
 }
 
-// driver.h: one that has ended goes on with the next index by another generator.
-TEST(Driver, ANewGeneratorGoesOnWithTheNextIndex) {
+// driver.h: a driver that has ended continues with the next index and another generator.
+TEST(Driver, NewGeneratorContinuesWithNextIndex) {
   rtl::ClockDomain clock("clock", unit_bench::period());
   rtl::Link<Token> link("link", 2);
   Driver<Token> driver("driver", clock);
@@ -101,8 +101,8 @@ TEST(Driver, ANewGeneratorGoesOnWithTheNextIndex) {
   EXPECT_EQ(unit_bench::tokens_of(sink), (std::vector<Token>{{0, 0}, {1, 0}, {2, 0}}));
 }
 
-// What was to come is forgotten, and what came.
-TEST(UnitBench, AResetEmptiesBothEnds) {
+// Discards both pending and received tokens.
+TEST(UnitBench, ResetEmptiesBothEnds) {
   Pair pair;
   pair.source.add({0, 0});
   pair.source.add(50, {1, 1});

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Which sources this build compiles, and in which batches (cmake/Layers.cmake): no source of the tree
-is forgotten, none is compiled by two targets or twice by one, and sources of a batch are at most
-twenty. With DEBURR_UNITY off, as in the preset `dev`, every file stands alone.
+"""Checks the sources that this build compiles, and their batches (cmake/Layers.cmake): every source of the
+tree is compiled, by one target and once, and a batch has at most forty sources. With DEBURR_UNITY off, as in
+the preset `dev`, every file is compiled separately.
 usage: batches_test.py SOURCE BUILD [unittest options]"""
 import collections
 import json
@@ -18,12 +18,12 @@ LAYERS = ("spec", "golden", "rtl_model", "tb", "tool", "studies")
 BATCH = re.compile(r"_batch_\d+\.cpp$")
 INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
 MOST = 40
-# Compiled under a condition only: by the presets asan, fuzz and hdl, and where EGL's headers are.
+# Compiled conditionally: with the presets asan, fuzz and hdl, or if the EGL headers are installed.
 SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_seeds.cpp",
              "tb/oracle/mesa_context.cpp", "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp",
              "tb/oracle/smaa_shader.cpp", "tb/oracle/smaa_shader_test.cpp",
              *(path.relative_to(SOURCE).as_posix() for path in (SOURCE / "tb/hdl").glob("*.cpp"))}
-# One source each, so that the others can be compiled as they are.
+# The generated source and s5.cpp have settings of their own, so each is a batch of one file.
 TINY = """cmake_minimum_required(VERSION 3.25)
 project(tiny LANGUAGES CXX)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
@@ -47,11 +47,11 @@ deburr_library(light LAYER golden NOT_SIMULATED ${{e}})
 
 
 def units_of(build, source):
-    """The sources of each translation unit of the tree `source`, by its object file."""
+    """{object file: its sources} for each translation unit of the tree `source`."""
     units = {}
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         path = pathlib.Path(entry["directory"], entry["file"])
-        # Each target has its own folder of objects.
+        # Targets have separate object folders, so the object file identifies the unit.
         unit = re.search(r" -o (\S+)", entry["command"])[1]
         units[unit] = [path.resolve()]
         if BATCH.search(path.name):
@@ -60,7 +60,7 @@ def units_of(build, source):
 
 
 def problems(units, source, built):
-    """Yields what is wrong with the units of a build of the tree `source`, whose files are `built`."""
+    """Yields the errors in the units of a build of the tree `source`, whose files are `built`."""
     times = collections.Counter(path.relative_to(source).as_posix() for unit in units.values()
                                 for path in unit if path.is_relative_to(source))
     for name in sorted(set(built) - set(times)):
@@ -89,7 +89,7 @@ class Batches(unittest.TestCase):
         self.light = sorted(path.name for unit in self.light for path in units[unit])
         return sorted([path.name for path in unit] for unit in units.values())
 
-    def test_batches_are_of_one_size_and_leave_out_what_stands_alone(self):
+    def test_batches_have_equal_size_and_exclude_separate_sources(self):
         units = self.tiny()
         alone = [unit for unit in units if len(unit) == 1]
         self.assertEqual(alone, [["e.cpp"], ["made.cpp"], ["s1.cpp"], ["s5.cpp"]])
@@ -97,17 +97,17 @@ class Batches(unittest.TestCase):
         self.assertEqual(sorted(len(unit) for unit in batches), [2, 2, 27, 28])
         self.assertEqual(sum(batches[2:], []), [f"s{n}.cpp" for n in range(1, 57) if n != 5])
 
-    def test_what_is_not_simulated_is_apart_and_compiled_faster(self):
+    def test_unsimulated_sources_form_faster_compiled_batches(self):
         units = self.tiny()
         self.assertIn(["a.cpp", "b.cpp"], units)
         self.assertIn(["c.cpp", "d.cpp"], units)
         self.assertEqual(self.light, ["c.cpp", "d.cpp", "e.cpp"])
 
-    def test_without_unity_every_file_stands_alone(self):
+    def test_unity_off_compiles_every_file_separately(self):
         self.assertEqual([len(unit) for unit in self.tiny("-DDEBURR_UNITY=OFF")], [1] * 63)
         self.assertEqual(self.light, ["c.cpp", "d.cpp", "e.cpp"])
 
-    def test_dev_is_without_unity_and_the_other_presets_are_not(self):
+    def test_only_preset_dev_disables_unity(self):
         presets = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))
         set_to = {p["name"]: p["cacheVariables"].get("DEBURR_UNITY", "ON")
                   for p in presets["configurePresets"]}
@@ -121,7 +121,7 @@ class Batches(unittest.TestCase):
         unity = "DEBURR_UNITY:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
         self.assertEqual(any(len(unit) > 1 for unit in units.values()), unity)
 
-    def test_planted_faults_are_caught(self):
+    def test_injected_faults_are_detected(self):
         root, built = pathlib.Path("/tree"), {"tb/a.cpp", "tb/b.cpp"}
         good = {"x.o": [root / "tb/a.cpp", root / "tb/b.cpp"], "y.o": [pathlib.Path("/made.cpp")]}
         self.assertEqual(list(problems(good, root, built)), [])

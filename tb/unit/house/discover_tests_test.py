@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""cmake/discover_tests.py on a program that lists what it is told: names and labels of the entries, and
-what it rejects. usage: discover_tests_test.py SOURCE [unittest options]"""
+"""Tests cmake/discover_tests.py with a program that prints a given list: names and labels of the entries, and
+rejected inputs. usage: discover_tests_test.py SOURCE [unittest options]"""
 import json
 import pathlib
 import subprocess
@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 from tiny_tree import tiny_tree  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ".").resolve()
-# As a program with GoogleTest writes its list.
+# Writes its list as a GoogleTest program does.
 PROGRAM = """#!/bin/sh
 cp "$(dirname "$0")/tests.json" "${2#--gtest_output=json:}"
 """
@@ -29,7 +29,7 @@ class DiscoverTests(unittest.TestCase):
         (self.root / "program").chmod(0o755)
 
     def discover(self, sources, tests, *more):
-        """Exit code, what was said, and the entries; `tests`: (suite, case, file) each."""
+        """Returns exit code, output, and entries; `tests` are (suite, case, file)."""
         suites = {}
         for suite, case, file in tests:
             suites.setdefault(suite, []).append({"name": case, "file": file})
@@ -42,8 +42,8 @@ class DiscoverTests(unittest.TestCase):
                                self.root / "program", output, *more], capture_output=True, text=True, check=False)
         return done.returncode, done.stderr, output.read_text(encoding="utf-8") if output.exists() else ""
 
-    def test_entries_have_the_names_of_their_sources_and_the_labels_of_their_expressions(self):
-        # A compiler names a file by one path or the other.
+    def test_entries_have_names_of_sources_and_labels_of_expressions(self):
+        # Compilers give a file's absolute or relative path.
         code, said, text = self.discover(
             [source("a", timing=["Suite.Fast", "Each/Suite"]), source("b", labels=["unit", "oracle"], timeout=7)],
             [("Suite", "FastEnough", "../../tb/unit/rtl/a_test.cpp"),
@@ -63,7 +63,7 @@ class DiscoverTests(unittest.TestCase):
                           f'[=[{self.root}]=] LABELS "{labels}")\n', text)
         self.assertEqual(text.count("add_test"), 5)
 
-    def test_suites_are_one_entry_where_asked(self):
+    def test_suites_become_one_entry_on_request(self):
         tests = [(suite, case, "tb/unit/rtl/a_test.cpp") for suite, case in (
             ("Suite", "Fast"), ("Suite", "One"), ("Suite", "Two"), ("Way/Each/Suite", "Any/0"))]
         sources = [source("a", timing=["Suite.Fast"], timeout=7)]
@@ -76,10 +76,10 @@ class DiscoverTests(unittest.TestCase):
                           f"set_tests_properties([=[rtl_a_test.{entry}]=] PROPERTIES TIMEOUT {timeout} WORKING_DIRECTORY "
                           f'[=[{self.root}]=] LABELS "{labels}")\n', text)
         self.assertEqual(text.count("add_test"), 3)
-        for timeout, seconds in ((200, 400), (400, 600), (700, 700)):  # of a suite of two tests
+        for timeout, seconds in ((200, 400), (400, 600), (700, 700)):  # for a suite of two tests
             self.assertIn(f"TIMEOUT {seconds} ", self.discover([source("a", timeout=timeout)], tests[1:3], "--suites")[2])
 
-    def test_what_would_be_lost_or_mixed_up_is_an_error_and_leaves_no_entries(self):
+    def test_rejects_lost_or_ambiguous_tests_without_entries(self):
         one, two = ("Suite", "One", "tb/unit/rtl/a_test.cpp"), ("Suite", "Two", "tb/unit/rtl/b_test.cpp")
         for sources, tests, complaint in (
                 ([source("a"), source("b")], [one, ("Suite", "One", two[2])], "2 tests are called Suite.One"),

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Counts the edits that an engine costs: no file names it but its own and one line of tb/engines/engines.txt.
+"""Checks that adding an engine needs no edit of other files: only its own files and one line of
+tb/engines/engines.txt name it.
 
-An engine's own files have its name in their path. What else names it, in an identifier too, stands here with the
-reason; what names it because a command makes it of the declarations (MADE) is no edit. Texture and frame are words of
-every page too, so of all engines the rooms are looked at that name none: what runs, sweeps, reports, traces and builds
-whatever engines there are, and gives them to C and Python. Not looked at: documentation.
+An engine's own files have its name in their path. Other files that name it, also within an identifier, are listed in
+NAMED with the reason; files that a command generates from the declarations (MADE) are exempt. Texture and frame are
+common words, so for every engine the test also searches the general folders (GENERAL), which must not name any
+engine: they run, sweep, report, trace and build all engines, and provide the C and Python interfaces. Documentation
+is not searched.
 
 usage: engine_names_test.py SOURCE"""
 import pathlib
@@ -15,15 +17,15 @@ import tempfile
 from house_main import house_main
 
 LIST = "tb/engines/engines.txt"
-# Tests of the tool and of studies take engines as examples.
+# Tests of the tool and of studies use engines as examples.
 LEFT_OUT = re.compile(r"docs/|README\.md|CHANGELOG\.md|LICENSES?|tb/unit/house/engine_names_test\.py|"
                       r"(tool|studies)/tests/|build/|out/|\.git/|\.ci/")
-PAGE = re.compile(r"(?<!\")docs/reference/\w+/\w+\.md")  # of an engine, where a comment says what the contract is
-ADDED = "posteriser"  # the engine that tests add to those of the list
-# What runs compositions by name: their testplans and records. The composition itself names no part.
+PAGE = re.compile(r"(?<!\")docs/reference/\w+/\w+\.md")  # an engine's contract, named in a comment
+ADDED = "posteriser"  # the engine that tests add to the list
+# Testplans and records run compositions by name. The composition itself names none of its parts.
 COMPOSITION = re.compile(r"tb/engines/frame/[^/]*\.(yaml|json)$")
 
-# Files that commands make of what engines declare, or of what they do: which command, and how it is told to.
+# Files generated from the declarations or the behaviour of engines: the command with its option.
 MADE = {
     "golden/c/systemverilog/deburr_golden_dpi.c": "tb/unit/golden/c/systemverilog_test.py --write",
     "golden/c/systemverilog/deburr_golden_pkg.sv": "tb/unit/golden/c/systemverilog_test.py --write",
@@ -31,7 +33,7 @@ MADE = {
     "tool/tests/command/stable.txt": "tool/tests/command/stable_test.py --update",
 }
 
-# engine -> why files name it -> which. A CMake list names what the sources beside it do.
+# engine -> reason -> files that name it. A CMake list may name what the sources in its folder name.
 NAMED = {
     "geometric": {
         "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
@@ -88,7 +90,8 @@ NAMED = {
     },
 }
 
-# Rooms that name no engine: each is told what engines there are. So is the composition: its parts declare themselves.
+# Folders that must not name an engine: they get the list of engines. The composition does too: its parts register
+# themselves.
 GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|golden/c/|rtl_model/CMakeLists\.txt|spec/[^/]*$|"
                      r"rtl_model/(fabric|platform)/|tb/(env|harness)/|tb/traces/(CMakeLists|line_trace|trace_file)|"
                      r"python/(CMakeLists|bindings/(arrays|module)\.|deburr/)|"
@@ -98,7 +101,7 @@ GENERAL = re.compile(r"CMakeLists\.txt|cmake/|golden/CMakeLists\.txt|golden/c/|r
 
 
 def files(root):
-    """Every text of the tree, by its path."""
+    """Yields (path, text) of every text file of the tree."""
     for path in sorted(root.rglob("*")):
         name = path.relative_to(root).as_posix()
         if not path.is_file() or path.is_symlink() or LEFT_OUT.match(name):
@@ -115,7 +118,7 @@ def engines(root):
 
 
 def naming(engine, texts):
-    """Files outside of the engine's own that have its name as a word, or in a name; pages have names of their own."""
+    """Files other than the engine's own that contain its name as a word or in an identifier; names of pages do not count."""
     word = re.compile(rf"(?<![A-Za-z])(?:{engine}|{engine.upper()})(?![A-Za-z])(?!\w*\.md)|"
                       rf"(?<![A-Z]){engine.capitalize()}(?![a-z])")
     return {name for name, text in texts if engine not in name and name not in (LIST, *MADE) and word.search(text)}
@@ -126,14 +129,14 @@ def build_list(name):
 
 
 def general_naming(engine, texts):
-    """Files of general rooms that name it as code does: in quotes, as a namespace, as a folder, as a type."""
+    """Files of general folders that name it in code: in quotes, or as a namespace, a folder or a type."""
     camel = engine.capitalize()
-    # `frame.` begins parameters of a picture, of whatever engine; a frame is also the unit after a parameter's range.
+    # `frame.` also begins image parameters of every engine, and "frame" is the unit of some parameter ranges.
     code = re.compile(rf"(?<!\d, )\"{engine}[\"{'' if engine == 'frame' else '.'}]|\b(spec|golden|rtl|tb)(::|/|_){engine}\b|engines/{engine}\b|"
                       rf"{'' if engine == 'frame' else f'deburr_{engine}_|'}\bdeburr::{engine}_|\b{camel}(Engine|Environment|Golden|Setup|Unit|Composition)\b|"
                       rf"\b_golden\.{engine}\b|\bdef {engine}\b|"
                       rf"engine: {engine}\b")
-    # Comments of lists and scripts may take an example.
+    # Comments in lists and scripts may give an example.
     plain = [(name, text if name.endswith((".h", ".cpp")) else re.sub(r"(?m)^ *#.*", "", text))
              for name, text in texts if GENERAL.match(name) and name not in MADE and f"engines/{engine}/" not in name
              and not re.search(rf"(^|/)(_golden_)?{engine}(_[^/]*|\.[^/]*)$", name)]
@@ -141,7 +144,7 @@ def general_naming(engine, texts):
 
 
 def not_made(root, made):
-    """Yields what no command makes."""
+    """Yields the files of MADE that their command does not generate."""
     for name, command in made.items():
         script = root / command.split()[0]
         if not script.exists() or name.rpartition("/")[2] not in script.read_text(encoding="utf-8"):
@@ -153,7 +156,7 @@ def not_made(root, made):
 
 
 def complaints(root, named):
-    """Yields what the tree and the list of names do not agree in."""
+    """Yields the differences between the tree and NAMED."""
     texts = list(files(root))
     for name, text in texts:
         if ADDED in (name + text).lower():
@@ -176,7 +179,7 @@ def complaints(root, named):
 
 
 def injected_faults_are_caught():
-    """A small tree: what must be found, and what must not."""
+    """True if, in a small tree, exactly the injected faults are found."""
     def tree(folder, **changed):
         texts = {LIST: "# engines\nfoo\nfrobber\n", "spec/frobber/parameters.h": "namespace spec::frobber",
                  "tool/run/engine.cpp": "for (engine : engines())",

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks that every C++ file is formatted as .clang-format says, and that the lines of the README,
-of CHANGELOG.md and of docs/ are at most 120 columns wide outside of tables and code blocks."""
+"""Checks that every C++ file is formatted according to .clang-format, and that lines of README.md, CHANGELOG.md
+and docs/ have at most 120 columns outside tables and code blocks."""
 import argparse
 import pathlib
 import shutil
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 COLUMNS = 120
-# Written by programs, which do not wrap.
+# Generated pages are not wrapped.
 GENERATED = {"datasheets.md", "parameters.md", "registers.md", "statistics.md"}
 
 
@@ -29,7 +29,7 @@ def wide_lines(root):
 
 
 def injected_lines_are_caught():
-    """True if exactly the wide prose is found: none in a table, in code or on a generated page."""
+    """True if exactly the wide prose is found, not tables, code or generated pages."""
     wide = "x" * (COLUMNS + 1)
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)

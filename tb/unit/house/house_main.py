@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""What a test of a house rule is as a program."""
+"""Main function of the tests of house rules."""
 import argparse
 import pathlib
 import sys
 
 
 def house_main(doc, missed, check):
-    """Exits with an error if injected faults were missed, or if `check` finds something in the checkout."""
+    """Exits with an error if injected faults were missed, or if `check` finds a violation in the checkout."""
     parser = argparse.ArgumentParser(description=doc.splitlines()[0])
     parser.add_argument("root", type=pathlib.Path, help="the checkout")
     found = [*(f"injected fault not caught, or said of what is fine: {fault}" for fault in missed),

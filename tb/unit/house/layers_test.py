@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks the dependency rule of the house on the sources themselves.
+"""Checks the dependency rules of the layers in the sources.
 
-The build's include roots already keep golden and rtl_model apart; this test also catches relative
-paths, forbidden words, missing licence lines, and says which line breaks which rule.
+The include paths of the build already separate golden and rtl_model; this test also finds relative paths, forbidden
+words and missing licence lines, and reports the line and the rule.
 """
 import pathlib
 import re
@@ -21,64 +21,64 @@ ALLOWED = {
     "tool": {"spec", "golden", "rtl_model", "tb", "tool"},
     "studies": {"spec", "golden", "rtl_model", "tb", "tool", "studies"},
 }
-# Rings from the models out; each has its tests.
+# Layers around the models, from inside to outside; each has its tests.
 RINGS = ("tb", "tool", "studies")
-# Rooms that tests and studies look into; what the command is built from does not.
+# Folders that only tests and studies may include, not the sources of the command.
 TESTS_ALONE = {"unit", "system", "oracle", "bench", "baselines", "hdl", "fuzz", "tests"}
-# The readers of the tool are fuzzed with those of the testbench.
+# Fuzzing covers file readers of the tool as well as of the testbench.
 SEES_THE_TOOL = {"tb/fuzz"}
-# rtl_model/platform is software's side: it knows engines by their registers in spec, and no engine
-# knows it.
+# rtl_model/platform is the software side: it uses engines through their registers in spec, and no engine includes it.
 PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
-# Rooms of a ring from below: a room includes itself and what stands before it. Tests and benchmarks stand above all.
+# Folders of a layer from bottom to top: a folder may include itself and those before it. Tests and benchmarks may
+# include all.
 ROOMS = {"tb": ["base", "scene", "stimuli", "harness", "run", "traces", "env", "engines"],
          "tool": ["pages", "run", "engines", "sweep", "regress", "command", "soak"],
          "studies": ["training", "papers", "quality"]}
-# Rooms that stand beside the simulation: no header on their way is SystemC's, which takes longer to compile than
-# all of theirs. Nor is json.hpp in a header, where json_fwd.hpp does.
+# Folders outside the simulation: they must not include SystemC, directly or indirectly, since it takes longer to
+# compile than all of them. Their headers include json_fwd.hpp, not json.hpp.
 WITHOUT_SYSTEMC = {"tb/base", "tb/scene", "tb/stimuli", "tb/run", "tool/pages", "tool/sweep", "tool/regress", "tool/command",
                    "tool/soak", "studies/training"}
 SYSTEMC = {"systemc", "tlm", "tlm_utils"}
 JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
-# What hdl/ includes: headers that the build prints (tb/hdl/print_headers.cpp).
+# The only headers of hdl/: the build generates them (tb/hdl/print_headers.cpp).
 PRINTED = {"tokens.svh", "tables.svh", "descriptor.svh"}
 INCLUDE_OF_HDL = re.compile(r'^\s*`include\s+"([^"]+)"')
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
-# SMAA's published areas of diagonals are what the rounding of doubles makes of points on a line (formats.md,
+# SMAA's published areas of diagonals depend on the rounding of doubles for points on a line (formats.md,
 # "Published values").
 DOUBLES = {"golden/morphological/diagonals.cpp", "rtl_model/morphological/blend/diagonal_table.cpp"}
 FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
-# Namespaces follow folders: the tool and studies define in theirs, and declare of others.
+# Namespaces follow folders: the tool and studies define names in their own and may declare names of others.
 OPENED = re.compile(r"^namespace deburr::(tb|tool|studies)\b")
 DECLARED = re.compile(r"^((class|struct) \w+;|)$")
 ADDED_ENGINE = "tool/tests/system/added_engine/"
 RANDOM = re.compile(r"\bstd::(?:mt19937|minstd_rand|ranlux|default_random|random_device|s?rand\b|\w+_distribution)")
-# What frames and trainings are made by, which are the same on every machine; measures are not.
+# Frames and trained weights must be the same on every machine; quality measures need not be.
 EXACT, MEASURES = {"tb/scene", "tb/stimuli", "studies/training"}, {"flip.cpp", "quality.cpp", "ssim.cpp"}
 OF_THE_C_LIBRARY = re.compile(
     r"\bstd::(?:a?(?:sin|cos|tan)h?|atan2|pow|exp2?|expm1|log(?:2|10|1p)?|cbrt|hypot)f?\(")
 CONDITIONAL = re.compile(r"^\s*#\s*if(n?def)?\b")
-# A header of C asks what language it is read in.
+# A C header tests for C++.
 IN_C = re.compile(r"^#ifdef __cplusplus$")
 
 
 def in_order(where, wanted):
-    """Whether a file of a ring may include another one of it, by their rooms."""
+    """Whether a file may include another file of its layer, by their folders."""
     room, below, rooms = where[1], wanted[1], ROOMS[where[0]]
     if room not in rooms or below not in rooms:
         return True
-    # Engines do not include each other, nor does a composition.
+    # Engines do not include each other, and a composition does not include engines.
     if room == below == "engines" and len(where) > 3 and len(wanted) > 3:
         return where[2] == wanted[2]
     return rooms.index(below) <= rooms.index(room)
 
 
 def way_to_systemc(root, name, seen):
-    """The includes by which a file comes to a header of SystemC, or None."""
+    """The chain of includes from a file to a SystemC header, or None."""
     headers = [include.group(1) for include in
                map(INCLUDE.match, (root / name).read_text(encoding="utf-8").splitlines()) if include]
     for header in headers:
@@ -94,7 +94,7 @@ def way_to_systemc(root, name, seen):
 
 
 def includes_between_folders(root):
-    """folder -> folder that it includes -> the first such line."""
+    """{folder: {included folder: first line with such an include}}."""
     includes = {}
     for layer in ALLOWED:
         for path in sorted((root / layer).rglob("*")):
@@ -110,7 +110,7 @@ def includes_between_folders(root):
 
 
 def circles(root):
-    """Folders stand in an order: yields each include from which a way leads back."""
+    """Yields each include between folders that is part of a cycle."""
     includes = includes_between_folders(root)
     for folder in includes:
         for wanted, line in includes[folder].items():
@@ -125,7 +125,7 @@ def circles(root):
 
 
 def violations_of_hdl(root):
-    """The units in SystemVerilog see nothing of golden/ and rtl_model/ but the printed headers."""
+    """Yields violations in hdl/: SystemVerilog may include generated headers only."""
     for path in sorted((root / "hdl").rglob("*")):
         if not path.is_file():
             continue
@@ -218,7 +218,7 @@ def violations(root):
 
 
 def injected_faults_are_caught():
-    """Plants one fault of each kind and returns the kinds that were missed."""
+    """Injects one fault of each kind and returns the missed kinds."""
     faults = {
         "golden/a.cpp": '#include "rtl_model/fabric/link.h"',
         "rtl_model/a.cpp": '#include "golden/texture/x.h"',

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks that every link of the pages in the root and in docs/ leads to a file and to a heading in it, that
-links lead from docs/index.md to every page below docs/, and from README.md to that, that no template
-placeholder was left standing, that paths and C++ names which are set as code there, and paths in scripts/,
-are those of the tree, that pages which comments of sources name, with a heading in quotes, are there, and
-that pages, CHANGELOG.md and CITATION.cff have the version of CMakeLists.txt. NAME in a path stands for any."""
+"""Checks the pages in the root and in docs/:
+
+- every link leads to an existing file and heading; every page below docs/ is reachable from docs/index.md, and that
+  from README.md;
+- no template placeholder is left;
+- paths and C++ names set as code, and paths in scripts/, exist in the tree (NAME in a path matches any name);
+- pages and quoted headings that source comments name exist;
+- pages, CHANGELOG.md and CITATION.cff have the version of CMakeLists.txt."""
 import argparse
 import functools
 import pathlib
@@ -20,11 +23,11 @@ PLACEHOLDER = re.compile(r"@[A-Z_]{3,}@")
 CODE = re.compile(r"`([^`]+)`")
 FOLDERS = ("cmake", "docs", "examples", "golden", "hdl", "python", "rtl_model", "scripts", "spec", "studies", "tb", "tool")
 PATH = re.compile(rf"(?<![\w./-])((?:{'|'.join(FOLDERS)})/[\w./-]*\w/?|(?:\w+/)+\w+\.(?:h|cpp|py|md))(?![\w/{{])")
-# Qualified names, and single ones that can be no other word: CamelCase, kCamelCase.
+# Qualified names, and single names that cannot be ordinary words: CamelCase, kCamelCase.
 NAME = re.compile(r"(?<![\w:])(?:[A-Za-z_]\w*::)+\w+|\b[A-Z][a-z]+[A-Z]\w*|\bk[A-Z]\w+")
 SOURCES = (".h", ".cpp", ".py", ".cmake", ".txt", ".in")
 COMMENT = re.compile(r"(?:^[ \t]*(?://|#)[^\n]*\n)+", re.M)
-# A page, and after it, if it is there, a heading in quotes.
+# A page, optionally followed by a heading in quotes.
 NAMED = re.compile(r"(docs/[\w/]+\.md)(?:,? \(?\"([^\"]+)\")?")
 
 
@@ -39,7 +42,7 @@ def anchors(page):
         in_code ^= line.startswith("```")
         heading = HEADING.match(line)
         if heading and not in_code:
-            # Repeated headings get a number there, and are no place to link to.
+            # GitHub numbers repeated headings; links must not use them.
             found.add(anchor_of(heading[1]))
     return found
 
@@ -60,7 +63,7 @@ class Tree:
 
     @functools.lru_cache(maxsize=None)
     def has_name(self, name):
-        """It stands in a source like that, or a source declares its scope and has its last part."""
+        """Whether a source contains the name, or declares its scope and contains its last part."""
         if any(name in text and re.search(rf"\b{name}\b", text) for text in self.texts):
             return True
         scope, _, last = name.rpartition("::")
@@ -91,7 +94,7 @@ def script_problems(tree, root):
 
 
 def comment_problems(root):
-    """Pages and headings that comments of sources name."""
+    """Pages and headings named in comments of sources."""
     known = {page.relative_to(root).as_posix(): anchors(page) for page in (root / "docs").rglob("*.md")}
     sources = sorted(path for folder in FOLDERS for path in (root / folder).rglob("*")
                      if path.suffix in (*SOURCES, ".sv") and path.is_file())
@@ -108,7 +111,7 @@ def comment_problems(root):
 
 
 def version_problems(root, pages):
-    """Versions of ours, whole or the first two numbers; stability.md names the next one."""
+    """Project versions, complete or their first two numbers; stability.md may name the next one."""
     version = VERSION.search((root / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
     major, minor, _ = version.split(".")
     for page in pages:
@@ -122,7 +125,7 @@ def version_problems(root, pages):
 
 
 def unreachable(root, pages, links):
-    """`links` has the targets of each page."""
+    """`links` holds the targets of each page."""
     index = (root / "docs/index.md").resolve()
     reached, to_see = {index}, [index]
     while to_see:
@@ -141,7 +144,7 @@ def problems(root):
     tree = Tree(root)
     yield from script_problems(tree, root)
     yield from comment_problems(root)
-    # The change log may speak of what was.
+    # The change log may name removed files.
     pages = [page for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
              if page.name != "CHANGELOG.md"]
     yield from version_problems(root, pages)
@@ -170,8 +173,8 @@ def problems(root):
 
 
 def injected_faults_are_caught():
-    """True if a dead link, a dead anchor, orphans, a placeholder, paths and names that are not there, other
-    versions, and pages and headings that a comment names are each found, and nothing else."""
+    """True if exactly the injected faults are found: a dead link, a dead anchor, orphans, a placeholder, missing paths
+    and names, wrong versions, and missing pages and headings in comments."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name in ("docs", "scripts", "spec/engine"):

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/mutate on a tree of one file: what the test checks is killed, the rest survives; a replay with a
-weaker test tells what it lost. usage: mutate_test.py SOURCE"""
+"""Tests scripts/mutate on a tree of one file: mutants that the test covers are killed, the others survive; a replay
+with a weaker test lists the newly surviving mutants. usage: mutate_test.py SOURCE"""
 import pathlib
 import subprocess
 import sys
@@ -29,7 +29,7 @@ inline bool unmet(int a) { return a < 9; }
 
 
 class Mutate(unittest.TestCase):
-    def test_campaign_and_replay(self):
+    def test_campaign_and_replay_list_survivors(self):
         root, work = tiny_tree(self, FILES), tiny_tree(self, {})
 
         def mutate(*arguments):

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks that the names of all tests are the same on every build: no address, no bytes of a value that
-GoogleTest could not print, no path of the machine, and none twice; that every test source is in one
-program, that of its folder, has a namespace of its own, and names its tests as its path:
-tb/unit/fabric/link_test.cpp is fabric_link_test, tool/tests/run/reset_test.cpp tool_run_reset_test; that
-every class of tests in a *_test.py, and every method of one of which methods are named, is run by some
-test; that every test has labels, of those that cmake/Labels.cmake lists; and that scripts/everything, and
-so CI, runs every test in one part."""
+"""Checks the names, sources and labels of all tests:
+
+- names are unique and the same in every build: without addresses, raw bytes of values that GoogleTest cannot print,
+  and paths of the machine;
+- every test source belongs to exactly one program, in its folder, has its own namespace, and names its tests after its
+  path: tb/unit/fabric/link_test.cpp is fabric_link_test, tool/tests/run/reset_test.cpp is tool_run_reset_test;
+- some test runs every test class of a *_test.py, and every method of a class whose methods are named;
+- every test has labels, all of them listed in cmake/Labels.cmake;
+- scripts/everything, and so CI, runs every test in exactly one part."""
 import argparse
 import ast
 import collections
@@ -20,9 +22,9 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-SOMETIMES = {"tb/oracle/mesa_test.cpp", "tb/oracle/smaa_shader_test.cpp"}  # where EGL's headers are
-SOME_BUILDS = ("tb/hdl/", "tool/tests/system/python_")  # with the option DEBURR_HDL, with the Python module
-# What scripts/test leaves out without a choice; hdl and formal are in a preset of their own.
+SOMETIMES = {"tb/oracle/mesa_test.cpp", "tb/oracle/smaa_shader_test.cpp"}  # if the EGL headers are installed
+SOME_BUILDS = ("tb/hdl/", "tool/tests/system/python_")  # with the option DEBURR_HDL; with the Python module
+# Labels that scripts/test excludes by default; hdl and formal have their own preset.
 LEFT_OUT = "^(long|examples|slurm|fuzz|hdl|formal)$"
 UNSTABLE = re.compile(r"(?<![0-9])0x[0-9A-Fa-f]+|-byte object|GetParam\(\)|(?<![\w.])/[a-z]+/")
 
@@ -32,7 +34,7 @@ def labels_of(test):
 
 
 def takes(command, name, labels):
-    """Whether this call of scripts/test runs a test, as ctest chooses."""
+    """Whether this call of scripts/test runs a test, by ctest's selection rules."""
     words = shlex.split(command)
     rules = {"-L": lambda regex: any(re.search(regex, label) for label in labels),
              "-LE": lambda regex: not any(re.search(regex, label) for label in labels),
@@ -44,8 +46,8 @@ def takes(command, name, labels):
 
 
 def not_in_one_part(tests, parts):
-    """Yields each of these tests of ctest's listing that not one of the parts (name: command) runs. Those with
-    sanitizers run unit tests again."""
+    """Yields each test of ctest's list that is not in exactly one of the parts {name: command}. Parts with sanitizers
+    repeat unit tests and do not count."""
     for test in tests:
         name, labels = test["name"], labels_of(test)
         found = [part for part, command in parts.items() if "sanitizers" not in part and takes(command, name, labels)]
@@ -54,7 +56,7 @@ def not_in_one_part(tests, parts):
 
 
 def another_ci(source, parts):
-    """Yields the difference if CI does not run the first two parts and the one whose turn it is."""
+    """Yields the difference if CI does not run the tests and the sanitizers whose turn it is."""
     text = (source / ".ci/run").read_text(encoding="utf-8")
     commands = [line for line in text.splitlines() if line.startswith("scripts/")]
     wanted = [parts["tests"], "scripts/everything sanitizers --turn"]
@@ -63,7 +65,7 @@ def another_ci(source, parts):
 
 
 def problems(listed):
-    """Yields what is wrong with each of these names."""
+    """Yields the errors in these names."""
     names = collections.Counter(listed)
     for name, times in names.items():
         if UNSTABLE.search(name):
@@ -79,14 +81,14 @@ def test_sources(source, pattern):
 
 
 def prefix(folders):
-    """What a test's name has in front by the folders of its source; of whole runs the ring alone."""
+    """The prefix of a test's name, from the folders of its source; for system tests only the layer."""
     if folders[0] == "tb":
         return {"unit": folders[2:], "fuzz": folders[1:]}.get(folders[1], ())
     return folders[:1] if folders[2] == "system" else (folders[0], *folders[2:])
 
 
 def misnamed(listed, source):
-    """Yields what is wrong with the sources of the test programs: (name, file, program) each."""
+    """Yields the errors in the sources of the test programs, given as (name, file, program)."""
     files = [file for _, file, _ in listed]
     for path in test_sources(source, "*_test.cpp"):
         file = path.relative_to(source).as_posix()
@@ -105,7 +107,7 @@ def misnamed(listed, source):
 
 
 def mislabelled(tests, known):
-    """Yields what is wrong with the labels of each of these tests of ctest's listing."""
+    """Yields the tests of ctest's list whose labels are missing or unknown."""
     for test in tests:
         labels = labels_of(test)
         if not labels or not known.issuperset(labels):
@@ -113,7 +115,7 @@ def mislabelled(tests, known):
 
 
 def test_methods(text):
-    """{class: names of its tests, its bases' included} of a Python file."""
+    """{class: names of its tests, including inherited ones} of a Python file."""
     classes = {node.name: node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)}
 
     def of(name):
@@ -126,8 +128,8 @@ def test_methods(text):
 
 
 def unregistered(tests, source):
-    """Yields what of the Python tests none of these tests of ctest's listing runs. A command
-    that names neither class nor method runs the whole file."""
+    """Yields the Python tests that no test of ctest's list runs. A command that names neither class nor method runs
+    the whole file."""
     commands = [test.get("command", []) for test in tests]
     for path in test_sources(source, "*_test.py"):
         file = path.relative_to(source).as_posix()

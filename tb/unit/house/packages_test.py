@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What the build needs and does not find is an error that names the section of scripts/install which brings it:
-nothing in the CMake lists is required in another way than by cmake/Packages.cmake, every package named there is one
-of scripts/packages.txt, and the errors say what they should.
+"""Checks that a missing package is an error that names the section of scripts/install which installs it: CMake lists
+require packages only through cmake/Packages.cmake, every package named there is in scripts/packages.txt, and the
+errors have the expected text.
 
 usage: packages_test.py CMAKE SOURCE"""
 import pathlib
@@ -12,11 +12,11 @@ import subprocess
 import sys
 import tempfile
 
-# What is for others, and stands in their build.
+# Files for the builds of users.
 NOT_OURS = ("examples/", "cmake/package/", "cmake/FindSystemC.cmake", "cmake/Packages.cmake", "build/")
 BARE = re.compile(r"^\s*(find_\w+|pkg_check_modules|pkg_search_module)\s*\(([^)]*)\)", re.M)
-# Looked for without being needed: a compiler cache, Mesa, what reads SystemVerilog, what a Python module is made of, and
-# what pkg-config may know instead of CMake.
+# Optional packages: a compiler cache, Mesa, SystemVerilog tools, packages of the Python module, and packages that
+# pkg-config may find instead of CMake.
 OPTIONAL = {"DEBURR_VERILATOR", "DEBURR_MAKE", "Python", "pybind11",
             "CCACHE_PROGRAM", "PC_OracleEgl", "PC_OpenImageIO", "PC_OracleOpenImageIO", "OpenImageIO", "pagmo", "GTest"}
 NAMED = re.compile(r"\bdeburr_(?:find_package|find|missing|missing_module)\(([^)]*)\)")

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Checks on the headers of the engines that the module tree is the block diagram: units are joined by
-links and wires alone.
+"""Checks in the headers of the engines that the module tree is the block diagram: only links and wires connect units.
 
-No module holds or is given another one of its engine by reference or pointer, no unit has a pointer
-that is set from outside, and none asks by a function what a wire would tell (observers, which return
-nothing, are for checks). What a module, or a class that a module is made of, does hold by reference is in
-the list SHARED. Handles of a memory's ports and of the sides of places for lines are values.
+A module neither holds nor receives another module of its engine by reference or pointer. A unit has no pointer that is
+set from outside, and no callback that returns a value: that needs a wire (observers return nothing and serve checks).
+SHARED lists everything that a module, or a class that is part of one, may hold by reference. Handles of memory ports,
+and of the two sides of a line buffer, are values.
 """
 import pathlib
 import re
@@ -14,9 +13,9 @@ import tempfile
 
 from house_main import house_main
 
-# Rooms of rtl_model that are no engine.
+# Folders of rtl_model that are not engines.
 NO_ENGINES = {"fabric", "platform"}
-# What stands between units, or is no hardware, with the reason.
+# Classes shared by units, or not hardware, with the reason.
 SHARED = {
     "ClockDomain": "the clock",
     "ControlRegisters": "the registers on the bus",
@@ -27,20 +26,20 @@ SHARED = {
     "EdgeLatency": "an instrument",
     "LatencyProbe": "an instrument",
 }
-# Parts of one unit, the first of which addresses the memories of the second.
+# Parts of one unit: the first addresses the memories of the second.
 PARTS = {"DescriptorWalk": "DescriptorStore"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
 CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?:\s*([^{;]*)\{")
 ANY_CLASS = re.compile(r"\b(?:class|struct)\s+(\w+)\s*(?:final\s*)?(?::\s*([^{;]*))?\{")
 BASES = re.compile(r"\bpublic\s+(?:[\w:]+::)?(Unit|Engine|sc_module)\b")
 POINTER = re.compile(r"^\s*(?:const\s+)?[\w:]+(?:<[^;]*>)?(?:\s+const)?\s*\*\s*(?:const\s+)?\w+\s*(?:=\s*nullptr|\{\s*\})?\s*;")
-# Without an initialiser: a member, not a local name.
+# No initialiser: a member, not a local variable.
 REFERENCE = re.compile(r"^\s*(?:const\s+)?(?:\w+::)*(\w+)(?:<[^;]*>)?(?:\s+const)?\s*&\s*\w+\s*;")
 FUNCTION = re.compile(r"\bstd::function<\s*(?!void\b)([^()]*?)\(")
 
 
 def body_of(text, begin):
-    """From behind an opening brace to the one that closes it."""
+    """The text after an opening brace up to the matching closing brace."""
     depth = 1
     for at in range(begin, len(text)):
         depth += {"{": 1, "}": -1}.get(text[at], 0)
@@ -58,7 +57,7 @@ def classes(text):
 
 
 def own_lines(body):
-    """(offset, line, public) of the lines that are the class's own: not those in braces."""
+    """Yields (offset, line, public) for the lines of the class body outside nested braces."""
     depth, public = 0, False
     for offset, line in enumerate(body.split("\n")):
         if depth == 0:
@@ -75,7 +74,7 @@ def violations(root):
     for path in sorted((root / "rtl_model").rglob("*.h")):
         if path.relative_to(root).parts[1] in NO_ENGINES:
             continue
-        # Comments go, their lines stay.
+        # Removes comments and keeps line numbers.
         text = path.read_text(encoding="utf-8")
         headers[path.relative_to(root)] = COMMENT.sub(lambda c: "\n" * c.group().count("\n"), text)
     found = {name: list(classes(text)) for name, text in headers.items()}
@@ -88,7 +87,7 @@ def violations(root):
         for name, base, first, body in list_:
             others = "|".join(sorted(modules[engine] - {name, PARTS.get(name)})) or "(?!)"
             held = re.compile(rf"\b({others})\b\s*(?:const\s*)?[&*]")
-            # A part that is not always built is owned, as one that is would be a member.
+            # An optional part is owned by a pointer, a permanent one is a member.
             parts = "|".join(sorted(units[engine] - {name})) or "(?!)"
             owned = re.compile(rf"\b(?:unique_ptr\s*<\s*(?:const\s+)?({parts})|(?:shared_ptr|reference_wrapper)\s*<\s*(?:const\s+)?({others}))\b")
             for offset, line in enumerate(body.split("\n")):
@@ -113,7 +112,7 @@ def violations(root):
 
 
 def of_parts(where, text, modules):
-    """What classes of a header that are no modules hold by reference."""
+    """Yields unlisted references held by classes that are not modules."""
     for match in ANY_CLASS.finditer(text):
         first = text.count("\n", 0, match.end()) + 1
         for offset, line, _ in own_lines(body_of(text, match.end())):
@@ -123,7 +122,7 @@ def of_parts(where, text, modules):
 
 
 def not_shared(root):
-    """Yields what SHARED names and nothing in an engine holds."""
+    """Yields entries of SHARED and PARTS that no engine uses."""
     held = set()
     for path in (root / "rtl_model").rglob("*.h"):
         if path.relative_to(root).parts[1] not in NO_ENGINES:
@@ -136,7 +135,7 @@ def not_shared(root):
 
 
 def injected_faults_are_caught():
-    """Plants one fault of each kind and returns those that were missed."""
+    """Injects one fault of each kind and returns the missed ones."""
     unit = ("class Other final : public Unit {\n public:\n  void reset();\n};\n"
             "class Store final : public sc_core::sc_module {\n  int x_;\n};\n")
     faults = {

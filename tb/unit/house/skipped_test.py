@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/skipped on a record of four tests: what ran, what was skipped and why. usage: skipped_test.py SOURCE"""
+"""Tests scripts/skipped on a record of six tests: counts, skipped tests and reasons. usage: skipped_test.py SOURCE"""
 import pathlib
 import subprocess
 import sys
@@ -36,14 +36,14 @@ def said(text):
 
 
 class Skipped(unittest.TestCase):
-    def test_counts_and_reasons(self):
+    def test_lists_counts_and_reasons(self):
         self.assertEqual(said(RECORD).stdout.splitlines(), [
             "3 tests ran, 3 of 6 were skipped",
             "  2: no data folder: DEBURR_DATA, or ../shared/data beside the repository (d.Data, e.Data)",
             "  1: Mesa is absent: no libEGL (f.Mesa)",
             "  1 parts of tests: no user namespaces here"])
 
-    def test_no_record(self):
+    def test_missing_record_is_an_error(self):
         self.assertEqual(said("no XML").returncode, 1)
 
 

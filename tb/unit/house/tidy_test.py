@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/tidy on a tree of two files: it finds what is injected, and looks again at what has changed and at nothing
-else. usage: tidy_test.py SOURCE [unittest options]"""
+"""Tests scripts/tidy on a tree of two files: it finds injected faults, and rechecks changed files only.
+usage: tidy_test.py SOURCE [unittest options]"""
 import json
 import os
 import pathlib
@@ -45,7 +45,7 @@ class Tidy(unittest.TestCase):
         clean = len(list((self.root / "build/tidy").glob("*")))
         return done.returncode, clean, done.stdout + done.stderr
 
-    def test_finds_what_is_planted_and_remembers_what_is_clean(self):
+    def test_finds_injected_faults_and_remembers_clean_files(self):
         self.assertEqual(self.tidy()[:2], (0, 2))
         code, _, text = self.tidy()
         self.assertEqual(code, 0)
@@ -57,7 +57,7 @@ class Tidy(unittest.TestCase):
         self.header(CLEAN + "// longer\n")
         self.assertEqual(self.tidy()[:2], (0, 3), "the file that includes it, and not the other")
 
-    def test_looks_at_the_files_of_a_batch_and_not_at_the_batch(self):
+    def test_checks_files_of_batch_separately(self):
         batch = self.root / "build/release/golden/x_batch_1.cpp"
         batch.parent.mkdir(parents=True)
         batch.write_text("".join(f'#include "golden/{name}.cpp"\n' for name in "ab"),
@@ -71,7 +71,7 @@ class Tidy(unittest.TestCase):
         self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 1))
         self.assertIn("1 of 1 files looked at", text)
 
-    def test_does_not_take_for_clean_what_does_not_compile(self):
+    def test_file_that_does_not_compile_is_not_clean(self):
         (self.root / "golden/a.cpp").write_text('#include "golden/nowhere.h"\n', encoding="utf-8")
         code, clean, text = self.tidy()
         self.assertEqual((code, clean), (1, 1))
@@ -81,7 +81,7 @@ class Tidy(unittest.TestCase):
         subprocess.run(["git", "-c", "user.name=A", "-c", "user.email=a@b", "-C", self.root, *words],
                        check=True, capture_output=True)
 
-    def test_changed_takes_what_differs_from_the_upstream_branch(self):
+    def test_changed_selects_differences_from_upstream(self):
         (self.root / ".gitignore").write_text("/build/\n", encoding="utf-8")
         self.git("init", "-q", "-b", "main")
         self.git("add", ".")

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""A small tree in a folder of its own, for tests of scripts."""
+"""A small temporary tree for tests of scripts."""
 import pathlib
 import tempfile
 
 
 def tiny_tree(test, files):
-    """Writes the texts of `files` by their names, and removes all with the test; the tree's root."""
+    """Writes `files` {name: text} and returns the root; the tree is removed after the test."""
     scratch = tempfile.TemporaryDirectory(prefix="deburr_tiny_")
     test.addCleanup(scratch.cleanup)
     root = pathlib.Path(scratch.name).resolve()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Engines in clock domains of their own in one simulation: whatever is done to one of them, the
-// other ones give the results, the cycles and the counts that they give alone.
+// Engines in separate clock domains of one simulation: actions on one engine change neither the
+// results nor the cycles and counters of the others.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,14 +24,14 @@ namespace {
 
 using rtl::Cycle;
 
-// Without a common divisor, so that every phase of one clock meets every phase of another.
+// Periods without a common divisor, so that every phase of one clock meets every phase of another.
 sc_core::sc_time ps(std::uint64_t n) { return sc_core::sc_time::from_value(n); }
 const std::vector<std::uint64_t> kPeriods = {7001, 9973, 11003};
-// Of each engine, from its start on: its job is done by then.
+// Counted from each engine's start; its job is done by then.
 constexpr Cycle kCycles = 6000;
 
-// An engine with its own clock and all that its kit has around it, in a module: so its parts have
-// the same names whoever else is there.
+// An engine with its own clock and its kit's environment in one module, so that its parts have the
+// same names whatever else exists.
 class Placed : public sc_core::sc_module {
  public:
   explicit Placed(const sc_core::sc_module_name& name) : sc_module(name) {}
@@ -40,10 +40,10 @@ class Placed : public sc_core::sc_module {
   virtual void start(Job job) = 0;
   virtual bool done() = 0;
   virtual void reset() = 0;
-  // Beats, cycles, counts, registers, accounts.
+  // Beats, cycles, counters, registers, cycle accounts.
   virtual std::string seen() = 0;
 
-  // Up to cycle kCycles of its job.
+  // Runs to cycle kCycles of its job.
   void finish() {
     ASSERT_LE(clock().cycle() - begin_, kCycles);
     clock().run(kCycles - (clock().cycle() - begin_));
@@ -104,7 +104,7 @@ Disturbance at_period(std::uint64_t period) {
   disturbance.period = ps(period);
   return disturbance;
 }
-// Everything that a bench can put around an engine and that a reset begins anew.
+// Everything that a bench can attach to an engine and that a reset restarts.
 Disturbance disturbed(std::uint64_t period) {
   Disturbance disturbance = at_period(period);
   disturbance.bench.stall_permille = 100;
@@ -122,9 +122,10 @@ std::string alone(Engine engine, const Disturbance& disturbance) {
   });
 }
 
-// Several jobs that a reset breaks off while another engine works; how many.
+// Starts several jobs that a reset aborts while another engine works; returns their number.
 int break_off(Placed& broken, Placed& working) {
-  constexpr Cycle kStep = 61, kLongest = 400;  // of its clock; of the other one's, with the reset
+  constexpr Cycle kStep = 61,
+                  kLongest = 400;  // in its own cycles; in the other engine's, including the reset
   int resets = 0;
   for (; working.in_mid_job(kLongest); ++resets) {
     broken.start(Job::kBroken);
@@ -143,7 +144,7 @@ void expect_seen(const std::string& together, const std::string& alone, const st
 
 class Pair : public testing::TestWithParam<std::tuple<Engine, Engine>> {};
 
-// In one simulation: a job of the watched engine, in which the other one is reset again and again,
+// In one simulation: a job of the watched engine, during which the other one is reset repeatedly,
 // and then a job of the other one.
 void expect_unchanged_by_resets(Engine watched, Engine reset,
                                 Disturbance (*around)(std::uint64_t period)) {
@@ -176,12 +177,12 @@ void expect_unchanged_by_resets(Engine watched, Engine reset,
   }
 }
 
-TEST_P(Pair, ResetOfOneInMidJobLeavesTheOtherAlone) {
+TEST_P(Pair, ResetOfOneDuringJobLeavesOtherUnchanged) {
   expect_unchanged_by_resets(std::get<0>(GetParam()), std::get<1>(GetParam()), at_period);
 }
 
-// Stalls, noise in free slots and checks are those of one clock, too.
-TEST_P(Pair, BenchOfOneLeavesTheOtherAlone) {
+// Stalls, noise in free slots and checks act on one clock domain only.
+TEST_P(Pair, BenchOfOneLeavesOtherUnchanged) {
   expect_unchanged_by_resets(std::get<0>(GetParam()), std::get<1>(GetParam()), disturbed);
 }
 
@@ -192,9 +193,9 @@ INSTANTIATE_TEST_SUITE_P(Engines, Pair,
                                   kNames[std::get<1>(pair.param)];
                          });
 
-// ---- three domains with drifting phases ---------------------------------------------------------
+// ---- Three domains with drifting phases --------------------------------------------------------
 
-// All three, in this order of construction, which is that of their periods.
+// All three, constructed in the order of their periods.
 struct Three {
   explicit Three(bool fast_path) {
     for (std::size_t i = 0; i < kEngines.size(); ++i) {
@@ -225,7 +226,7 @@ TEST(ThreeDomains, WorkTogetherAsEachAlone) {
       expect_seen(in_child([&] {
                     const Three three(fast);
                     for (const auto& engine : three.engines) engine->start(Job::kWhole);
-                    // The others go on beside it.
+                    // The others continue.
                     for (std::size_t before = 0; before < i; ++before)
                       three.engines[before]->clock().run(1);
                     three.engines[i]->finish();
@@ -234,7 +235,7 @@ TEST(ThreeDomains, WorkTogetherAsEachAlone) {
                   expected[i], kNames[i]);
 }
 
-TEST(ThreeDomains, ResetsOfTwoLeaveTheThirdAlone) {
+TEST(ThreeDomains, ResetsOfTwoLeaveThirdUnchanged) {
   const std::vector<std::string> expected = three_alone();
   for (const bool fast : {true, false})
     for (std::size_t i = 0; i < kEngines.size(); ++i)
@@ -261,9 +262,9 @@ TEST(ThreeDomains, ResetsOfTwoLeaveTheThirdAlone) {
                   expected[i], kNames[i]);
 }
 
-// ---- faults, windows, observers -----------------------------------------------------------------
+// ---- Faults, intervals, observers --------------------------------------------------------------
 
-TEST(DomainFaults, FaultInOneIsNotSeenInTheOther) {
+TEST(DomainFaults, FaultInOneDoesNotReachOther) {
   const Disturbance calm = disturbed(kPeriods[0]);
   Disturbance faulty = disturbed(kPeriods[1]);
   faulty.bench.check_links = false;  // they would stop it
@@ -295,7 +296,7 @@ TEST(DomainFaults, FaultInOneIsNotSeenInTheOther) {
 }
 
 // A fault acts in the cycles of its bench's domain.
-TEST(DomainFaults, LinkOfAnotherDomainIsRejected) {
+TEST(DomainFaults, RejectsLinkOfOtherDomain) {
   const auto other = place(kTexture, "watched", at_period(kPeriods[0]));
   Disturbance disturbance = at_period(kPeriods[1]);
   disturbance.bench.faults = {"drop:watched.quads:3"};
@@ -313,7 +314,7 @@ void watch(IntervalRecorder& recorder, const Placed& placed) {
   }
 }
 
-TEST(DomainWindows, CountTheCyclesOfTheirOwnClock) {
+TEST(DomainWindows, CountCyclesOfTheirOwnClock) {
   const auto windows = [](bool together) {
     return in_child([&] {
       const auto placed = place(kGeometric, "watched", at_period(kPeriods[0]));
@@ -333,7 +334,7 @@ TEST(DomainWindows, CountTheCyclesOfTheirOwnClock) {
   EXPECT_EQ(windows(true), expected);
 }
 
-TEST(DomainWindows, UnitOfAnotherDomainIsRejected) {
+TEST(DomainWindows, RejectsUnitOfOtherDomain) {
   const auto one = place(kTexture, "one", at_period(kPeriods[0]));
   const auto two = place(kTexture, "two", at_period(kPeriods[1]));
   IntervalRecorder recorder(one->clock(), {.cycles = 500, .lose = {}});
@@ -342,7 +343,7 @@ TEST(DomainWindows, UnitOfAnotherDomainIsRejected) {
                   "belongs to two.clock, but is observed in the cycles of one.clock")));
 }
 
-TEST(DomainStatistics, HaveThePartsOfTheirOwnDomain) {
+TEST(DomainStatistics, IncludeOnlyPartsOfTheirDomain) {
   const auto one = place(kTexture, "one", at_period(kPeriods[0]));
   const auto two = place(kGeometric, "two", at_period(kPeriods[1]));
   const nlohmann::ordered_json json = statistics(two->clock());
@@ -353,8 +354,8 @@ TEST(DomainStatistics, HaveThePartsOfTheirOwnDomain) {
   }
 }
 
-// The other engine's beats do not pass for progress.
-TEST(DomainWatchdog, DeadlockOfOneIsFoundWhileTheOtherWorks) {
+// Beats of the other engine do not count as progress.
+TEST(DomainWatchdog, DetectsDeadlockOfOneWhileOtherWorks) {
   const auto working = place(kGeometric, "working", at_period(kPeriods[0]));
   Disturbance disturbance = at_period(kPeriods[1]);
   disturbance.bench.patience = 400;

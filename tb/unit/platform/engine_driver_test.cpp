@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the drivers of all engines do, by the rows of a table: where ID, CONTROL, STATUS and
-// MEMORY_ERRORS are is each engine's own business.
+// Common functions of all engine drivers, controlled by table rows: each engine defines the
+// positions of ID, CONTROL, STATUS and MEMORY_ERRORS.
 #include "rtl_model/platform/engine_driver.h"
 
 #include <array>
@@ -32,7 +32,7 @@ struct Driver final : platform::EngineDriver {
       : EngineDriver(registers, {"sample engine", rows}) {}
 };
 
-TEST(EngineDriver, GoesByTheRowsOfItsEngine) {
+TEST(EngineDriver, UsesRegisterRowsOfItsEngine) {
   FakeRegisters registers;
   registers.values = {{0x10, 5}, {0x14, 0x80}, {0x18, 1}, {0x1C, 0xDEB0007F}};
   Driver driver(registers, kRows);
@@ -48,14 +48,14 @@ TEST(EngineDriver, GoesByTheRowsOfItsEngine) {
               HasSubstr("reads 0x3, expected 0xdeb0007f"));
 }
 
-TEST(EngineDriver, HasNoErrorsWithoutMemory) {
+TEST(EngineDriver, ReportsNoErrorsWithoutMemory) {
   FakeRegisters registers;
   registers.values = {{0x10, 5}, {0, 7}};
   Driver driver(registers, Rows(kRows).last(3));
   EXPECT_EQ(driver.memory_errors(), 0u);
 }
 
-TEST(EngineDriver, WantsTheRowsThatEveryEngineHas) {
+TEST(EngineDriver, RequiresRowsCommonToAllEngines) {
   const auto said = [](Rows rows) {
     return error_of<spec::ConfigError>([&] { platform::DriverLayout("sample engine", rows); });
   };

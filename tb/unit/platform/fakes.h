@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An engine's registers that remember what was written, in order, and memory that is an array.
+// Engine registers that record writes in order, and memory in an array.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ class FakeMemory final : public platform::HostMemory {
   std::vector<std::uint8_t> contents;
 };
 
-// The text of the error; empty: there was none.
+// The text of the error; empty if there was none.
 template <class Error, class Action>
 std::string error_of(Action&& action) {
   try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records and registers that the driver of the geometric engine writes, against
-// docs/reference/geometric/memory.md by hand, and what it rejects.
+// Records and registers that the driver of the geometric engine writes, compared with
+// docs/reference/geometric/memory.md by hand, and the inputs that it rejects.
 #include "rtl_model/platform/geometric_driver.h"
 
 #include <cstdlib>
@@ -27,9 +27,9 @@ using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 namespace reg = spec::geometric::reg;
 
-// ---- records
+// ---- Records -----------------------------------------------------------------------------------
 
-TEST(GeometricRecords, AnEdgeIsFourWords) {
+TEST(GeometricRecords, EdgeIsFourWords) {
   const Edge edges[] = {{0x010203, 0x0A0B0C, 0x112233, 0x445566, 0x8F}, {1, 2, 3, 4, 0}};
   EXPECT_EQ(platform::edge_records(edges),
             (Bytes{0x03, 0x02, 0x01, 0,    0x0C, 0x0B, 0x0A, 0, 0x33, 0x22, 0x11,
@@ -37,14 +37,14 @@ TEST(GeometricRecords, AnEdgeIsFourWords) {
                    0,    0,    3,    0,    0,    0,    4,    0, 0,    0}));
 }
 
-// f0 in bits 20..0, f1 in 41..21, flags in 45..42; ten a line.
+// f0 in bits 20..0, f1 in 41..21, flags in 45..42; ten per line.
 TEST(GeometricRecords, SplitFacesAreSixBytes) {
   std::vector<Edge> edges = {{1, 2, 0x1ABCDE, 0x012345, 0xB}, {1, 2, 0x200000, 0xFFFFFF, 0x14}};
   const Bytes two = platform::face_records(edges);
   const std::uint64_t first = 0x1ABCDE | std::uint64_t{0x012345} << 21 | std::uint64_t{0xB} << 42;
   Bytes expected(64);
   for (std::size_t i = 0; i < 6; ++i) expected[i] = static_cast<std::uint8_t>(first >> 8 * i);
-  // Faces beyond 21 bits are the last one; 0x14 has one flag of four.
+  // Faces beyond 21 bits are the last one; 0x14 has one of the four flags.
   const std::uint8_t second[] = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x13};
   std::copy_n(second, 6, &expected[6]);
   EXPECT_EQ(two, expected);
@@ -59,7 +59,7 @@ TEST(GeometricRecords, SplitFacesAreSixBytes) {
   EXPECT_EQ(platform::face_records({}).size(), 0u);
 }
 
-TEST(GeometricRecords, PairsOfBoundariesAndOfOthersLieApart) {
+TEST(GeometricRecords, PairsOfBoundariesAndOthersAreSeparate) {
   std::vector<Edge> edges;
   for (std::uint32_t i = 0; i < 25; ++i)
     edges.push_back({i, 0xABC000 + i, 0, 0, static_cast<std::uint8_t>(i % 2)});
@@ -78,8 +78,8 @@ TEST(GeometricRecords, PairsOfBoundariesAndOfOthersLieApart) {
     }
 }
 
-// The least depth of the pixels inside the frame, / 256.
-TEST(GeometricRecords, CoarseDepthIsTheLeastOfATile) {
+// The smallest depth of the pixels inside the frame, / 256.
+TEST(GeometricRecords, CoarseDepthIsSmallestOfTile) {
   constexpr int kWidth = 70, kHeight = 35;
   std::vector<std::uint32_t> depths(kWidth * kHeight, 0xFFFFFF);
   const auto set = [&](int x, int y, std::uint32_t depth) {
@@ -100,7 +100,7 @@ TEST(GeometricRecords, CoarseDepthIsTheLeastOfATile) {
   EXPECT_EQ(entry(64), 0x7777);
   EXPECT_EQ(entry(128), 0);
   EXPECT_EQ(entry(192), 0x0302);
-  // Of 64 pixels a row there is one line, and no more.
+  // Rows of 64 pixels need just one line.
   const Bytes narrow =
       platform::coarse_depth(64, 33, std::vector<std::uint32_t>(std::size_t{64} * 33, 0x4200));
   ASSERT_EQ(narrow.size(), 128u);
@@ -108,19 +108,19 @@ TEST(GeometricRecords, CoarseDepthIsTheLeastOfATile) {
   EXPECT_EQ(narrow[64] | narrow[65] << 8, 0x0042);  // tile (0, 4)
 }
 
-TEST(GeometricRecords, AVertexIsFourWords) {
+TEST(GeometricRecords, VertexIsFourWords) {
   const Vertex vertices[] = {{-2, 0x00ABCDEF, 0x123456, true}, {1, -256, 7, false}};
   EXPECT_EQ(platform::vertex_records(vertices),
             (Bytes{0xFE, 0xFF, 0xFF, 0xFF, 0xEF, 0xCD, 0xAB, 0, 0x56, 0x34, 0x12, 0, 1, 0, 0, 0, 1,
                    0,    0,    0,    0,    0xFF, 0xFF, 0xFF, 7, 0,    0,    0,    0, 0, 0, 0}));
 }
 
-TEST(GeometricRecords, AFaceIsABit) {
+TEST(GeometricRecords, FaceIsOneBit) {
   EXPECT_EQ(platform::facing_bits({true, false, false, true, false, false, false, false, true}),
             (Bytes{0x09, 0x01}));
 }
 
-TEST(GeometricRecords, PixelsLieAsTheContractSays) {
+TEST(GeometricRecords, PixelsFollowTheContract) {
   const PixelLayout raster(Layout::kRaster, 17, 14), tiled(Layout::kTiled, 17, 14);
   EXPECT_EQ(raster.bytes(), 14u * 128);
   EXPECT_EQ(tiled.bytes(), 256u * 3 * 2);
@@ -134,7 +134,7 @@ TEST(GeometricRecords, PixelsLieAsTheContractSays) {
   EXPECT_EQ(PixelLayout(Layout::kTiled, 8, 8).bytes(), 256u);
 }
 
-TEST(GeometricRecords, BuffersHoldEachPixelInItsPlaceAndZerosBetween) {
+TEST(GeometricRecords, BuffersHoldPixelsInPositionAndZerosBetween) {
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
     const PixelLayout where(layout, 5, 3);
     std::vector<std::uint32_t> depths;
@@ -160,9 +160,9 @@ TEST(GeometricRecords, BuffersHoldEachPixelInItsPlaceAndZerosBetween) {
   }
 }
 
-// ---- regions
+// ---- Regions -----------------------------------------------------------------------------------
 
-TEST(GeometricRegions, FollowEachOtherAtPages) {
+TEST(GeometricRegions, FollowEachOtherOnPages) {
   const GeometricSizes frames[] = {{61, 45, 300, 200, 49}, {16, 8, 3, 2000, 40000}};
   Parameters p;
   const GeometricRegions in_place = GeometricRegions::allocate(frames, p);
@@ -185,8 +185,8 @@ TEST(GeometricRegions, FollowEachOtherAtPages) {
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[4], 64u * 4 * 2) << "16 x 8 pixels, no more";
 }
 
-// Behind the copy: pairs of both arrays, whole lines each; 32 tiles of 8 x 8 pixels a line.
-TEST(GeometricRegions, OfLessTrafficComeLast) {
+// After the copy: pairs of both arrays, whole lines each; 32 tiles of 8 x 8 pixels per line.
+TEST(GeometricRegions, LowTrafficRegionsComeLast) {
   const GeometricSizes frames[] = {{61, 45, 301, 200, 49, 41}, {1280, 720, 3, 2, 40000, 3}};
   Parameters p;
   p.records = spec::geometric::RecordsLayout::kSplit;
@@ -212,13 +212,13 @@ TEST(GeometricRegions, OfLessTrafficComeLast) {
   EXPECT_EQ(all.other_pairs(40), all.base(Region::kPairs) + 4 * 64);
 }
 
-TEST(GeometricRegions, BeyondAddressesOf32BitsAreRejected) {
+TEST(GeometricRegions, RejectAddressesBeyond32Bits) {
   const GeometricSizes frames[] = {{8192, 8192, 1 << 24, std::uint64_t{1} << 28, 0}};
   EXPECT_THAT(error_of<spec::ConfigError>([&] { GeometricRegions::allocate(frames, {}); }),
               HasSubstr("32-bit addresses cover 4294967296: use a smaller frame or mesh"));
 }
 
-// ---- the driver
+// ---- Driver ------------------------------------------------------------------------------------
 
 // A frame of 17 x 2 pixels with a mesh, in memory of 1 MiB.
 struct Bed {
@@ -245,7 +245,7 @@ struct Bed {
   GeometricDriver driver;
 };
 
-TEST(GeometricDriver, PutsEachRecordIntoItsRegion) {
+TEST(GeometricDriver, WritesEachRecordToItsRegion) {
   Bed b;
   b.driver.load(b.frame());
   EXPECT_THAT(b.memory.read(0x1000, 3), ElementsAre(0x5A, 0x01, 0xEE));
@@ -265,7 +265,7 @@ TEST(GeometricDriver, PutsEachRecordIntoItsRegion) {
   EXPECT_TRUE(b.registers.written.empty());
 }
 
-TEST(GeometricDriver, WhatAFrameDoesNotGiveStays) {
+TEST(GeometricDriver, MissingFrameDataLeavesMemoryUnchanged) {
   Bed b;
   b.depths.clear();
   b.colours.clear();
@@ -295,8 +295,8 @@ TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {
                           Write{0xA0, 0x8000}, Write{0xA4, 0x9000}, Write{0x04, 5}));
 }
 
-// Faces of all edges, then pairs of the boundary and of the others; coarse depth with the depths.
-TEST(GeometricDriver, PutsSplitRecordsAndCoarseDepthIntoTheirRegions) {
+// Faces of all edges, then pairs of the boundaries and of the others; coarse depth with the depths.
+TEST(GeometricDriver, WritesSplitRecordsAndCoarseDepth) {
   Parameters p = Bed::raster();
   p.records = spec::geometric::RecordsLayout::kSplit;
   p.coarse_lines = spec::geometric::CoarseLines::k4;
@@ -320,7 +320,7 @@ TEST(GeometricDriver, PutsSplitRecordsAndCoarseDepthIntoTheirRegions) {
   EXPECT_EQ(b.registers.values[reg::kCoarseBase], 0x9000u);
 }
 
-// The rules of the preset without those that came later.
+// The configuration of the preset without later options.
 Parameters of_nearest_lines() {
   Parameters p;
   p.cull = spec::geometric::Cull::kBack;
@@ -330,7 +330,7 @@ Parameters of_nearest_lines() {
   return p;
 }
 
-TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
+TEST(GeometricDriver, WritesConfigurationAsRegisterFields) {
   Bed b;
   const auto written = [&](const Parameters& configuration) {
     b.driver.set_configuration(configuration);
@@ -367,7 +367,7 @@ TEST(GeometricDriver, WritesRulesAsFieldsOfARegister) {
   EXPECT_EQ(written(p), 0x61B894u);
 }
 
-TEST(GeometricDriver, ReadsWhatTheEngineShows) {
+TEST(GeometricDriver, ReadsEngineState) {
   Bed b;
   b.driver.identify();
   b.registers.values[reg::kEdges] = 300;
@@ -389,16 +389,16 @@ TEST(GeometricDriver, ReadsWhatTheEngineShows) {
   EXPECT_EQ(b.registers.written.back(), (std::pair{0x08u, 2u}));
 }
 
-// ---- wrong use
+// ---- Misuse ------------------------------------------------------------------------------------
 
-TEST(GeometricDriver, AnotherEngineIsRejected) {
+TEST(GeometricDriver, RejectsOtherEngine) {
   Bed b;
   b.registers.values[reg::kId] = 0xDEB00002;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.identify(); }),
             "the ID register reads 0xdeb00002, expected 0xdeb00005");
 }
 
-TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
+TEST(GeometricDriver, WritesNothingToBusyEngine) {
   Bed b;
   b.driver.load(b.frame());
   b.registers.values[reg::kStatus] = 0;
@@ -411,7 +411,7 @@ TEST(GeometricDriver, NothingIsWrittenToABusyEngine) {
   EXPECT_TRUE(b.registers.written.empty());
 }
 
-TEST(GeometricDriver, ARejectedStartSaysWhy) {
+TEST(GeometricDriver, RejectedStartReportsReason) {
   Bed b;
   EXPECT_NO_THROW(b.driver.require_accepted());
   b.registers.values[reg::kRejection] = 4;
@@ -429,7 +429,7 @@ std::string rejection(Bed& b, const GeometricFrame& frame) {
   return error_of<spec::ConfigError>([&] { b.driver.load(frame); });
 }
 
-TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
+TEST(GeometricDriver, RejectsSizesOutOfRange) {
   Bed b;
   const auto with = [&](auto&& change) {
     GeometricFrame frame = b.frame();
@@ -453,7 +453,7 @@ TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
               HasSubstr("33 depths for a frame of 17 x 2 pixels"));
   EXPECT_THAT(with([](GeometricFrame& f) { f.height = 3; }),
               HasSubstr("34 depths for a frame of 17 x 3 pixels"));
-  // Zeros that nobody has touched, so that they take no room.
+  // Untouched zeros, so that they use no physical memory.
   constexpr std::size_t kMany = (1 << 24) + 1;
   const std::unique_ptr<void, decltype(&std::free)> zeros(std::calloc(kMany, sizeof(Edge)),
                                                           &std::free);
@@ -472,7 +472,7 @@ TEST(GeometricDriver, SizesOutOfRangeAreRejected) {
               HasSubstr("0 colours for a frame of 17 x 2 pixels"));
 }
 
-TEST(GeometricDriver, RegionsThatOverlapOrDoNotFitAreRejected) {
+TEST(GeometricDriver, RejectsOverlappingOrOversizedRegions) {
   Bed b;
   const auto at = [&](std::array<std::uint32_t, GeometricRegions::kCount> bases) {
     b.driver.place(GeometricRegions(bases));
@@ -495,7 +495,7 @@ TEST(GeometricDriver, RegionsThatOverlapOrDoNotFitAreRejected) {
               HasSubstr("ends past the memory"));
 }
 
-TEST(GeometricDriver, TheCopyNeedsRoomOnlyWhereFramesAreCopied) {
+TEST(GeometricDriver, CopyNeedsRoomOnlyIfFramesAreCopied) {
   Parameters p = Bed::raster();
   p.frame_copy = true;
   Bed b(p);

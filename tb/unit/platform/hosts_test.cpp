@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Software's two ways to memory: past the bus, and over it by b_transport.
+// Software's two ways to memory: bypassing the bus, and through it by b_transport.
 #include "rtl_model/platform/memory_host.h"
 #include "rtl_model/platform/memory_model.h"
 #include "tb/unit/platform/fakes.h"
@@ -42,7 +42,7 @@ TEST(MemoryHost, WritesAndReadsLineByLine) {
   EXPECT_EQ(b.memory.writes(), 4u);
 }
 
-TEST(MemoryHost, ARejectedAccessIsAnError) {
+TEST(MemoryHost, RejectedAccessIsAnError) {
   Bed b;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.host.write(990, counted(20)); }),
             "host: write of 20 bytes at 0x3de was rejected: TLM_ADDRESS_ERROR_RESPONSE");
@@ -50,7 +50,7 @@ TEST(MemoryHost, ARejectedAccessIsAnError) {
               HasSubstr("read of 1 bytes at 0x7d0"));
 }
 
-TEST(MemoryModel, GivesADriverItsContentsWithoutTimeOrCount) {
+TEST(MemoryModel, DriverAccessUsesNoTimeAndNoCounters) {
   Bed b;
   platform::HostMemory& memory = b.memory;
   memory.write(10, counted(3));

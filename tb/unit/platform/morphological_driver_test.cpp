@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Beats, registers and learned weights that the driver of the morphological engine gives to it,
-// against docs/reference/registers.md and docs/reference/morphological/learned_weights.md by hand,
-// and what it rejects.
+// Beats, registers and learned weights that the driver of the morphological engine writes, compared
+// with docs/reference/registers.md and docs/reference/morphological/learned_weights.md by hand, and
+// the inputs that it rejects.
 #include "rtl_model/platform/morphological_driver.h"
 
 #include "spec/morphological/registers.h"
@@ -19,9 +19,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 namespace reg = spec::morphological::reg;
 
-// ---- beats
+// ---- Beats -------------------------------------------------------------------------------------
 
-TEST(PixelBeats, AreRowsOfAtMostSoManyLanes) {
+TEST(PixelBeats, RowsAreSplitIntoBeatsOfLanes) {
   std::vector<Rgba8> pixels;
   std::vector<std::uint32_t> depth;
   for (std::uint8_t i = 0; i < 10; ++i) {
@@ -56,9 +56,9 @@ TEST(FrameBytes, RowsBeginAtMultiplesOf64) {
   EXPECT_EQ(platform::frame_bytes(8192, 8192), 1u << 28);
 }
 
-// ---- registers
+// ---- Registers ---------------------------------------------------------------------------------
 
-// Every rule 0.
+// Every configuration field 0.
 Parameters nothing() {
   Parameters p;
   p.edge_source = spec::morphological::EdgeSource::kLuma;
@@ -88,7 +88,7 @@ struct Bed {
 using Write = std::pair<std::uint32_t, std::uint32_t>;
 
 // One field after the other, at the bits that docs/reference/registers.md gives.
-TEST(MorphologicalDriver, WritesEachRuleAsAField) {
+TEST(MorphologicalDriver, WritesEachConfigurationField) {
   Bed b;
   const auto with = [&](auto&& change) {
     Parameters p = nothing();
@@ -122,7 +122,7 @@ TEST(MorphologicalDriver, WritesEachRuleAsAField) {
   EXPECT_EQ(with([](Parameters& p) { p.text_guard = true; }), 1u << 28);
 }
 
-TEST(MorphologicalDriver, WritesRulesAndThresholds) {
+TEST(MorphologicalDriver, WritesConfigurationAndThresholds) {
   Bed b;
   Parameters p = nothing();
   p.trim = true;
@@ -141,7 +141,7 @@ TEST(MorphologicalDriver, WritesRulesAndThresholds) {
                           Write{0x20, 4}, Write{0x24, 5}, Write{0x28, 6}, Write{0x30, 0x1001F70}));
 }
 
-TEST(MorphologicalDriver, WritesPlaceAndSize) {
+TEST(MorphologicalDriver, WritesAddressesAndSize) {
   Bed b;
   b.driver.identify();
   b.driver.place(0x1000);
@@ -149,7 +149,7 @@ TEST(MorphologicalDriver, WritesPlaceAndSize) {
   EXPECT_THAT(b.registers.written, ElementsAre(Write{0x2C, 0x1000}, Write{0x0C, 61 | 45 << 16}));
 }
 
-TEST(MorphologicalDriver, ReadsWhatTheEngineShows) {
+TEST(MorphologicalDriver, ReadsEngineState) {
   Bed b;
   b.registers.values[reg::kPixels] = 100;
   b.registers.values[reg::kDiagonals] = 7;
@@ -163,7 +163,7 @@ TEST(MorphologicalDriver, ReadsWhatTheEngineShows) {
   EXPECT_EQ(b.driver.memory_errors(), 2u);
 }
 
-TEST(MorphologicalDriver, LoadsLearnedSharesAndChecksTheirSum) {
+TEST(MorphologicalDriver, LoadsLearnedWeightsAndChecksTheirSum) {
   EXPECT_EQ(platform::kWeightEntries, 2304u);
   EXPECT_EQ(platform::weights_sum(std::vector<std::int8_t>{1, -1, 2}), 1u + 2 * 255 + 3 * 2);
   Parameters p = nothing();
@@ -189,9 +189,9 @@ TEST(MorphologicalDriver, LoadsLearnedSharesAndChecksTheirSum) {
               HasSubstr("built without learned weights"));
 }
 
-// ---- wrong use
+// ---- Misuse ------------------------------------------------------------------------------------
 
-TEST(MorphologicalDriver, NothingIsWrittenToABusyEngine) {
+TEST(MorphologicalDriver, WritesNothingToBusyEngine) {
   Parameters p = nothing();
   p.area = spec::morphological::AreaSource::kLearned;
   Bed b(p);
@@ -208,7 +208,7 @@ TEST(MorphologicalDriver, NothingIsWrittenToABusyEngine) {
   EXPECT_TRUE(b.registers.written.empty());
 }
 
-TEST(MorphologicalDriver, SizesOutOfRangeAreRejected) {
+TEST(MorphologicalDriver, RejectsSizesOutOfRange) {
   Parameters p = nothing();
   p.line_pixels = 100;
   Bed b(p);
@@ -224,7 +224,7 @@ TEST(MorphologicalDriver, SizesOutOfRangeAreRejected) {
   EXPECT_EQ(size(100, 8192), "") << "memory is not used with line buffers";
 }
 
-TEST(MorphologicalDriver, AFrameThatDoesNotFitIntoMemoryIsRejected) {
+TEST(MorphologicalDriver, RejectsFrameLargerThanMemory) {
   Parameters p = nothing();
   p.storage = spec::morphological::Storage::kMemory;
   Bed b(p);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Textures in memory and descriptors in registers, against docs/reference/texture/formats.md
-// ("Addresses") and docs/reference/texture/index.md by hand, and what the driver of the texture
-// unit rejects.
+// Textures in memory and descriptors in registers, compared with docs/reference/texture/formats.md
+// ("Addresses") and docs/reference/texture/index.md by hand, and the inputs that the driver of the
+// texture unit rejects.
 #include "rtl_model/platform/texture_driver.h"
 
 #include "spec/texture/registers.h"
@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 namespace reg = spec::texture::reg;
 
-// ---- records
+// ---- Records -----------------------------------------------------------------------------------
 
 TEST(TexelLayout, RowsBeginAtMultiplesOf64Bytes) {
   const TexelLayout words(Layout::kLinear, Format::kRgba8, 17, 5),
@@ -42,8 +42,8 @@ TEST(TexelLayout, TilesHold64BytesRowByRow) {
   for (const TexelLayout* layout : {&words, &halves, &bytes}) EXPECT_EQ(layout->bytes(), 64u);
 }
 
-// 8 x 2 tiles: a bit of the row between two of the column, what is left of the column above.
-TEST(TexelLayout, TilesLieInMortonOrder) {
+// 8 x 2 tiles: one row bit between two column bits, the remaining column bits above.
+TEST(TexelLayout, TilesFollowMortonOrder) {
   const TexelLayout wide(Layout::kTiled, Format::kRgba8, 32, 8),
       high(Layout::kTiled, Format::kRgba8, 8, 32);
   std::vector<std::uint32_t> across, down;
@@ -52,12 +52,12 @@ TEST(TexelLayout, TilesLieInMortonOrder) {
   EXPECT_THAT(across, ElementsAre(2, 3, 6, 7, 10, 11, 14, 15));
   EXPECT_THAT(down, ElementsAre(1, 3, 5, 7, 9, 11, 13, 15));
   EXPECT_EQ(wide.bytes(), 1024u);
-  // Five tiles take the room of eight, three of four.
+  // Five tiles take the space of eight, three that of four.
   EXPECT_EQ(TexelLayout(Layout::kTiled, Format::kRgba8, 17, 9).bytes(), 64u * 8 * 4);
 }
 
-// The code whose channel is the nearest to a byte: 255 c / top, of 4, 5 and 6 bits.
-TEST(EncodeTexel, NarrowChannelsAreTheNearestCodes) {
+// The code whose channel is closest to a byte: 255 c / top, with 4, 5 and 6 bits.
+TEST(EncodeTexel, NarrowChannelsUseNearestCode) {
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
     const auto channel = static_cast<std::uint8_t>(byte);
     const auto nearest = [&](std::uint32_t top) {
@@ -95,12 +95,12 @@ TEST(EncodeTexel, LuminanceIsWeighted) {
   EXPECT_EQ(code(0, 64, 0), 38u) << "37.5 in 1/256";
   EXPECT_EQ(code(1, 43, 0), 25u) << "25.496 in 1/256";
 }
-TEST(EncodeTexel, WholeBytesStandInTheirOrder) {
+TEST(EncodeTexel, FullBytesKeepTheirOrder) {
   for (const Format format : {Format::kRgba8, Format::kSrgb8A8})
     EXPECT_EQ(platform::encode_texel(format, {1, 2, 3, 4}), 0x04030201u);
 }
 
-TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
+TEST(TextureMemory, PlacesLevelsConsecutively) {
   const std::vector<Texel> large(16, Texel{1, 2, 3, 4}), small(4, Texel{5, 6, 7, 8});
   const platform::TextureLevel levels[] = {{4, 4, large}, {2, 2, small}};
   platform::TextureMemory textures;
@@ -119,7 +119,7 @@ TEST(TextureMemory, LaysLevelsOneAfterTheOther) {
 }
 
 // A level ends at the next multiple of 128 bytes; one that ends there leaves no gap.
-TEST(TextureMemory, ALevelBeginsAtTheFirstMultipleOf128Bytes) {
+TEST(TextureMemory, LevelBeginsAtMultipleOf128Bytes) {
   const std::vector<Texel> texels(64, Texel{1, 2, 3, 4});
   const auto level = [&](int width, int height) {
     return platform::TextureLevel{
@@ -139,7 +139,7 @@ TEST(TextureMemory, ALevelBeginsAtTheFirstMultipleOf128Bytes) {
   EXPECT_EQ(textures.bytes().size(), 640u);
 }
 
-TEST(TextureMemory, EachSideHasATexelAndNotTooMany) {
+TEST(TextureMemory, RejectsEmptyAndOversizedSides) {
   const std::vector<Texel> texels(4097);
   const auto rejection = [&](int width, int height) {
     const platform::TextureLevel level[] = {
@@ -154,7 +154,7 @@ TEST(TextureMemory, EachSideHasATexelAndNotTooMany) {
   EXPECT_EQ(rejection(1, 1), "");
 }
 
-// ---- the driver
+// ---- Driver ------------------------------------------------------------------------------------
 
 struct Bed {
   Bed() {
@@ -183,7 +183,7 @@ std::string rejection(const Descriptor& d, int handle = 0) {
   return text;
 }
 
-TEST(TextureDriver, WritesADescriptor) {
+TEST(TextureDriver, WritesDescriptor) {
   Bed b;
   Descriptor d = valid();
   d.format = Format::kRgb565;
@@ -223,7 +223,7 @@ TEST(TextureDriver, LoadsInvalidatesAndReads) {
   EXPECT_EQ(b.driver.memory_errors(), 15u);
 }
 
-TEST(TextureDriver, NothingIsWrittenToABusyUnit) {
+TEST(TextureDriver, WritesNothingToBusyUnit) {
   Bed b;
   b.registers.values[reg::kStatus] = 0;
   EXPECT_EQ(error_of<spec::SimulationError>([&] { b.driver.set_texture(0, valid()); }),
@@ -234,7 +234,7 @@ TEST(TextureDriver, NothingIsWrittenToABusyUnit) {
   EXPECT_TRUE(b.registers.written.empty());
 }
 
-TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
+TEST(TextureDriver, RejectsUnsupportedDescriptors) {
   const auto with = [](auto&& change) {
     Descriptor d = valid();
     change(d);
@@ -265,7 +265,7 @@ TEST(TextureDriver, WhatTheUnitDoesNotTakeIsRejected) {
   EXPECT_EQ(with([](Descriptor& d) { d.width = d.height = d.levels = 1; }), "");
 }
 
-TEST(TextureDriver, ATextureLargerThanTheMemoryIsRejected) {
+TEST(TextureDriver, RejectsTextureLargerThanMemory) {
   Bed b;
   EXPECT_THAT(error_of<spec::ConfigError>([&] { b.driver.load(std::vector<std::uint8_t>(4097)); }),
               HasSubstr("region textures (0x0 to 0x1000) ends past the memory of 4096 bytes"));

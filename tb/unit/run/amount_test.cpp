@@ -6,7 +6,7 @@
 namespace deburr::tb::amount_test {
 namespace {
 
-TEST(Amount, OneFormForEveryNumber) {
+TEST(Amount, UsesOneFormForEveryNumber) {
   EXPECT_EQ(amount(0), "0");
   EXPECT_EQ(amount(86285), "86,285");
   EXPECT_EQ(amount(17634.5), "17,635") << "and not 1.763e+04";

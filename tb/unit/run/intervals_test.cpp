@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Windows that do not add up are noticed, whatever is wrong with them.
+// Sampling intervals whose sums are wrong are detected, for every kind of error.
 #include "tb/run/intervals.h"
 
 #include <gmock/gmock.h>
@@ -39,9 +39,9 @@ std::string complaint(const Json& of_intervals, const Json& of_run) {
   return "";
 }
 
-TEST(Intervals, ThatAddUpPass) { EXPECT_EQ(complaint(intervals(), result()), ""); }
+TEST(Intervals, CorrectSumsPass) { EXPECT_EQ(complaint(intervals(), result()), ""); }
 
-TEST(Intervals, ALostCycleIsNoticed) {
+TEST(Intervals, DetectsLostCycle) {
   Json wrong = intervals();
   wrong["series"]["units"]["filter_pipeline"]["idle"][1] = 1;
   EXPECT_THAT(complaint(wrong, result()),
@@ -52,21 +52,22 @@ TEST(Intervals, ALostCycleIsNoticed) {
               HasSubstr("units.filter_pipeline accounts for 5 of the 6 cycles of window 2"));
 }
 
-TEST(Intervals, ASumThatIsNotTheRunsIsNoticed) {
+TEST(Intervals, DetectsSumThatDiffersFromRun) {
   for (const char* key : {"/series/work/misses/2", "/series/links/texels/beats/0",
                           "/series/links/texels/occupancy/1"}) {
     Json wrong = intervals();
     wrong[Json::json_pointer(key)] = 100;
     EXPECT_THAT(complaint(wrong, result()), HasSubstr("over all windows, but the run counted"));
   }
-  // From one cause to another: each window is still whole.
+  // Moved from one cause to another: each interval still adds up.
   Json wrong = intervals();
   wrong["series"]["units"]["filter_pipeline"]["busy"] = {4, 10, 5};
   wrong["series"]["units"]["filter_pipeline"]["stalls"]["full"] = {0, 0, 0};
   EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy sums up to 19"));
 }
 
-// Whichever series, window and unit it is in: every value counts, but for those of windows alone.
+// In whichever series, interval and unit: every value counts, except values that only intervals
+// have.
 TEST(Intervals, EveryValueOfEverySeriesCounts) {
   Json two = intervals(), run = result();
   two["series"]["units"]["address"] = {
@@ -89,7 +90,7 @@ TEST(Intervals, EveryValueOfEverySeriesCounts) {
     }
   }
   EXPECT_EQ(alone, 3 + 6);
-  // Totals count as well: of each kind one that is one off.
+  // Totals count as well: one value of each kind is off by one.
   for (const char* const key : {"/units/filter/idle", "/units/address/stalls/wait", "/work/fills",
                                 "/links/texels/beats", "/links/texels/occupancy"}) {
     Json wrong = run;
@@ -99,13 +100,13 @@ TEST(Intervals, EveryValueOfEverySeriesCounts) {
   }
 }
 
-TEST(Intervals, AMissingIntervalIsNoticed) {
+TEST(Intervals, DetectsMissingInterval) {
   Json wrong = intervals();
   wrong["series"]["work"]["misses"] = {1, 5};
   EXPECT_THAT(complaint(wrong, result()), HasSubstr("work.misses has 2 of 3 windows"));
 }
 
-TEST(Intervals, WhatTheResultDoesNotHaveIsNoticed) {
+TEST(Intervals, DetectsEntriesMissingInResult) {
   Json without = result();
   without["work"].erase("misses");
   EXPECT_THAT(complaint(intervals(), without), HasSubstr("result.json has no work.misses"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parameters by name: every way to set one, and every way in which it must be rejected.
+// Parameters by name: every way to set one, and every reason for a rejection.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -85,7 +85,7 @@ class Parameters : public testing::Test {
   std::vector<std::filesystem::path> files_;
 };
 
-TEST_F(Parameters, EveryKindIsSetByItsDottedName) {
+TEST_F(Parameters, EveryKindIsSetByDottedName) {
   set_.set("unit.cache.ways", "4", "test");
   set_.set("unit.cycles", "10000000000", "test");
   set_.set("unit.colour", "red", "test");
@@ -100,7 +100,7 @@ TEST_F(Parameters, EveryKindIsSetByItsDottedName) {
   EXPECT_EQ(values_.source, "a=b");
 }
 
-TEST_F(Parameters, WrongValuesNameTheOriginTheValueAndTheRange) {
+TEST_F(Parameters, ErrorNamesOriginValueAndRange) {
   struct Case {
     const char *name, *value, *expected;
   };
@@ -137,7 +137,7 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
               HasSubstr("is outside 1..16"));
 }
 
-TEST_F(Parameters, AnotherWordForAValue) {
+TEST_F(Parameters, AcceptsSynonymsOfValues) {
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "scarlet", "test"); }),
               HasSubstr("wants one of"));
   set_.alias("unit.colour", "scarlet", "red");
@@ -161,7 +161,7 @@ TEST_F(Parameters, UnknownNamesShowNearMatches) {
               HasSubstr("name=value"));
 }
 
-TEST_F(Parameters, YamlTakesNestedMapsAndDottedNames) {
+TEST_F(Parameters, YamlAcceptsNestedMapsAndDottedNames) {
   set_.load(file("# a comment\nunit:\n  cache: {ways: 8}\n  colour: red\nunit.stalls: 0.5\n"));
   EXPECT_EQ(values_.ways, 8);
   EXPECT_EQ(values_.colour, Colour::kRed);
@@ -186,19 +186,19 @@ TEST_F(Parameters, YamlErrorsNameFileAndLine) {
   EXPECT_THAT(rejected("[1, 2]: 3\n"), HasSubstr("a key must be a name"));
 }
 
-// yaml-cpp finds one empty document after another before the comma.
-TEST_F(Parameters, AFileThatBeginsWithACommaEnds) {
+// yaml-cpp returns one empty document after another before the comma.
+TEST_F(Parameters, ParserStopsAtLeadingComma) {
   EXPECT_THROW(set_.load(file(",a: b\n")), spec::ConfigError);
   EXPECT_THROW(set_.load(file("unit.stalls: 0.5\n---\nunit.stalls: 0.25\n")), spec::ConfigError);
   EXPECT_NO_THROW(set_.load(file("---\nunit.stalls: 0.5\n...\n")));
 }
 
-TEST_F(Parameters, AMissingConfigurationIsAFileError) {
+TEST_F(Parameters, MissingConfigurationIsFileError) {
   EXPECT_THROW(set_.load("/nonexistent/run.yaml"), spec::FileError);
   EXPECT_THROW(set_.load("/"), spec::FileError);
 }
 
-TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
+TEST_F(Parameters, ResolvedConfigurationLoadsAgain) {
   set_.set("unit.source", "a \"quoted\" # name: x", "test");
   set_.set("unit.cache.ways", "16", "test");
   const std::string yaml = set_.yaml();
@@ -211,7 +211,7 @@ TEST_F(Parameters, TheResolvedConfigurationLoadsAgain) {
   EXPECT_EQ(again.resolved(), set_.resolved());
 }
 
-TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
+TEST_F(Parameters, PresetFillsInUnsetParameters) {
   set_.set("unit.cache.ways", "8", "--set");
   set_.imply("unit.cache.ways", "4", "preset small");
   set_.imply("unit.colour", "red", "preset small");
@@ -219,12 +219,12 @@ TEST_F(Parameters, APresetFillsInWhatIsNotGiven) {
   EXPECT_EQ(values_.colour, Colour::kRed);
   ASSERT_EQ(set_.changed().size(), 1u);
   EXPECT_EQ(set_.changed()[0]->name, "unit.cache.ways");
-  // What the preset made gives way to another preset beside the file; what was given does not.
+  // Another preset given with the file replaces values of the first preset, but no explicit value.
   EXPECT_THAT(set_.yaml(), StartsWith("unit.cache.ways: 8  # Assoc"));
   EXPECT_THAT(set_.yaml(), HasSubstr("\n# unit.colour: \"red\"  # By preset small. Colour."));
 }
 
-TEST_F(Parameters, WhatHasNoEffectIsRejectedWhereItWasGiven) {
+TEST_F(Parameters, IneffectiveParameterIsRejectedAtItsOrigin) {
   const auto complaint = [&] {
     try {
       set_.reject_all("unit.cache", "there is no cache");
@@ -247,7 +247,7 @@ TEST_F(Parameters, WhatHasNoEffectIsRejectedWhereItWasGiven) {
   EXPECT_THAT(complaint(), StartsWith("--ways: ")) << "on the command line nothing is in vain";
 }
 
-TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
+TEST_F(Parameters, EveryTextureDefaultIsWithinItsRange) {
   spec::texture::Parameters texture;
   ParameterSet set;
   set.add_engine("texture", texture);
@@ -259,7 +259,7 @@ TEST_F(Parameters, EveryDefaultOfTheTextureUnitIsWithinItsRange) {
   }
 }
 
-TEST_F(Parameters, ASwitchHasThreeWordsForEachPosition) {
+TEST_F(Parameters, SwitchHasThreeWordsPerPosition) {
   for (const char* word : {"true", "on", "yes"}) {
     values_.shuffle = false;
     set_.set("unit.shuffle", word, "test");
@@ -275,8 +275,8 @@ TEST_F(Parameters, ASwitchHasThreeWordsForEachPosition) {
                 HasSubstr("wants true or false"));
 }
 
-// The whole of what a run resolves to, as text and typed.
-TEST_F(Parameters, AreTextAndJson) {
+// The whole resolved configuration of a run, as text and typed.
+TEST_F(Parameters, ExportAsTextAndJson) {
   set_.imply("unit.colour", "red", "preset small");
   set_.set("unit.stalls", "0.25", "test");
   set_.set("unit.source", "a\"b", "test");
@@ -299,8 +299,8 @@ TEST_F(Parameters, AreTextAndJson) {
   EXPECT_EQ(set_.origin(*set_.find("unit.stalls")), "given");
 }
 
-// The ends of a range are in it.
-TEST_F(Parameters, RangesHaveTheirEnds) {
+// The bounds of a range are included.
+TEST_F(Parameters, RangesIncludeTheirBounds) {
   for (const auto& [name, low, below, high, above] :
        {std::tuple("unit.cache.ways", "1", "0", "16", "17"),
         std::tuple("unit.cycles", "0", "-1", "1099511627776", "1099511627777"),
@@ -323,9 +323,9 @@ TEST_F(Parameters, MapsMayBeNestedSixteenDeep) {
   EXPECT_THAT(rejected(nested(17)), HasSubstr("nested too deeply"));
 }
 
-// What a run was given is given again; what followed from that follows again, but for a default
-// that was another one.
-TEST_F(Parameters, OfAManifestAreThoseOfItsRun) {
+// Explicit values of the run are set again; derived values are derived again, except a default that
+// has changed since.
+TEST_F(Parameters, ManifestRestoresParametersOfItsRun) {
   const std::string manifest =
       R"({"schema": 4, "unit": "unit", "working_directory": "/elsewhere",
           "configuration": {"unit.cache.ways": 8, "unit.cycles": 7, "unit.colour": "red", "unit.shuffle": false, "unit.stalls": 0.5,
@@ -355,7 +355,7 @@ void describe(Misnamed& p, Visitor& v) {
   v.is_work("sauce", GivenWork::kSource);
 }
 
-TEST_F(Parameters, SayWhatWorkIs) {
+TEST_F(Parameters, StateWhichOnesDefineTheWork) {
   EXPECT_EQ(set_.find("unit.source")->work, GivenWork::kSource);
   EXPECT_EQ(set_.find("unit.cycles")->work, GivenWork::kSetting);
   EXPECT_EQ(set_.find("unit.shuffle")->work, GivenWork::kNone);
@@ -364,8 +364,8 @@ TEST_F(Parameters, SayWhatWorkIs) {
   EXPECT_THROW(set.add("unit", ParameterKind::kInput, wrong), spec::CheckFailed);
 }
 
-// So that a sweep knows which points share a golden result.
-TEST_F(Parameters, OfAnEngineAreRulesOrBuildChoices) {
+// Tells a sweep which points share a golden result.
+TEST_F(Parameters, EngineParametersAreConfigurationOrBuild) {
   spec::texture::Parameters texture;
   ParameterSet set;
   set.add_engine("texture", texture);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps over the picture: values as they are, colours by a scale that is printed, and an account
-// that can be wrong.
+// Maps over the image: values, colours with a printed scale, and a sum that is checked against a
+// counter.
 #include "tb/run/picture_map.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ PictureMap ramp(int width, int height) {
   return map;
 }
 
-TEST(PictureMap, HasRangeAndSumOfWhatIsThere) {
+TEST(PictureMap, RangeAndSumIgnoreEmptyPixels) {
   const MapFigures f = figures_of(ramp(4, 3));
   EXPECT_EQ(f.pixels, 11U);
   EXPECT_EQ(f.min, 0);
@@ -34,7 +34,7 @@ TEST(PictureMap, HasRangeAndSumOfWhatIsThere) {
   EXPECT_EQ(figures_of(PictureMap("none", "None", "", "", 2, 2)).pixels, 0U);
 }
 
-TEST(PictureMap, AddsFromNothing) {
+TEST(PictureMap, AddsToEmptyPixels) {
   PictureMap map("m", "M", "", "", 2, 1);
   map.add(1, 0, 2.5);
   map.add(1, 0, 2.5);
@@ -44,7 +44,7 @@ TEST(PictureMap, AddsFromNothing) {
   EXPECT_EQ(map.pixels_above_zero(), 1U);
 }
 
-TEST(PictureMap, IsCheckedAgainstACount) {
+TEST(PictureMap, SumIsCheckedAgainstCounter) {
   PictureMap map = ramp(4, 3);
   EXPECT_NO_THROW(check_map(map));  // nothing to check
   map.account = {"work.cycles", 55, map.sum()};
@@ -54,7 +54,7 @@ TEST(PictureMap, IsCheckedAgainstACount) {
   EXPECT_THROW(check_map(map), spec::CheckFailed);
 }
 
-TEST(PictureMap, LeavesFloatsFromTheBottom) {
+TEST(PictureMap, WritesFloatsFromBottomRow) {
   const std::string bytes = pfm_of(ramp(4, 3)), head = "Pf\n4 3\n-1.0\n";
   ASSERT_EQ(bytes.substr(0, head.size()), head);
   ASSERT_EQ(bytes.size(), head.size() + 4 * 12);
@@ -69,7 +69,7 @@ TEST(PictureMap, LeavesFloatsFromTheBottom) {
   EXPECT_EQ(value(11), 3.0F);
 }
 
-TEST(PictureMap, IsColouredFromDarkToBright) {
+TEST(PictureMap, ColoursRunFromDarkToBright) {
   const Image picture = picture_of(ramp(40, 30));
   EXPECT_GT(picture.height, 30);
   EXPECT_EQ(picture.at(0, 0), kDark);
@@ -80,8 +80,8 @@ TEST(PictureMap, IsColouredFromDarkToBright) {
   EXPECT_EQ(picture.at(picture.width - 5, 34), kBright);
 }
 
-// The last step of the colours is theirs, so that the others are told apart.
-TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
+// Large values share the last step of colours, so that the others remain distinguishable.
+TEST(PictureMap, FewLargeValuesDoNotHideTheRest) {
   PictureMap map("m", "M", "", "", 100, 100);
   for (int i = 0; i < 10'000; ++i) map.set(i % 100, i / 100, i % 10);
   map.set(0, 0, 5000);
@@ -97,13 +97,14 @@ TEST(PictureMap, AFewLargeValuesDoNotHideTheRest) {
   EXPECT_EQ(picture.at(0, 1), kDark);
 }
 
-// Between two colours their mean; the ends as printed below the bar, and the knee where it bends.
+// Between two colours their mean; the bounds as printed below the bar, and the knee at its
+// position.
 TEST(PictureMap, PrintsItsScale) {
   PictureMap map("m", "M", "clk", "", 3, 2);
   map.set(0, 0, 1000);
   map.set(1, 0, 1000 + 32);
   map.set(2, 0, 1000 + 2);
-  map.set(2, 1, 1000 + 3);  // in a sixteenth of the way two colours meet half-way
+  map.set(2, 1, 1000 + 3);  // within a sixteenth, two colours meet half-way
   const Image picture = picture_of(map);
   EXPECT_EQ(picture.width, 200);
   EXPECT_EQ(picture.height, 2 + 4 + 8 + 4 + 9 + 4);
@@ -132,7 +133,7 @@ TEST(PictureMap, PrintsItsScale) {
   EXPECT_TRUE(has("1,032 clk", 196 - 9 * 6));
 }
 
-TEST(PictureMap, MarksTheKneeOfABentScale) {
+TEST(PictureMap, MarksKneeOfBentScale) {
   PictureMap map("m", "M", "", "", 10, 100);
   for (int i = 0; i < 1000; ++i) map.set(i % 10, i / 10, i % 8);
   map.set(0, 0, 900);
@@ -146,21 +147,21 @@ TEST(PictureMap, MarksTheKneeOfABentScale) {
   }
   EXPECT_NE(picture.at(171, 103), ink);
   EXPECT_NE(picture.at(171, 112), ink);
-  // Its value ends there, or where that of the most begins, 900 with a blank: 5 letters.
+  // Its label ends there, or where the label of the maximum begins: 900 with a blank, 5 characters.
   const Image seven = label("7", 1);
   const int left = std::min(171, 196 - 4 * 6 - 9) - 6;
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 6; ++x) EXPECT_EQ(picture.at(left + x, 116 + y), seven.at(x, y));
 }
 
-// Of a thousand values five are above the knee.
-TEST(PictureMap, BendsAboveAllButFiveOfAThousand) {
+// Five of a thousand values are above the knee.
+TEST(PictureMap, BendsAboveAllButFiveOfThousand) {
   PictureMap map("m", "M", "", "", 100, 10);
   for (int i = 0; i < 1000; ++i) map.set(i % 100, i / 100, i < 996 ? i : 100 * i);
   EXPECT_EQ(scale_of(map).knee, 995);
 }
 
-TEST(PictureMap, IsScaledFromTheLeast) {
+TEST(PictureMap, ScaleBeginsAtMinimum) {
   PictureMap map("m", "M", "clk", "", 4, 1);
   for (int x = 0; x < 4; ++x) map.set(x, 0, 6 + x);
   const MapScale scale = scale_of(map);
@@ -171,7 +172,7 @@ TEST(PictureMap, IsScaledFromTheLeast) {
   EXPECT_EQ(picture_of(map).at(3, 0), kBright);
 }
 
-TEST(PictureMap, IsReadAgain) {
+TEST(PictureMap, FileIsReadBack) {
   const PictureMap map = ramp(4, 3);
   PictureMap again("ramp", "Ramp", "clk", "Rises.", 4, 3);
   read_pfm(pfm_of(map), again);
@@ -183,7 +184,7 @@ TEST(PictureMap, IsReadAgain) {
   EXPECT_THROW(read_pfm(pfm_of(map), other), spec::ConfigError);
 }
 
-TEST(PictureMap, IsCodedForAPage) {
+TEST(PictureMap, EncodesValuesForPage) {
   const auto value = [](const MapCodes& codes, int x) {
     const Rgba8 p = codes.picture.at(x, 0);
     const int code = p[0] << 16 | p[1] << 8 | p[2];
@@ -209,7 +210,7 @@ TEST(PictureMap, IsCodedForAPage) {
   EXPECT_EQ(value(codes, 0), -3);
 }
 
-TEST(PictureMap, OfOneValueHasColours) {
+TEST(PictureMap, SingleValueHasColours) {
   PictureMap map("m", "M", "", "", 3, 3);
   EXPECT_EQ(picture_of(map).at(1, 1), kGrey);
   map.set(1, 1, 7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pixel's address is read strictly, and its history says what differs, where all of it is too
-// much as well.
+// A pixel address is parsed strictly, and its history shows the differences, even when it is
+// shortened.
 #include "tb/run/pixel_history.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ PixelStep step(std::string item, std::string golden, std::string hardware) {
           .clock = 12};
 }
 
-TEST(PixelAddress, IsTwoWholeNumbers) {
+TEST(PixelAddress, ConsistsOfTwoIntegers) {
   EXPECT_EQ(pixel_of("12,7"), (PixelAddress{12, 7}));
   EXPECT_EQ(pixel_of("0,0"), (PixelAddress{0, 0}));
   for (const char* text : {"", "12", "12,", ",7", "12,7,3", "-1,2", "1,-2", "a,b", "1, 2", "1x2",
@@ -45,7 +45,7 @@ TEST(PixelAddress, IsTwoWholeNumbers) {
   }
 }
 
-TEST(PixelAddress, IsInsideOfThePicture) {
+TEST(PixelAddress, MustLieWithinPicture) {
   EXPECT_NO_THROW(reject_outside({639, 479}, 640, 480));
   for (const PixelAddress pixel : {PixelAddress{640, 479}, {639, 480}}) try {
       reject_outside(pixel, 640, 480);
@@ -58,7 +58,7 @@ TEST(PixelAddress, IsInsideOfThePicture) {
     }
 }
 
-TEST(PixelHistory, AValueDiffersWhereBothSidesKnowIt) {
+TEST(PixelHistory, ValueDiffersIfBothSidesHaveIt) {
   PixelHistory history{{3, 4}};
   history.compare(step("same", "2", "2"));
   history.compare(step("other", "2", "3"));
@@ -68,8 +68,9 @@ TEST(PixelHistory, AValueDiffersWhereBothSidesKnowIt) {
   EXPECT_TRUE(history.steps[1].differs);
 }
 
-// An event that one side lacks; what the other had not come to yet is not lacking.
-TEST(PixelHistory, AnEventDiffersWhereOneSideLacksIt) {
+// An event that one side lacks differs; an event that the other side has not reached yet is not
+// missing.
+TEST(PixelHistory, EventDiffersIfOneSideLacksIt) {
   PixelHistory history{{3, 4}};
   history.compare(step("same", "2", "2"), {true, true});
   history.compare(step("other", "2", "3"), {true, true});
@@ -82,7 +83,8 @@ TEST(PixelHistory, AnEventDiffersWhereOneSideLacksIt) {
   EXPECT_EQ(differ, ".!!!..");
 }
 
-// A word a step, golden's letter first: "A-" is a record that the hardware lacks, "AB!" differs.
+// One word per step, the golden letter first: "A-" is an event that the hardware lacks, "AB!"
+// differs.
 std::string paired(const std::string& golden, const std::string& hardware, PixelSides came) {
   PixelHistory history{{3, 4}};
   history.compare_records(
@@ -100,7 +102,7 @@ std::string paired(const std::string& golden, const std::string& hardware, Pixel
   return text;
 }
 
-TEST(PixelHistory, ALostRecordSpoilsNoOther) {
+TEST(PixelHistory, LostEventDoesNotAffectOthers) {
   const PixelSides both{true, true}, cut{true, false}, alone{false, true};
   EXPECT_EQ(paired("ABC", "ABC", both), "AA BB CC ");
   EXPECT_EQ(paired("ABC", "AXC", both), "AA BX! CC ");
@@ -114,7 +116,7 @@ TEST(PixelHistory, ALostRecordSpoilsNoOther) {
   EXPECT_EQ(paired("", "A", alone), "-A ");
 }
 
-TEST(PixelHistory, KeepsThePartsOfSeveral) {
+TEST(PixelHistory, KeepsPartsOfSeveralHistories) {
   PixelHistory all{{3, 4}}, one{{3, 4}, "first note"}, two{{3, 4}, "second note"};
   one.compare(step("a", "1", "1"));
   two.compare(step("b", "1", "2"));
@@ -125,7 +127,7 @@ TEST(PixelHistory, KeepsThePartsOfSeveral) {
   EXPECT_EQ(all.differences(), 1U);
 }
 
-TEST(PixelHistory, AsTextLeavesDetailsOutButWhatDiffers) {
+TEST(PixelHistory, TextOmitsDetailsExceptDifferences) {
   PixelHistory history{{3, 4}};
   history.compare(step("shown", "1", "1"));
   PixelStep detail = step("hidden", "1", "1");
@@ -142,7 +144,7 @@ TEST(PixelHistory, AsTextLeavesDetailsOutButWhatDiffers) {
   EXPECT_NE(text.find("1 more steps: out/report.html#pixel"), std::string::npos) << text;
 }
 
-TEST(PixelHistory, AsTextIsATable) {
+TEST(PixelHistory, TextIsTable) {
   PixelHistory history{{3, 14}, "one fragment"};
   history.steps = {
       {.part = "fragment 0",
@@ -172,7 +174,7 @@ TEST(PixelHistory, AsTextIsATable) {
             "  1 more steps: r.html#pixel\n");
   EXPECT_EQ(text_of(PixelHistory{{0, 1}}, "r.html"),
             "pixel       (0, 1): 0 steps, 0 of them differ from the golden model\n");
-  // Forty rows at most: of thirty-nine that differ one more stands beside them.
+  // At most forty rows: with thirty-nine differing rows, one more is shown.
   PixelHistory many{{0, 0}};
   for (int i = 0; i < 3; ++i) many.compare(step("right", "1", "1"));
   for (int i = 0; i < 39; ++i) many.compare(step("wrong", "1", "2"));
@@ -182,7 +184,7 @@ TEST(PixelHistory, AsTextIsATable) {
 }
 
 // The last of many rows is the wrong one.
-TEST(PixelHistory, AsTextIsShortAndHasWhatDiffers) {
+TEST(PixelHistory, TextIsShortAndShowsDifferences) {
   PixelHistory history{{3, 4}};
   for (int i = 0; i < 200; ++i) history.compare(step("right", "1", "1"));
   history.compare(step("wrong", "1", "2"));
@@ -193,7 +195,7 @@ TEST(PixelHistory, AsTextIsShortAndHasWhatDiffers) {
   EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 50);
 }
 
-TEST(PixelHistory, IsInTheResult) {
+TEST(PixelHistory, ResultContainsHistory) {
   Result result;
   EXPECT_FALSE(to_json(result).contains("pixel"));
   result.pixel = PixelHistory{{3, 4}, "a note"};

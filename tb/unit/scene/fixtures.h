@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of tb/scene share: a folder of their own, small files, a screen whose unit is the
-// pixel, and the folder of real data when there is one.
+// Helpers of the tests of tb/scene: a temporary folder, small files, a screen measured in pixels,
+// and the folder of real data if there is one.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ inline std::string read_bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// FNV-1a of all bytes of a picture.
+// FNV-1a hash of all bytes of an image.
 template <class Pixel>
 std::uint64_t fnv(const ImageOf<Pixel>& image) {
   FnvHash hash;
@@ -83,15 +83,15 @@ std::string file_error(Action&& action) {
   return "";
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared takes none.
+// NOLINTBEGIN(bugprone-macro-parentheses): a declared name cannot be parenthesised.
 #define DEBURR_REQUIRE_DATA(folder)                                   \
   const ::std::filesystem::path folder = ::deburr::tb::data_folder(); \
   if (!::std::filesystem::is_directory(folder / "meshes"))            \
   GTEST_SKIP() << "no data folder: set DEBURR_DATA to one"
 // NOLINTEND(bugprone-macro-parentheses)
 
-// A scene on the plane z = 0 in which (x, y) is a position on the screen in pixels, w = 1
-// everywhere. `size` is a power of two, so that positions are exact.
+// A scene on the plane z = 0 in which (x, y) is a screen position in pixels, with w = 1 everywhere.
+// `size` is a power of two, so that positions are exact.
 class FlatScreen {
  public:
   explicit FlatScreen(int size) : size_(size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Question: is it FLIP? Against its formulas where pictures are plain, and against what the program
-// published with the paper says of pictures by formula.
+// FLIP: compared with its formulas on images of one colour, and with the program published with the
+// paper on images given by formulas.
 #include "tb/scene/flip.h"
 
 #include <gtest/gtest.h>
@@ -21,12 +21,12 @@ using stimuli::inverted;
 
 Image plain(const Rgba8& colour) { return Image(40, 30, colour); }
 
-// ---- plain pictures: no edge, no point, and every window has one colour -------------------------
+// ---- Images of one colour: no edge, no point, and every window has one colour ------------------
 
 struct Lab {
   double l, a, b;
 };
-// As tables of colours print them, for D65.
+// As colour tables give them, for D65.
 constexpr Lab kGreen = {87.737, -86.185, 83.181}, kBlue = {32.303, 79.197, -107.864},
               kRed = {53.241, 80.092, 67.203}, kWhite = {100, 0, 0}, kBlack = {0, 0, 0};
 
@@ -41,7 +41,7 @@ double expected(const Lab& p, const Lab& q) {
   return error < knee ? 0.95 * error / knee : 0.95 + 0.05 * (error - knee) / (largest - knee);
 }
 
-TEST(Flip, OfPlainPicturesIsTheDifferenceOfColours) {
+TEST(Flip, PlainImagesGiveColourDifference) {
   const Rgba8 black = {0, 0, 0, 255}, white = {255, 255, 255, 255}, red = {255, 0, 0, 255},
               green = {0, 255, 0, 255}, blue = {0, 0, 255, 255};
   EXPECT_NEAR(flip(plain(black), plain(white)), expected(kBlack, kWhite), 2e-4);
@@ -49,7 +49,7 @@ TEST(Flip, OfPlainPicturesIsTheDifferenceOfColours) {
   EXPECT_NEAR(flip(plain(white), plain(blue)), expected(kWhite, kBlue), 2e-4);
   EXPECT_NEAR(flip(plain(green), plain(blue)), 1, 1e-5) << "the largest that there is";
   EXPECT_EQ(flip(plain(red), plain(red)), 0);
-  // Of greys L* is all: 116 x linear^(1/3) - 16, linear = 0.21586 and 0.30499.
+  // For greys only L* differs: 116 x linear^(1/3) - 16, linear = 0.21586 and 0.30499.
   const double grey = std::pow(116 * (std::cbrt(0.304987) - std::cbrt(0.215861)), 0.7);
   const double largest = std::pow(
       87.737 - 32.303 +
@@ -59,10 +59,10 @@ TEST(Flip, OfPlainPicturesIsTheDifferenceOfColours) {
               0.95 * grey / (0.4 * largest), 2e-4);
 }
 
-// ---- the published program ----------------------------------------------------------------------
+// ---- Published program -------------------------------------------------------------------------
 
-// FLIP 1.7 of github.com/NVlabs/flip, commit 1eb247c, C++, of the same pictures: means.
-TEST(Flip, IsThatOfThePublishedProgram) {
+// Means of FLIP 1.7 (github.com/NVlabs/flip, commit 1eb247c, C++) for the same images.
+TEST(Flip, MatchesPublishedProgram) {
   const Image like = stimuli::rendered_like(200, 150, 12), line = stimuli::line_image(),
               noise = stimuli::noise_image();
   EXPECT_NEAR(flip(like, stimuli::mirrored_x(like)), 0.5004587, 2e-5);
@@ -74,9 +74,9 @@ TEST(Flip, IsThatOfThePublishedProgram) {
   EXPECT_NEAR(map.at(40, 33), 0.388906, 2e-5);
 }
 
-// ---- what follows from the definition -----------------------------------------------------------
+// ---- Properties that follow from the definition ------------------------------------------------
 
-TEST(Flip, IsSymmetricAndHasNoDirection) {
+TEST(Flip, SymmetricAndIndependentOfDirection) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image();
   const double ab = flip(a, b);
   EXPECT_NEAR(flip(b, a), ab, 1e-6);
@@ -85,12 +85,12 @@ TEST(Flip, IsSymmetricAndHasNoDirection) {
   EXPECT_NEAR(flip(stimuli::transposed(a), stimuli::transposed(b)), ab, 1e-6);
 }
 
-// A picture of many bands of rows, and each band by itself.
-TEST(Flip, OfBandsIsThatOfTheWhole) {
+// An image of several bands of rows, and each band alone.
+TEST(Flip, BandsGiveTheValuesOfWholeImage) {
   const int height = 2 * kBandRows + 7;
   const Image a = stimuli::rendered_like(64, height, 9), b = stimuli::mirrored_y(a);
   const ImageOf<float> whole = flip_map(a, b);
-  // Rows that are far enough from a cut know nothing of it.
+  // Rows that are far enough from a cut do not depend on it.
   const int top = kBandRows - 3, reach = 10;
   const auto below = [&](const Image& image) {
     Image part(image.width, height - top);
@@ -107,7 +107,7 @@ TEST(Flip, OfBandsIsThatOfTheWhole) {
   EXPECT_NEAR(flip(a, b), sum / static_cast<double>(whole.pixels.size()), 1e-9);
 }
 
-TEST(Flip, OfSeveralIsThatOfEach) {
+TEST(Flip, SeveralImagesGiveValuesOfEach) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image(), c = inverted(a);
   const std::array<const Image*, 3> tests = {&b, &a, &c};
   const std::vector<double> all = flip(a, tests);
@@ -117,22 +117,24 @@ TEST(Flip, OfSeveralIsThatOfEach) {
   EXPECT_EQ(all[2], flip(a, c));
 }
 
-// From further away less is seen of a fine pattern, nothing of one of single pixels, and as much of
-// a plain difference.
-TEST(Flip, GoesWithTheDistance) {
+// At a greater distance a fine pattern is less visible, one of single pixels invisible, and a plain
+// difference unchanged.
+TEST(Flip, DependsOnViewingDistance) {
   const auto board = [](int size) {
     return stimuli::draw(64, 64, [size](int x, int y) {
       return stimuli::grey((x / size + y / size) % 2 == 0 ? 255 : 0);
     });
   };
-  const Image grey(64, 64, stimuli::grey(188));  // as much light
+  const Image grey(64, 64, stimuli::grey(188));  // the same mean light
   EXPECT_LT(flip(board(4), grey, 134), flip(board(4), grey) - 0.05);
   EXPECT_LT(flip(board(1), grey), 0.05);
   const Image a = plain({100, 100, 100, 255}), b = plain({120, 100, 90, 255});
   EXPECT_NEAR(flip(a, b, 134), flip(a, b), 1e-4);
 }
 
-TEST(Flip, RejectsOtherSizes) { EXPECT_THROW(flip(Image(8, 8), Image(8, 9)), spec::ConfigError); }
+TEST(Flip, RejectsDifferentSizes) {
+  EXPECT_THROW(flip(Image(8, 8), Image(8, 9)), spec::ConfigError);
+}
 
 }  // namespace
 }  // namespace deburr::tb::flip_test

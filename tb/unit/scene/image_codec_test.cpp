@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: is OpenImageIO loaded by those alone who need it?
+// OpenImageIO is loaded only when it is needed.
 #include "tb/scene/image_codec.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ TEST(ImageCodec, RenderingAndWritingPngDoNotLoadIt) {
   EXPECT_FALSE(openimageio_is_loaded());
 }
 
-TEST(ImageCodec, ReadingLoadsItAndSoDoOtherFormats) {
+TEST(ImageCodec, ReadingAndOtherFormatsLoadIt) {
   const test::TemporaryFolder folder;
   const Image image = noise(5, 4);
   write_image(folder / "picture.png", image);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Question: does a picture mean the same whatever kind of file it comes in: colours that are not
-// multiplied by alpha, and a part of a picture in its place? Files that OpenImageIO cannot write,
-// or writes only as it would read them, are made of bytes here or come from Pillow.
+// An image has the same pixels in every file format: colours that are not premultiplied by alpha,
+// and part images in their position. Files that OpenImageIO cannot write, or writes only as it
+// would read them, are built from bytes here or written by Pillow.
 #include <OpenImageIO/imageio.h>
 #include <fmt/core.h>
 #include <gmock/gmock.h>
@@ -30,11 +30,12 @@ using ::testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 using Pixels = std::vector<Rgba8>;
 
-// Nearly transparent, opaque, transparent with a colour, half.
+// Nearly transparent, opaque, transparent with a colour, half transparent.
 const Pixels kStraight = {
     {204, 199, 230, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {255, 128, 1, 128}};
-// The same with colours multiplied by alpha and rounded, and what dividing gives: 8 * 255 / 10 =
-// 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. Alpha 0 divides nothing.
+// The same with colours multiplied by alpha and rounded, and the result of the division: 8 * 255 /
+// 10 = 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. With alpha 0
+// colours are not divided.
 const Pixels kMultiplied = {{8, 8, 9, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {128, 64, 1, 128}};
 const Pixels kDivided = {
     {204, 204, 230, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {255, 128, 2, 128}};
@@ -45,7 +46,7 @@ Bytes values_of(const Pixels& pixels) {
   return values;
 }
 
-// What a file is written as beside its values.
+// Properties of a written file other than its values.
 struct Written {
   int width = 4, height = 1, channels = 4;
   int x = 0, y = 0, full_width = 0, full_height = 0, full_x = 0, full_y = 0;
@@ -97,7 +98,7 @@ std::string of_pixels(const Pixels& pixels, std::array<std::size_t, 4> order) {
   return bytes;
 }
 
-// A TIFF of one row. `extra` is the value of ExtraSamples; below 0 there is no such tag.
+// A TIFF of one row. `extra` is the value of ExtraSamples; a negative value omits the tag.
 std::string tiff(int extra, int samples, int bits, const std::vector<unsigned>& values,
                  unsigned colours = 2) {
   const auto bytes = static_cast<unsigned>(bits) / 8;
@@ -132,7 +133,7 @@ std::string tiff(int extra, const Pixels& pixels) {
   return tiff(extra, 4, 8, {values.begin(), values.end()});
 }
 
-// Attribute 0: a file of the first version, which says nothing of its alpha.
+// Attribute 0: a file of the first version, which does not specify its alpha.
 std::string targa(int attribute, const Pixels& pixels) {
   std::string file = little(0, 2) + little(2, 1) + std::string(9, '\0') + little(pixels.size(), 2) +
                      little(1, 2) + little(32, 1) + little(attribute == 0 ? 0 : 8, 1) +
@@ -154,14 +155,14 @@ std::string dds_header(unsigned size, std::string_view code, unsigned flags) {
 std::string raw_dds(const Pixels& pixels) {
   return dds_header(1, "", 0x41) + of_pixels(pixels, {0, 1, 2, 3});
 }
-// 4 x 4 pixels of one colour, red 10 of 31, and of an alpha of 0..15.
+// 4 x 4 pixels of one colour, red 10 of 31, with an alpha of 0..15.
 std::string block_dds(std::string_view code, unsigned alpha) {
   const bool explicit_alpha = code == "DXT2" || code == "DXT3";
   return dds_header(4, code, 4) +
          std::string(explicit_alpha ? 8 : 2, static_cast<char>(17 * alpha)) +
          std::string(explicit_alpha ? 0 : 6, '\0') + little(10 << 11, 2) + little(0, 6);
 }
-// 4 x 4 pixels of (102, 50, 20, 204), as a block of BC7 in mode 6; `mode` is that of alpha.
+// 4 x 4 pixels of (102, 50, 20, 204), as a block of BC7 in mode 6; `mode` is the alpha mode.
 std::string dx10_dds(unsigned mode) {
   std::string block(16, '\0');
   std::size_t bit = 0;
@@ -176,7 +177,7 @@ std::string dx10_dds(unsigned mode) {
          little(mode, 4) + block;
 }
 
-// Of Pillow, lossless; with a box that says what its alpha is: 1 opacity, 2 premultiplied.
+// Written by Pillow, lossless, with a box that declares the alpha: 1 opacity, 2 premultiplied.
 std::string jpeg2000(unsigned opacity) {
   std::string file = of_hex(
       "0000000c6a5020200d0a870a00000014667479706a703220000000006a7032200000002d6a7032680000001669"
@@ -193,7 +194,7 @@ std::string jpeg2000(unsigned opacity) {
   return file.insert(header + 45, box);
 }
 
-// Layers say that the fourth channel is transparency; the picture is what they look like on white.
+// Layers declare the fourth channel as transparency; the merged image shows them on white.
 std::string photoshop(const Pixels& pixels) {
   std::string layer = big(0, 8) + big(1, 4) + big(1, 4) + big(4, 2);
   for (const unsigned channel : {0u, 1u, 2u, 0xFFFFu}) layer += big(channel, 2) + big(3, 4);
@@ -223,7 +224,7 @@ std::string webp() {
       "524946463a000000574542505650384c2d0000002f030000101f20242053a2672e111210aaffbbdc91850484e6ff"
       "482724210161baecaf1e2abf55c0a85344ff0300");
 }
-// 8 x 8 pixels, first red, then green; the first frame fills a picture of 8 x `height`.
+// 8 x 8 pixels, first red, then green; the first frame fills an image of 8 x `height`.
 std::string animated_webp(unsigned height) {
   std::string file = of_hex(
       "524946468400000057454250565038580a00000012000000070000070000414e494d06000000000000000000414e"
@@ -233,7 +234,7 @@ std::string animated_webp(unsigned height) {
   return file.replace(27, 3, little(height - 1, 3));
 }
 
-// ---- colour and alpha ---------------------------------------------------------------------------
+// ---- Colour and alpha --------------------------------------------------------------------------
 
 TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
   const TemporaryFolder folder;
@@ -261,7 +262,7 @@ TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
     EXPECT_NEAR(image.pixels[1][2], 0, 1);
     EXPECT_EQ(image.pixels[1][3], 128);
   }
-  // GIF has transparent pixels and opaque ones. Pixels of HEIF and AVIF are changed by compression.
+  // GIF has only transparent and opaque pixels. HEIF and AVIF change pixels by compression.
   EXPECT_EQ(
       read_image(write(folder / "of.gif", {2}, Bytes{204, 199, 230, 255, 255, 128, 1, 255})).pixels,
       (Pixels{{204, 199, 230, 255}, {255, 128, 1, 255}}));
@@ -282,7 +283,7 @@ TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
       (Pixels{{188, 137, 255, 10}, {188, 0, 255, 255}, {188, 0, 255, 0}, {255, 255, 0, 128}}));
 }
 
-TEST(ImageFormats, FilesThatSayTheirColoursAreMultipliedAreDivided) {
+TEST(ImageFormats, PremultipliedColoursAreDividedByAlpha) {
   const TemporaryFolder folder;
   const auto pixels = [&](const std::string& name, const std::string& bytes) {
     return read_image(folder.write(name, bytes)).pixels;
@@ -291,7 +292,7 @@ TEST(ImageFormats, FilesThatSayTheirColoursAreMultipliedAreDivided) {
   EXPECT_EQ(pixels("unassociated.tif", tiff(2, kStraight)), kStraight);
   EXPECT_EQ(pixels("unspecified.tif", tiff(0, kStraight)), kStraight);
   EXPECT_EQ(pixels("silent.tif", tiff(-1, kStraight)), kStraight);
-  // 255 * 33 / 66 = 127.5; of 16 bits 255 * 100 / 200, and 255 * 30000 / 40000 = 191.25.
+  // 255 * 33 / 66 = 127.5; in 16 bits 255 * 100 / 200, and 255 * 30000 / 40000 = 191.25.
   EXPECT_EQ(pixels("grey.tif", tiff(1, 2, 8, {33, 66, 90, 66})),
             (Pixels{{128, 128, 128, 66}, {255, 255, 255, 66}}));
   EXPECT_EQ(pixels("deep.tif", tiff(1, 4, 16, {100, 30, 0, 200, 30000, 40000, 50000, 40000})),
@@ -303,7 +304,7 @@ TEST(ImageFormats, FilesThatSayTheirColoursAreMultipliedAreDivided) {
   for (const int attribute : {0, 2, 3})
     EXPECT_EQ(pixels("straight.tga", targa(attribute, kStraight)), kStraight) << attribute;
 
-  // 10 of 31 is 82, and 82 * 255 / 136 = 153.75. More colour than alpha is clamped.
+  // 10 of 31 is 82, and 82 * 255 / 136 = 153.75. Colours greater than alpha are clamped.
   for (const char* const code : {"DXT2", "DXT4"}) {
     EXPECT_EQ(pixels("block.dds", block_dds(code, 8))[0], (Rgba8{154, 0, 0, 136})) << code;
     EXPECT_EQ(pixels("block.dds", block_dds(code, 4))[0], (Rgba8{255, 0, 0, 68})) << code;
@@ -348,13 +349,13 @@ TEST(ImageFormats, FormatsWithoutAlphaKeepTheirColours) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(jpeg.pixels[0][c], pixels[0][c], 2);
 }
 
-// Another release of OpenImageIO may read more.
+// Another release of OpenImageIO may read more formats.
 TEST(ImageFormats, EveryFormatIsCoveredHereOrOnThePage) {
 #if OIIO_VERSION < 20500
   const std::string covered =
       " openexr tiff bmp dds dpx gif heif ico iff jpeg2000 png psd rla sgi softimage targa webp"
       " jpeg hdr pnm fits ";
-  // Without alpha, or films, which keep it apart.
+  // Formats without alpha, or of films, which store it separately.
   const std::string others = " cineon dicom ffmpeg null openvdb raw zfile ";
   std::istringstream list(OIIO::get_string_attribute("input_format_list"));
   for (std::string format; std::getline(list, format, ',');)
@@ -362,7 +363,7 @@ TEST(ImageFormats, EveryFormatIsCoveredHereOrOnThePage) {
 #endif
 }
 
-TEST(ImageFormats, ChannelsOfAnExrAreTakenByTheirNames) {
+TEST(ImageFormats, ExrChannelsAreSelectedByName) {
   const TemporaryFolder folder;
   const auto path = folder / "of.exr";
   const auto pixel = [&](const std::vector<std::string>& names, const std::vector<float>& values) {
@@ -386,7 +387,7 @@ TEST(ImageFormats, ChannelsOfAnExrAreTakenByTheirNames) {
   EXPECT_EQ(pixel({"R", "G", "B", "N"}, {0.5f, 0, 1, 1}), (Rgba8{188, 0, 255, 255}));
 }
 
-TEST(ImageFormats, ChannelsOfAnExrThatAreNoColoursAreNamed) {
+TEST(ImageFormats, ErrorNamesExrChannelsThatAreNotColours) {
   const TemporaryFolder folder;
   const auto error = [&](const std::vector<std::string>& names) {
     Written what{1, 1, static_cast<int>(names.size())};
@@ -403,7 +404,7 @@ TEST(ImageFormats, ChannelsOfAnExrThatAreNoColoursAreNamed) {
     EXPECT_THAT(error({name}), HasSubstr(fmt::format("it has {} where", name)));
 }
 
-TEST(ImageFormats, PaletteAndAnimationsAreReadAsStraightColours) {
+TEST(ImageFormats, PaletteAndAnimationsGiveStraightColours) {
   const TemporaryFolder folder;
   EXPECT_EQ(
       read_image(
@@ -426,7 +427,7 @@ TEST(ImageFormats, PaletteAndAnimationsAreReadAsStraightColours) {
   EXPECT_EQ(read_image_memory("inside", block_dds("DXT2", 8)).pixels[0], (Rgba8{154, 0, 0, 136}));
 }
 
-TEST(ImageFormats, ColoursThatAreNotRgbAreNamed) {
+TEST(ImageFormats, ErrorNamesColourModelsOtherThanRgb) {
   const TemporaryFolder folder;
   ReadReport report;
   const std::string cmyk = tiff(-1, 4, 8, {10, 20, 30, 40}, 5);
@@ -441,7 +442,7 @@ TEST(ImageFormats, ColoursThatAreNotRgbAreNamed) {
               HasSubstr("its colours are of the kind 'CIELAB'"));
 }
 
-TEST(ImageFormats, TruncatedFilesAreNamed) {
+TEST(ImageFormats, ErrorNamesTruncatedFiles) {
   const TemporaryFolder folder;
   const std::string iff =
       test::read_bytes(write(folder / "of.iff", {64, 64, 3}, Bytes(std::size_t{64} * 64 * 3, 200)));
@@ -458,7 +459,7 @@ TEST(ImageFormats, TruncatedFilesAreNamed) {
                 AllOf(HasSubstr(file.first), testing::ContainsRegex("truncated|damaged")));
 }
 
-TEST(ImageFormats, WhatAFormatCannotKeepIsNotWritten) {
+TEST(ImageFormats, RejectsWritingWhatFormatCannotStore) {
   const TemporaryFolder folder;
   Image image(4, 1);
   image.pixels = kStraight;
@@ -469,9 +470,9 @@ TEST(ImageFormats, WhatAFormatCannotKeepIsNotWritten) {
                 HasSubstr("does not keep these pixels"));
 }
 
-// ---- parts of pictures --------------------------------------------------------------------------
+// ---- Part images -------------------------------------------------------------------------------
 
-// Of red 10, 20, ... in rows.
+// Pixels of red 10, 20, ... row by row.
 Bytes numbered(int pixels) {
   Bytes values;
   for (int i = 1; i <= pixels; ++i)
@@ -484,7 +485,7 @@ std::vector<int> reds(const Image& image) {
   return all;
 }
 
-TEST(ImageFormats, APartOfAPictureLiesInItsPlace) {
+TEST(ImageFormats, PartImageLiesAtItsPosition) {
   const TemporaryFolder folder;
   // EXR holds light: 1 is 255.
   const std::vector<float> light = {1, 0, 0, 1, 0.5f, 0, 0, 1};
@@ -497,14 +498,14 @@ TEST(ImageFormats, APartOfAPictureLiesInItsPlace) {
   EXPECT_EQ(image.pixels[5], (Rgba8{255, 0, 0, 255}));
   EXPECT_THAT(report.conversions,
               Contains(HasSubstr("2 x 1 stored pixels placed at (1, 1) of a picture of 4 x 3")));
-  // Overscan is cut; origins may be negative.
+  // Overscan is cropped; origins may be negative.
   EXPECT_EQ(reds(read_image(write(folder / "over.exr", {2, 1, 4, -1, 0, 1, 1}, light))),
             (std::vector<int>{188}));
   EXPECT_EQ(reds(read_image(write(folder / "moved.exr", {2, 1, 4, -5, -7, 3, 1, -6, -7}, light))),
             (std::vector<int>{0, 255, 188}));
   EXPECT_EQ(reds(read_image(write(folder / "away.exr", {2, 1, 4, 9, 9, 2, 2}, light))),
             (std::vector<int>{0, 0, 0, 0}));
-  // Three channels: what is not there is transparent all the same.
+  // Three channels: missing pixels are transparent all the same.
   EXPECT_EQ(
       read_image(write(folder / "rgb.exr", {1, 1, 3, 1, 0, 2, 1}, std::vector<float>{1, 1, 1}))
           .pixels,
@@ -515,7 +516,7 @@ TEST(ImageFormats, APartOfAPictureLiesInItsPlace) {
         << name;
   EXPECT_EQ(reds(read_image(write(folder / "over.tif", {3, 1, 4, 0, 0, 2, 1}, numbered(3)))),
             (std::vector<int>{10, 20}));
-  // An offset on a page is not a part of a picture.
+  // An offset on a page does not make a part image.
   for (const char* const name : {"page.tif", "page.png"})
     EXPECT_EQ(reds(read_image(write(folder / name, {2, 1, 4, 3, 2}, numbered(2)))),
               (std::vector<int>{10, 20}))
@@ -532,7 +533,7 @@ TEST(ImageFormats, APartOfAPictureLiesInItsPlace) {
               HasSubstr("9000 x 2 pixels, the limit is 8192"));
 }
 
-TEST(ImageFormats, DepthIsInfinitelyFarWhereAPartOfAPictureIsNot) {
+TEST(ImageFormats, DepthIsInfiniteOutsidePartImage) {
   const TemporaryFolder folder;
   ReadReport report;
   const DepthImage depth = read_depth(
@@ -540,7 +541,7 @@ TEST(ImageFormats, DepthIsInfinitelyFarWhereAPartOfAPictureIsNot) {
   EXPECT_EQ(depth.width, 4);
   EXPECT_EQ(depth.pixels, (std::vector<float>{0, 0.5f, 0.75f, 0}));
   EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("infinitely far where there are none")));
-  // NaN that is cut is none.
+  // A cropped NaN is not an error.
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(
       read_depth(write(folder / "cut.exr", {2, 1, 1, -1, 0, 1, 1}, std::vector<float>{nan, 0.25f}))
@@ -557,9 +558,9 @@ TEST(ImageFormats, DepthIsInfinitelyFarWhereAPartOfAPictureIsNot) {
       (std::vector<float>{0.5f}));
 }
 
-// ---- depth --------------------------------------------------------------------------------------
+// ---- Depth -------------------------------------------------------------------------------------
 
-TEST(ImageFormats, DepthOf16BitsOfGreyIsScaledExactly) {
+TEST(ImageFormats, Grey16BitDepthIsScaledExactly) {
   const TemporaryFolder folder;
   ReadReport report;
   // (2^24 - 1) v / 65535 = 256 v + v / 257, rounded half up.
@@ -572,7 +573,7 @@ TEST(ImageFormats, DepthOf16BitsOfGreyIsScaledExactly) {
   }
 }
 
-TEST(ImageFormats, PicturesThatAreNoDepthAreNamed) {
+TEST(ImageFormats, ErrorNamesImagesThatAreNotDepth) {
   const TemporaryFolder folder;
   const auto error = [&](const fs::path& path) { return file_error([&] { read_depth(path); }); };
   EXPECT_THAT(error(write(folder / "grey.png", {1, 1, 1}, Bytes{9})),
@@ -605,14 +606,14 @@ TEST(ImageFormats, PicturesThatAreNoDepthAreNamed) {
             static_cast<float>((204 * 65536 + 199 * 256 + 230) / 16777215.0));
 }
 
-TEST(ImageFormats, DepthOfAnExrOfSeveralChannelsIsTheOneNamedSo) {
+TEST(ImageFormats, ExrDepthChannelIsSelectedByName) {
   const TemporaryFolder folder;
   const auto path = folder / "of.exr";
   ReadReport report;
   const auto made = [&](const std::vector<std::string>& names) {
     Written what{1, 1, static_cast<int>(names.size())};
     what.names = names;
-    std::vector<float> values;  // 1/8, 2/8, ... as they are named
+    std::vector<float> values;  // 1/8, 2/8, ... in order of names
     for (std::size_t i = 1; i <= names.size(); ++i) values.push_back(static_cast<float>(i) / 8);
     return write(path, what, values);
   };
@@ -639,7 +640,7 @@ TEST(ImageFormats, DepthOfAnExrOfSeveralChannelsIsTheOneNamedSo) {
   }
 }
 
-TEST(ImageFormats, DepthOfAnExrOfSeveralPicturesIsTheFirstIfNamedSo) {
+TEST(ImageFormats, MultipartExrDepthMustBeFirstPart) {
   const TemporaryFolder folder;
   const auto path = (folder / "of.exr").string();
   ReadReport report;
@@ -662,7 +663,7 @@ TEST(ImageFormats, DepthOfAnExrOfSeveralPicturesIsTheFirstIfNamedSo) {
               HasSubstr("it has several pictures, the first with V, of which not one alone"));
 }
 
-TEST(ImageFormats, GreyWhoseWhiteIs0IsTurnedRoundOrNamed) {
+TEST(ImageFormats, WhiteIsZeroGreyIsInvertedOrNamed) {
   const TemporaryFolder folder;
   const auto grey = [&](int extra, int samples, int bits) {
     std::string bytes = tiff(extra, samples, bits, std::vector<unsigned>(2, 10));
@@ -675,10 +676,10 @@ TEST(ImageFormats, GreyWhoseWhiteIs0IsTurnedRoundOrNamed) {
   EXPECT_THAT(file_error([&] { read_image(grey(2, 2, 8)); }), HasSubstr("white is 0"));
 }
 
-TEST(ImageFormats, ChangedValuesAreCountedAndPlacedInThePicture) {
+TEST(ImageFormats, ReportCountsChangedValuesAndFirstPosition) {
   const TemporaryFolder folder;
   ReadReport report;
-  // The first of three stored pixels is cut, and the third is at (1, 2).
+  // The first of three stored pixels is cropped, and the third is at (1, 2).
   read_image(write(folder / "of.exr", {3, 1, 3, -1, 2, 2, 4},
                    std::vector<float>{7, 7, 7, 0, 0, 0, 0, 2, std::nanf("")}),
              &report);

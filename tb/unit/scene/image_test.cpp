@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: do pictures survive the way to a file and back, and is every bad file named?
+// Images survive writing to a file and reading back, and every invalid file is named.
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include "tb/unit/full_disk.h"
 #include "tb/unit/scene/fixtures.h"
 
-// OpenImageIO's PNG reader makes its error text inside a libpng callback that leaves by longjmp.
+// OpenImageIO's PNG reader creates its error text inside a libpng callback that exits by longjmp.
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT: the sanitizer's name
   return "leak:ImageInput::geterror";
 }
@@ -55,7 +55,7 @@ void put_big_endian(std::string& bytes, std::size_t at, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
 }
 
-// A PNG whose header promises another size, with a valid checksum.
+// A PNG whose header declares another size, with a valid checksum.
 std::string png_of_size(std::string png, std::uint32_t width, std::uint32_t height) {
   put_big_endian(png, 16, width);
   put_big_endian(png, 20, height);
@@ -68,10 +68,10 @@ TEST(ImageIo, PngKeepsEveryBitWithAndWithoutAlpha) {
   Image image = noise(37, 21, 5);
   write_image(folder / "opaque.png", image);
   EXPECT_EQ(read_image(folder / "opaque.png"), image);
-  image.pixels[5][3] = 254;  // alpha is kept though nothing is transparent
+  image.pixels[5][3] = 254;  // alpha is kept although the pixel is almost opaque
   write_image(folder / "nearly.png", image);
   EXPECT_EQ(read_image(folder / "nearly.png"), image);
-  // Transparent pixels keep their colour: nothing is multiplied by alpha.
+  // Transparent pixels keep their colour: colours are not premultiplied.
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i][3] = static_cast<std::uint8_t>(i % 256);
   write_image(folder / "alpha.png", image);
@@ -79,7 +79,7 @@ TEST(ImageIo, PngKeepsEveryBitWithAndWithoutAlpha) {
   EXPECT_EQ(folder.files(), 3u);
 }
 
-TEST(ImageIo, PngOfEveryShapeIsReadByOthers) {
+TEST(ImageIo, OtherReadersReadPngOfEveryShape) {
   const TemporaryFolder folder;
   const fs::path path = folder / "shape.png";
   for (const auto& [width, height] :
@@ -92,7 +92,7 @@ TEST(ImageIo, PngOfEveryShapeIsReadByOthers) {
   }
 }
 
-TEST(ImageIo, StatedConversions) {
+TEST(ImageIo, ConversionsAreReported) {
   const TemporaryFolder folder;
   ReadReport report;
   write_with_oiio<std::uint16_t>(folder / "deep.png", 3, 1, 1, {0, 128, 65535});
@@ -124,8 +124,8 @@ TEST(ImageIo, StatedConversions) {
               ::testing::IsSupersetOf({"2 of 12 values clamped to [0, 1], the first at (2, 0)",
                                        "1 of 12 values NaN made 0, the first at (3, 0)"}));
 
-  // HDR says that it is linear as well; a float TIFF says nothing, so it holds codes. Alpha is a
-  // share in both.
+  // HDR declares linear values too; a float TIFF declares nothing, so it holds codes. Alpha is a
+  // fraction in both.
   write_with_oiio<float>(folder / "linear.hdr", 1, 1, 3, {0.5f, 0.25f, 1.0f});
   EXPECT_EQ(read_image(folder / "linear.hdr", &report).pixels[0], (Rgba8{188, 137, 255, 255}));
   for (const std::string& conversion : report.conversions)
@@ -136,7 +136,7 @@ TEST(ImageIo, StatedConversions) {
   EXPECT_EQ(read_image(folder / "codes.tif", &report).pixels,
             (std::vector<Rgba8>{{128, 64, 0, 128}, {255, 0, 255, 255}}));
   EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("taken as encoded")));
-  // Integers are codes even where the file says otherwise.
+  // Integers are codes even if the file declares otherwise.
   write_with_oiio<std::uint16_t>(folder / "linear.png", 1, 1, 1, {32768}, "Linear");
   EXPECT_EQ(read_image(folder / "linear.png").pixels[0][0], 128);
 
@@ -149,7 +149,7 @@ TEST(ImageIo, StatedConversions) {
   EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("channels 5 to 6")));
 }
 
-TEST(ImageIo, DepthIn24BitsOrOneFloat) {
+TEST(ImageIo, DepthIs24BitsOrOneFloat) {
   const TemporaryFolder folder;
   DepthImage depth(4, 1);
   depth.pixels = {0.0f, 1.0f, 1.0f / 16777215.0f, 0.25f};
@@ -175,7 +175,7 @@ TEST(ImageIo, DepthIn24BitsOrOneFloat) {
                     HasSubstr("the first at (0, 1)"), HasSubstr("write 0")));
 }
 
-TEST(ImageIo, BadFilesAreNamed) {
+TEST(ImageIo, ErrorNamesInvalidFile) {
   const TemporaryFolder folder;
   write_image(folder / "good.png", noise(64, 64));
   const std::string good = test::read_bytes(folder / "good.png");
@@ -193,7 +193,7 @@ TEST(ImageIo, BadFilesAreNamed) {
   for (std::size_t i = corrupt.size() / 2; i < corrupt.size() / 2 + 40; ++i)
     corrupt[i] = static_cast<char>(corrupt[i] ^ 0x5A);
   EXPECT_THAT(error_of(folder.write("corrupt.png", corrupt)), HasSubstr("truncated or corrupt"));
-  // Rejected by the header: nothing of the size it promises is allocated.
+  // Rejected by the header, before memory of the declared size is allocated.
   EXPECT_THAT(error_of(folder.write("huge.png", png_of_size(good, 100000, 100000))),
               HasSubstr("the limit is 8192"));
   EXPECT_THAT(error_of(folder.write("wide.png", png_of_size(good, 8193, 1))),
@@ -210,7 +210,7 @@ TEST(ImageIo, BadFilesAreNamed) {
               AllOf(HasSubstr("inside"), HasSubstr("use PNG or JPEG")));
 }
 
-TEST(ImageIo, BadTargetsAreNamedAndNothingIsLeft) {
+TEST(ImageIo, ErrorNamesInvalidTargetAndLeavesNoFile) {
   const TemporaryFolder folder;
   const Image image = noise(8, 8);
   EXPECT_THAT(file_error([&] { write_image(folder / "x.nonsense", image); }),
@@ -225,7 +225,7 @@ TEST(ImageIo, BadTargetsAreNamedAndNothingIsLeft) {
   EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
+TEST(ImageIo, FullDiskIsReportedAndOldFileRemains) {
   const TemporaryFolder folder;
   const Image old = gradient(16, 16);
   write_image(folder / "out.png", old);
@@ -241,7 +241,7 @@ TEST(ImageIo, FullDiskIsReportedAndTheOldFileStays) {
   EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(ImageIo, OfFilesThatBelongTogetherAllAreReplacedOrNone) {
+TEST(ImageIo, RelatedFilesAreReplacedTogetherOrNotAtAll) {
   const TemporaryFolder folder;
   write_files_atomically({{folder / "a.json", "old"}, {folder / "b.html", "older"}});
   const std::string big(10000, ' ');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Meets the error text that OpenImageIO never gives back, and with an argument forgets as much
-// itself: LeakSanitizer must keep quiet about the first and about nothing else.
+// Triggers the error text that OpenImageIO never frees and, with an argument, leaks memory itself:
+// LeakSanitizer must ignore the first and report the second.
 #include <cstdio>
 #include <cstring>
 
@@ -22,13 +22,14 @@ char* volatile the_only_one = nullptr;
 
 int main(int argc, char**) {
   try {
-    // The signature of a PNG whose first chunk is cut off.
+    // The signature of a PNG whose first chunk is truncated.
     deburr::tb::read_image_memory("broken.png", "\x89PNG\r\n\x1a\njunkjunkjunkjunk");
     std::puts("a broken picture was read");
     return 1;
   } catch (const deburr::spec::FileError& error) {
     std::puts(error.what());
-    if (std::strstr(error.what(), "PNG read error") == nullptr) return 1;  // not OpenImageIO's
+    if (std::strstr(error.what(), "PNG read error") == nullptr)
+      return 1;  // not OpenImageIO's error
   }
   if (argc > 1) leaks_31_bytes();
   return 0;

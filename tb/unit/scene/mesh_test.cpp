@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: do OBJ and glTF files arrive as they were meant, and is every broken one named?
+// OBJ and glTF files are read as specified, and every invalid file is named.
 #include "tb/scene/mesh.h"
 
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST(Obj, PolygonsBecomeTrianglesAndVIsFlipped) {
   EXPECT_EQ(mesh.materials.size(), 1u);
 }
 
-TEST(Obj, MaterialsAndTextures) {
+TEST(Obj, ReadsMaterialsAndTextures) {
   const TemporaryFolder folder;
   write_image(folder / "wood grain.png", noise(8, 8));
   folder.write("m.mtl",
@@ -93,14 +93,14 @@ TEST(Obj, MaterialsAndTextures) {
   EXPECT_EQ(corner(mesh, 2, 0).uv, V2d(0, 1));  // a textured neighbour keeps its coordinates
 }
 
-TEST(Obj, MissingMaterialFileIsANote) {
+TEST(Obj, MissingMaterialFileGivesNote) {
   const TemporaryFolder folder;
   const Mesh mesh =
       import_mesh(folder.write("a.obj", std::string("mtllib none.mtl\nusemtl x\n") + kSquare));
   EXPECT_THAT(mesh.notes, Contains(HasSubstr("none.mtl")));
 }
 
-TEST(Obj, BoxProjectionAndFaceNormals) {
+TEST(Obj, BoxProjectionUsesFaceNormals) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(folder.write("floor.obj", "v 0 0 0\nv 0 0 8\nv 8 0 0\nf 1 2 3\n"));
   EXPECT_EQ(corner(mesh, 0, 0).normal, V3d(0, 1, 0));
@@ -115,7 +115,7 @@ TEST(Obj, NegativeIndicesCountBackwards) {
   EXPECT_EQ(corner(mesh, 0, 2).position, V3d(0, 1, 0));
 }
 
-TEST(Obj, ALineThatEndsWithABackslashGoesOn) {
+TEST(Obj, BackslashContinuesLine) {
   const TemporaryFolder folder;
   for (const std::string end : {"\n", "\r\n"}) {
     const std::string three = "v 0 0 \\" + end + "0" + end + "v 1 0 0" + end + "v 0 1 0" + end;
@@ -125,14 +125,14 @@ TEST(Obj, ALineThatEndsWithABackslashGoesOn) {
     EXPECT_EQ(corner(mesh, 0, 2).position, V3d(0, 1, 0));
     EXPECT_THAT(import_error(folder.write("d.obj", three + "f 1 2 4" + end)),
                 AllOf(HasSubstr("line 5"), HasSubstr("vertex 4, but there are 3")));
-    // The name of a folder in a comment goes nowhere.
+    // A backslash within a comment does not continue the line.
     EXPECT_EQ(import_mesh(folder.write("e.obj", "# C:\\meshes\\" + end + three + "f 1 2 3" + end))
                   .triangles.size(),
               1u);
   }
 }
 
-TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
+TEST(Obj, ErrorNamesLineOfInvalidFile) {
   const TemporaryFolder folder;
   auto error = [&](const std::string& text) { return import_error(folder.write("bad.obj", text)); };
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -150,7 +150,7 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
   EXPECT_THAT(error(three + "f 1 2 4\n"),
               AllOf(HasSubstr("line 4"), HasSubstr("vertex 4, but there are 3")));
   EXPECT_THAT(error(three + "f 1 2 -4\n"), HasSubstr("out of range"));
-  // To tinyobjloader a line ends here, and another one begins.
+  // tinyobjloader ends the line here and begins another.
   EXPECT_THAT(error(three + "# \rf 1 2 4\n"),
               AllOf(HasSubstr("line 5"), HasSubstr("vertex 4, but there are 3")));
   EXPECT_THAT(error(three + "f 1/1 2/1 3/1\n"), HasSubstr("texture coordinate 1, but there are 0"));
@@ -166,9 +166,9 @@ TEST(Obj, BrokenFilesAreNamedWithTheirLine) {
               Contains(HasSubstr("truncated")));
 }
 
-// Every prefix of a file is an error, is noted, or is a whole number of lines, of which nobody can
-// tell that there were more.
-TEST(Obj, TruncationIsFoundWhereItCanBe) {
+// Every prefix of a file is an error, gives a note, or consists of whole lines, where truncation
+// cannot be detected.
+TEST(Obj, DetectsTruncationWherePossible) {
   const TemporaryFolder folder;
   const std::string whole = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
   int errors = 0, noted = 0;
@@ -187,7 +187,7 @@ TEST(Obj, TruncationIsFoundWhereItCanBe) {
   EXPECT_GT(errors, 32 + 4);
 }
 
-TEST(Obj, DamagedBytesNeverCrash) {
+TEST(Obj, CorruptBytesDoNotCrash) {
   const TemporaryFolder folder;
   const std::string good =
       std::string(kSquare) + "vn 0 0 1\nf 1//1 2//1 3//1\nf -4/1/1 -3/2/1 -2/3/1\n";
@@ -206,12 +206,12 @@ TEST(Obj, DamagedBytesNeverCrash) {
   EXPECT_GT(rejected, 200);
 }
 
-TEST(Obj, BoxesAreProjectedAlongTheirFaces) {
+TEST(Obj, BoxProjectionFollowsEachFaceNormal) {
   struct Side {
     const char* corners;  // a triangle of the box 0..8, 0..4, 0..2
     std::array<V2d, 3> uv;
   };
-  // A scale of half a repeat a unit, from the lowest corner of the box.
+  // A scale of half a repeat per unit, from the lowest corner of the box.
   const Side sides[] = {
       {"v 0 4 2\nv 8 4 2\nv 8 4 0\n", {V2d(0, 1), V2d(4, 1), V2d(4, 0)}},     // up
       {"v 0 0 0\nv 8 0 0\nv 8 0 2\n", {V2d(0, 0), V2d(4, 0), V2d(4, 1)}},     // down
@@ -233,8 +233,8 @@ TEST(Obj, BoxesAreProjectedAlongTheirFaces) {
   }
 }
 
-// Of the whole mesh, those triangles too that have coordinates of their own.
-TEST(Obj, ABoxIsAroundEverything) {
+// The box of the whole mesh, including triangles with coordinates of their own.
+TEST(Obj, ProjectionBoxEnclosesWholeMesh) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(folder.write(
       "a.obj",
@@ -244,7 +244,7 @@ TEST(Obj, ABoxIsAroundEverything) {
   EXPECT_EQ(corner(mesh, 1, 2).uv, V2d(3, 0));
 }
 
-TEST(Obj, WhatIsLeftOutIsNoted) {
+TEST(Obj, NotesListOmittedStatements) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(
       folder.write("n.obj", std::string("v 9 9 +9\nl 1 2\n") + "usemtl none\n" + kSquare));
@@ -259,8 +259,8 @@ TEST(Obj, WhatIsLeftOutIsNoted) {
   EXPECT_EQ(named.materials.at(0).colour, V3d(0.5, 0.25, 0.125));
 }
 
-// Seventeen colours: the last one begins a second row of cells of four by four texels.
-TEST(Palette, HasACellForEachPlainMaterial) {
+// Seventeen colours: the last begins a second row of cells of four by four texels.
+TEST(Palette, HasOneCellPerPlainMaterial) {
   Mesh mesh;
   for (int i = 0; i < 17; ++i) {
     mesh.materials.push_back({"m", V3d(i / 16.0, 0.5, 2), -1});
@@ -294,9 +294,10 @@ TEST(Palette, HasACellForEachPlainMaterial) {
   EXPECT_EQ(mesh.vertices.size(), 2u * 51);
 }
 
-// ---- files --------------------------------------------------------------------------------------
+// ---- Files -------------------------------------------------------------------------------------
 
-// Of the import, from the folder on, which has to be the list that is had without it.
+// Files of the import, relative to the folder; they must equal the list that is obtained without an
+// import.
 std::vector<std::string> files_of(const TemporaryFolder& folder, const std::string& name,
                                   const ImportOptions& options = {}) {
   std::vector<std::string> files;
@@ -311,7 +312,7 @@ std::vector<std::string> files_of(const TemporaryFolder& folder, const std::stri
   return files;
 }
 
-TEST(MeshFiles, OfAnObj) {
+TEST(MeshFiles, ListFilesOfObj) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "sub folder");
   write_image(folder / "wood grain.png", noise(8, 8));
@@ -321,7 +322,7 @@ TEST(MeshFiles, OfAnObj) {
                "map_Bump other.png\nnewmtl plain\n");
   folder.write("plain.obj", kSquare);
   EXPECT_THAT(files_of(folder, "plain.obj"), ElementsAre("plain.obj"));
-  // Of the names of a line the first that is there is taken; a blank behind them is none.
+  // The first existing name of a line is used; a trailing blank is not part of it.
   folder.write("m.obj", std::string("mtllib none.mtl a.mtl a.mtl \n  mtllib\tgone.mtl \r"
                                     "mtllib sub\\ folder/my\\ b.mtl\nmtllib a.mtl\nusemtl b\n") +
                             kSquare);
@@ -330,14 +331,14 @@ TEST(MeshFiles, OfAnObj) {
   EXPECT_THAT(files_of(folder, "m.obj"), with_textures) << "by two names";
   EXPECT_THAT(files_of(folder, "m.obj", {.textures = false}),
               ElementsAre("m.obj", "none.mtl", "a.mtl", "gone.mtl", "sub folder/my b.mtl"));
-  // A file of a name that had none is another mesh.
+  // Once a file of a missing name exists, the mesh differs.
   folder.write("none.mtl", "newmtl b\n");
   EXPECT_THAT(files_of(folder, "m.obj"),
               ElementsAre("m.obj", "none.mtl", "gone.mtl", "sub folder/my b.mtl", "a.mtl",
                           "wood grain.png", "wood grain.png"));
 }
 
-TEST(MeshFiles, OfAnObjThatIsRejected) {
+TEST(MeshFiles, ListFilesOfRejectedObj) {
   const TemporaryFolder folder;
   const auto names = [&](const std::string& name) {
     std::vector<std::string> found;
@@ -350,7 +351,7 @@ TEST(MeshFiles, OfAnObjThatIsRejected) {
   folder.write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kSquare);
   EXPECT_THAT(import_error(folder / "m.obj"), HasSubstr("none.png"));
   EXPECT_THAT(names("m.obj"), ElementsAre("m.obj", "m.mtl", "none.png"));
-  // What cannot be read is not what is not there; a pipe would be waited for.
+  // An unreadable file is not a missing file; opening a pipe would block.
   fs::remove(folder / "m.mtl");
   ASSERT_EQ(::mkfifo((folder / "m.mtl").c_str(), 0600), 0);
   EXPECT_THAT(import_error(folder / "m.obj"),
@@ -358,7 +359,7 @@ TEST(MeshFiles, OfAnObjThatIsRejected) {
   EXPECT_THAT(names("m.obj"), ElementsAre("m.obj", "m.mtl"));
 }
 
-TEST(MeshFiles, AreFoundOnce) {
+TEST(MeshFiles, CacheTheirFiles) {
   const TemporaryFolder folder;
   folder.write("m.obj", std::string("mtllib m.mtl\n") + kSquare);
   MeshFiles files;
@@ -369,7 +370,7 @@ TEST(MeshFiles, AreFoundOnce) {
   EXPECT_EQ(MeshFiles().of(folder / "m.obj", {}).size(), 1u);
 }
 
-TEST(MeshFiles, OfScenes) {
+TEST(MeshFiles, ListFilesOfScenes) {
   const TemporaryFolder folder;
   MeshFiles meshes;
   folder.write("m.obj", std::string("mtllib m.mtl\n") + kSquare);
@@ -450,7 +451,7 @@ struct GltfFile {
   }
 };
 
-TEST(Gltf, ExternalBufferAndTexture) {
+TEST(Gltf, ReadsExternalBufferAndTexture) {
   const TemporaryFolder folder;
   const GltfFile file;
   folder.write("t.bin", file.binary);
@@ -466,14 +467,14 @@ TEST(Gltf, ExternalBufferAndTexture) {
   EXPECT_EQ(mesh.textures[0].wrap_t, spec::texture::Wrap::kClampToEdge);
 }
 
-TEST(MeshFiles, OfAGltf) {
+TEST(MeshFiles, ListFilesOfGltf) {
   const TemporaryFolder folder;
   GltfFile file;
   folder.write("t b.bin", file.binary);
   write_image(folder / "wood grain.png", noise(8, 4));
   file.image = R"({"uri":"wood%20grain.png"},{"uri":"wood%20grain.png"},{"uri":"none.png"})";
   folder.write("t.gltf", file.json("t%20b.bin"));
-  // What is not there is looked for in the current folder, too.
+  // A missing file is also searched for in the current folder.
   EXPECT_THAT(import_mesh(folder / "t.gltf").files,
               ElementsAre(folder / "t.gltf", folder / "t b.bin", folder / "wood grain.png",
                           folder / "none.png", fs::path("none.png")));
@@ -496,7 +497,7 @@ TEST(MeshFiles, OfAGltf) {
               AllOf(HasSubstr("t b.bin"), HasSubstr("not a regular file")));
 }
 
-TEST(Gltf, EmbeddedTexture) {
+TEST(Gltf, ReadsEmbeddedTexture) {
   const TemporaryFolder folder;
   write_image(folder / "e.png", gradient(8, 8));
   GltfFile file;
@@ -508,11 +509,11 @@ TEST(Gltf, EmbeddedTexture) {
   EXPECT_EQ(mesh.textures[0].image, gradient(8, 8));
 }
 
-TEST(Gltf, NodesTransformAndMirrorsKeepTheOutside) {
+TEST(Gltf, MirroringNodesKeepFacesOutward) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
-  // Parent: two up. Child: scaled by (2, 1, 1), turned a quarter about z, moved by x + 5.
+  // Parent: two up. Child: scaled by (2, 1, 1), rotated by 90 degrees about z, moved by x + 5.
   file.nodes =
       R"([{"children":[1],"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,2,0,1]},
           {"mesh":0,"scale":[2,1,1],"rotation":[0,0,0.70710678118,0.70710678118],"translation":[5,0,0]}])";
@@ -529,8 +530,8 @@ TEST(Gltf, NodesTransformAndMirrorsKeepTheOutside) {
 }
 
 // By hand: (x, y, z) becomes (1.2 x - 2.4 y + 1, 6.4 x + 7.2 y + 8, 10 z + 6), and a normal is
-// moved by the transposed inverse of that matrix.
-TEST(Gltf, UnequalScalesMovePointsAndNormalsDifferently) {
+// transformed by the transposed inverse of that matrix.
+TEST(Gltf, UnequalScalesTransformPointsAndNormals) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -551,8 +552,8 @@ TEST(Gltf, UnequalScalesMovePointsAndNormalsDifferently) {
   }
 }
 
-// By hand: u' = offset + cos u + sin v, v' = offset - sin u + cos v, of (u, v) times the scale.
-TEST(Gltf, TextureTransformScalesTurnsAndMoves) {
+// By hand: u' = offset + cos u + sin v, v' = offset - sin u + cos v, with (u, v) already scaled.
+TEST(Gltf, TextureTransformScalesRotatesAndMoves) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -579,7 +580,7 @@ TEST(Gltf, TextureTransformScalesTurnsAndMoves) {
             {1.45, -1.1}, {3.45, 2.9});
   expect_uv(R"("offset":[0.25,0.5])", {0.25, 0.5}, {1.25, 0.5}, {0.25, 1.5});
   expect_uv(R"("scale":[2,4])", {0, 0}, {2, 0}, {0, 4});
-  // Other coordinates than the material's.
+  // Coordinates other than the material's.
   file.append<float>({3, 5, 7, 11, 13, 17});
   file.accessors = R"(,{"bufferView":3,"componentType":5126,"count":3,"type":"VEC2"})";
   file.primitive =
@@ -587,8 +588,8 @@ TEST(Gltf, TextureTransformScalesTurnsAndMoves) {
   expect_uv(R"("texCoord":1,"scale":[1,2])", {3, 10}, {7, 22}, {13, 34});
 }
 
-// The transform's set of coordinates replaces the texture's own one, and only where it has one.
-TEST(Gltf, TextureTransformMayReplaceTheSetOfCoordinates) {
+// The transform's texCoord replaces that of the texture, but only where it is given.
+TEST(Gltf, TextureTransformMayReplaceTexCoord) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -616,7 +617,7 @@ TEST(Gltf, MorphTargetsMoveByTheirWeights) {
   GltfFile file;
   file.append<float>({0, 0, 2, 0, 0, 4, 0, 0, 8});    // accessor 3
   file.append<float>({0, 2, 0, 0, 0, 0, 0, 0, -16});  // accessor 4
-  file.append<float>({4, 0, 0});                      // accessor 5: of vertex 2 alone
+  file.append<float>({4, 0, 0});                      // accessor 5: of vertex 2 only
   file.append<std::uint16_t>({2, 0});
   file.accessors = R"(,{"bufferView":3,"componentType":5126,"count":3,"type":"VEC3"},
       {"bufferView":3,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"},
@@ -638,7 +639,7 @@ TEST(Gltf, MorphTargetsMoveByTheirWeights) {
   };
   const Mesh mesh = expect_positions({0, 0, 1}, {1, 0, 2}, {1, 1, 4});
   EXPECT_EQ(corner(mesh, 0, 1).uv, V2d(1.5, 0));
-  // (0, 0, 2) and half of (0, 2, 0); (0, 0, 8) and half of (0, 0, -16) is no direction.
+  // (0, 0, 2) plus half of (0, 2, 0); (0, 0, 8) plus half of (0, 0, -16) has no direction.
   EXPECT_NEAR((corner(mesh, 0, 0).normal - V3d(0, 1, 2) / std::sqrt(5.0)).length(), 0, 1e-12);
   file.nodes = R"([{"mesh":0,"weights":[0,1]}])";
   expect_positions({0, 0, 0}, {1, 0, 0}, {4, 1, 0});
@@ -678,7 +679,7 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
   EXPECT_EQ(corner(zeros, 0, 1).position, V3d(0, 0, 0));
   EXPECT_EQ(corner(zeros, 0, 2).position, V3d(8, 9, 10));
   EXPECT_THAT(zeros.notes, Not(Contains(HasSubstr("buffer view"))));
-  file.accessors = sparse("", "27");  // its second index is outside of the buffer view
+  file.accessors = sparse("", "27");  // its second index is outside the buffer view
   EXPECT_THAT(import_error(folder.write("e.glb", file.glb())), HasSubstr("reaches beyond"));
   file.binary[92] = 3;
   file.accessors = sparse("", "24");
@@ -686,7 +687,7 @@ TEST(Gltf, SparseAccessorsReplaceElements) {
               HasSubstr("accessor 3 has 3 elements and a sparse one with number 3"));
 }
 
-TEST(Gltf, AccessorWithoutABufferViewIsZeros) {
+TEST(Gltf, AccessorWithoutBufferViewIsZero) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -721,10 +722,10 @@ TEST(Gltf, EveryInstanceIsDrawn) {
   const Mesh mesh = import_mesh(folder.write("i.glb", file.glb()));
   ASSERT_EQ(mesh.triangles.size(), 3u);
   EXPECT_EQ(corner(mesh, 0, 1).position, V3d(2, 0, 5));
-  // Scaled, turned a quarter about z, moved by 10; then the node's.
+  // Scaled, rotated by 90 degrees about z, moved by 10; then the node's transform.
   EXPECT_NEAR((corner(mesh, 1, 1).position - V3d(20, 4, 5)).length(), 0, 1e-9);
   EXPECT_NEAR((corner(mesh, 1, 2).position - V3d(14, 0, 5)).length(), 0, 1e-9);
-  EXPECT_EQ(corner(mesh, 2, 1).position, V3d(0, 2, 5));  // mirrored: corners 1 and 2 change places
+  EXPECT_EQ(corner(mesh, 2, 1).position, V3d(0, 2, 5));  // mirrored: corners 1 and 2 are swapped
   EXPECT_EQ(corner(mesh, 2, 2).position, V3d(-2, 0, 5));
   file.nodes = nodes(R"("_ID":3)");
   EXPECT_EQ(import_mesh(folder.write("j.glb", file.glb())).triangles.size(), 3u);
@@ -738,7 +739,7 @@ TEST(Gltf, EveryInstanceIsDrawn) {
               HasSubstr("a node has 4000000000 instances, at most 1000000 are drawn"));
 }
 
-TEST(Gltf, HiddenNodesAreLeftOut) {
+TEST(Gltf, HiddenNodesAreOmitted) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -760,7 +761,7 @@ TEST(Gltf, HiddenNodesAreLeftOut) {
   EXPECT_THAT(import_error(folder.write("v.glb", file.glb())), HasSubstr("are hidden"));
 }
 
-TEST(Gltf, OptionalExtensionsThatAreNotReadAreNoted) {
+TEST(Gltf, UnsupportedOptionalExtensionsGiveNotes) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -776,7 +777,7 @@ TEST(Gltf, OptionalExtensionsThatAreNotReadAreNoted) {
               Not(Contains(HasSubstr("extensions"))));
 }
 
-TEST(Gltf, RequiredExtensionsThatAreNotReadAreNamed) {
+TEST(Gltf, UnsupportedRequiredExtensionsAreErrors) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -797,7 +798,7 @@ TEST(Gltf, RequiredExtensionsThatAreNotReadAreNamed) {
     file.extra = R"(,"extensionsRequired":[")" + name + R"("])";
     EXPECT_EQ(import_mesh(folder.write("r.glb", file.glb())).triangles.size(), 1u) << name;
   }
-  // Used, but not said to be required.
+  // Used, but not declared as required.
   file.extra = R"(,"extensionsUsed":["KHR_draco_mesh_compression"])";
   EXPECT_THAT(import_error(folder.write("r.gltf", file.json(""))),
               HasSubstr("without KHR_draco_mesh_compression, which is not read"));
@@ -808,7 +809,7 @@ TEST(Gltf, RequiredExtensionsThatAreNotReadAreNamed) {
               HasSubstr("its positions in KHR_draco_mesh_compression only"));
 }
 
-TEST(Gltf, TextureTakesItsImageFromAnExtension) {
+TEST(Gltf, TextureTakesItsImageFromExtension) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   write_image(folder / "other.png", gradient(8, 8));
@@ -842,7 +843,7 @@ TEST(Gltf, TextureTakesItsImageFromAnExtension) {
   EXPECT_THAT(files_of(folder, "t.glb"), ElementsAre("t.glb"));
 }
 
-TEST(Gltf, DiffuseOfSpecularGlossinessIsTheColour) {
+TEST(Gltf, SpecularGlossinessDiffuseIsTheColour) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -858,7 +859,7 @@ TEST(Gltf, DiffuseOfSpecularGlossinessIsTheColour) {
   EXPECT_EQ(import_mesh(folder.write("d.glb", file.glb())).materials[0].colour, V3d(1, 1, 1));
 }
 
-TEST(Gltf, CornersAfterTheLastWholeTriangleAreNoted) {
+TEST(Gltf, IncompleteTriangleGivesNote) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -879,7 +880,7 @@ TEST(Gltf, CornersAfterTheLastWholeTriangleAreNoted) {
   }
 }
 
-TEST(Gltf, WhatIsNotReadIsNoted) {
+TEST(Gltf, UnsupportedFeaturesGiveNotes) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -910,7 +911,7 @@ TEST(Gltf, WhatIsNotReadIsNoted) {
   EXPECT_EQ(corner(second, 0, 0).position, V3d(0, 0, 9));
 }
 
-TEST(Gltf, PlusSignOfAUriIsNotABlank) {
+TEST(Gltf, PlusSignInUriIsKept) {
   const TemporaryFolder folder;
   write_image(folder / "a+b.png", gradient(8, 8));
   GltfFile file;
@@ -922,7 +923,7 @@ TEST(Gltf, PlusSignOfAUriIsNotABlank) {
   EXPECT_EQ(import_mesh(folder.write("p.glb", file.glb())).textures.at(0).image, noise(4, 4));
 }
 
-TEST(Gltf, EmptyOrUnknownChunkAfterTheJsonIsIgnored) {
+TEST(Gltf, EmptyOrUnknownChunkAfterJsonIsIgnored) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   const GltfFile file;
@@ -935,7 +936,7 @@ TEST(Gltf, EmptyOrUnknownChunkAfterTheJsonIsIgnored) {
               HasSubstr("empty BIN chunk"));
 }
 
-TEST(Gltf, FlattenedNodeGetsNormalsOfItsFaces) {
+TEST(Gltf, FlattenedNodeGetsFaceNormals) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -947,7 +948,7 @@ TEST(Gltf, FlattenedNodeGetsNormalsOfItsFaces) {
   EXPECT_EQ(corner(import_mesh(folder.write("f.glb", file.glb())), 0, 0).normal, V3d(0, 0, 1));
 }
 
-TEST(Gltf, BrokenFilesAreNamed) {
+TEST(Gltf, ErrorNamesInvalidFile) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   auto error = [&](const GltfFile& file) {
@@ -1015,16 +1016,16 @@ TEST(Gltf, BrokenFilesAreNamed) {
   EXPECT_THAT(error(file), HasSubstr("mesh 4"));
 }
 
-TEST(Gltf, JsonOfMoreThanAThousandLevelsIsRejected) {
+TEST(Gltf, RejectsJsonOfMoreThanAThousandLevels) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
-  const auto lists = [](int levels) {  // brackets in a string are none, nor is a quote in one
+  const auto lists = [](int levels) {  // brackets and quotes within a string do not count
     const auto count = static_cast<std::size_t>(levels);
     return R"(,"extras":[")" + std::string(2000, '[') + R"(\"{[",)" + std::string(count, '[') +
            std::string(count, ']') + "]";
   };
-  file.extra = lists(998);  // in a list and in the file's object: 1000
+  file.extra = lists(998);  // within a list and the file's object: 1000
   EXPECT_EQ(import_mesh(folder.write("d.glb", file.glb())).triangles.size(), 1u);
   folder.write("t.bin", file.binary);
   for (const int levels : {999, 100'000}) {
@@ -1041,7 +1042,7 @@ TEST(Gltf, JsonOfMoreThanAThousandLevelsIsRejected) {
   EXPECT_THAT(import_error(folder.write("o.gltf", objects)), HasSubstr("nested more than 1000"));
 }
 
-// Each number of the file is allowed; what they ask for together is not.
+// Each number of the file is allowed, but not their product.
 TEST(Gltf, ProductsOfCountsAreLimited) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
@@ -1058,7 +1059,7 @@ TEST(Gltf, ProductsOfCountsAreLimited) {
   const auto error = [&] { return import_error(folder.write("p.glb", file.glb())); };
   const auto drawn = HasSubstr("draws more than 1000000 nodes, instances and primitives; split it");
   file.accessors = many;
-  file.index_count = 2;  // no triangle
+  file.index_count = 2;  // not a triangle
   file.primitive = R"({"attributes":{"POSITION":0},"indices":2})";
   file.nodes = doubled(1, instances);
   EXPECT_THAT(error(), drawn);
@@ -1068,7 +1069,7 @@ TEST(Gltf, ProductsOfCountsAreLimited) {
   for (int i = 0; i < 99; ++i) file.primitive += R"(,{"attributes":{"POSITION":0},"mode":1})";
   file.nodes = doubled(14, R"({"mesh":0})");
   EXPECT_THAT(error(), drawn);
-  // 600 000 positions of 3 numbers are read once more than 2^28 allows.
+  // 600 000 positions of 3 numbers: read once more than 2^28 allows.
   const auto read = HasSubstr("read more than 268435456 numbers of accessors; share less");
   file.primitive = R"({"attributes":{"POSITION":3},"indices":2})";
   file.nodes = doubled(8, R"({"mesh":0})");
@@ -1086,7 +1087,7 @@ TEST(Gltf, ProductsOfCountsAreLimited) {
   EXPECT_THAT(error(), read);
 }
 
-TEST(Gltf, MembersThatAreNotTheRightNumbersAreNamed) {
+TEST(Gltf, ErrorNamesMembersWithWrongNumbers) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   const auto error = [&](const GltfFile& file) {
@@ -1122,8 +1123,8 @@ TEST(Gltf, MembersThatAreNotTheRightNumbersAreNamed) {
   }
 }
 
-// A file cannot steer the terminal or fill it.
-TEST(Gltf, NamesAreShownShortAndWithoutControlCharacters) {
+// A file can neither control the terminal nor fill it.
+TEST(Gltf, NamesAreShortenedWithoutControlCharacters) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -1136,7 +1137,7 @@ TEST(Gltf, NamesAreShownShortAndWithoutControlCharacters) {
   EXPECT_EQ(used(R"("A\u001b[31m\u0007\n\u009b\u007f\u00e4")"), "A?[31m????\xC3\xA4");
   EXPECT_EQ(used('"' + std::string(64, 'x') + '"'), std::string(64, 'x'));
   EXPECT_EQ(used('"' + std::string(65, 'x') + '"'), std::string(64, 'x') + "...");
-  // A character of two bytes is not cut into half.
+  // A two-byte character is not split.
   EXPECT_EQ(used('"' + std::string(63, 'x') + "\xC3\xA4\""), std::string(63, 'x') + "...");
   std::string names, shown;
   for (int i = 10; i < 30; ++i) names += "\"E" + std::to_string(i) + "\",";
@@ -1151,7 +1152,7 @@ TEST(Gltf, NamesAreShownShortAndWithoutControlCharacters) {
               HasSubstr("texture '" + std::string(64, 'y') + "...' is missing"));
 }
 
-TEST(Gltf, Utf16IsNamed) {
+TEST(Gltf, ErrorNamesUtf16) {
   const TemporaryFolder folder;
   for (const std::string_view bytes :
        {std::string_view("\xFF\xFE{\0", 4), std::string_view("\xFE\xFF\0{", 4),
@@ -1160,7 +1161,7 @@ TEST(Gltf, Utf16IsNamed) {
                 HasSubstr("it is written in UTF-16; save it as UTF-8"));
 }
 
-TEST(Gltf, StripsAndFans) {
+TEST(Gltf, ReadsStripsAndFans) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile file;
@@ -1168,20 +1169,20 @@ TEST(Gltf, StripsAndFans) {
   file.primitive = R"({"attributes":{"POSITION":0},"indices":2,"mode":5})";
   const Mesh strip = import_mesh(folder.write("s.glb", file.glb()));
   ASSERT_EQ(strip.triangles.size(), 2u);
-  EXPECT_EQ(corner(strip, 1, 0).position, V3d(0, 1, 0));  // 2 1 0: every other one is turned
+  EXPECT_EQ(corner(strip, 1, 0).position, V3d(0, 1, 0));  // 2 1 0: every second one is reversed
   file.primitive = R"({"attributes":{"POSITION":0},"indices":2,"mode":6})";
   const Mesh fan = import_mesh(folder.write("f.glb", file.glb()));
   EXPECT_EQ(corner(fan, 1, 1).position, V3d(0, 1, 0));  // 0 2 0
 }
 
-// Numbers of every width, as shares and apart from each other; what is left out is noted.
-TEST(Gltf, QuantisedNumbersAndWhatIsLeftOut) {
+// Numbers of every width, normalised and strided; omitted parts give notes.
+TEST(Gltf, ReadsQuantisedNumbersAndNotesOmissions) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   GltfFile bytes;
   bytes.binary.clear();
   bytes.append<std::int16_t>(
-      {0, 0, 0, 9, 32767, 0, 0, 9, 0, -32768, 0, 9});  // 24 bytes, eight a vertex
+      {0, 0, 0, 9, 32767, 0, 0, 9, 0, -32768, 0, 9});  // 24 bytes, eight per vertex
   bytes.append<std::int8_t>({0, 0, 127, 9, 0, 0, 127, 9, 0, 0, 127, 9});  // 12
   bytes.append<std::uint16_t>({0, 0, 65535, 0, 0, 13107});                // 12: 13107 is a fifth
   bytes.append<std::uint8_t>({2, 1, 0, 51, 102, 255, 0, 0});              // 8
@@ -1229,7 +1230,7 @@ TEST(Gltf, QuantisedNumbersAndWhatIsLeftOut) {
   EXPECT_EQ(corner(other, 0, 1).uv.y, 1);
 }
 
-TEST(Gltf, DamagedBytesNeverCrash) {
+TEST(Gltf, CorruptBytesDoNotCrash) {
   const TemporaryFolder folder;
   write_image(folder / "wood.png", noise(4, 4));
   const std::string good = GltfFile().glb();

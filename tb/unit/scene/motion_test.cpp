@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cameras that turn and move, and the flicker that is measured between their pictures.
+// Rotating and moving cameras, and the flicker that is measured between their images.
 #include "tb/scene/motion.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using Imath::V3d;
 
 Camera camera() { return {V3d(1, 2, 3), V3d(0, 0.5, -1), V3d(0, 1, 0), 0.7, 0.1}; }
 
-TEST(Motion, NoRollAndFrameZeroAreTheCameraItself) {
+TEST(Motion, FrameZeroKeepsTheCamera) {
   const Camera c = camera();
   EXPECT_EQ(rolled(c, 0).up, c.up);
   for (const Motion motion : {Motion::kZoom, Motion::kRoll, Motion::kPan}) {
@@ -27,7 +27,7 @@ TEST(Motion, NoRollAndFrameZeroAreTheCameraItself) {
   }
 }
 
-TEST(Motion, ARollTurnsUpClockwiseAboutTheView) {
+TEST(Motion, RollRotatesUpClockwise) {
   const Camera c{V3d(0, 0, 1), V3d(0, 0, 0), V3d(0, 1, 0), 0.7, 0.1};
   const V3d quarter = rolled(c, 90).up, eighth = rolled(c, 45).up;
   EXPECT_NEAR(quarter.x, 1, 1e-12);
@@ -37,7 +37,7 @@ TEST(Motion, ARollTurnsUpClockwiseAboutTheView) {
   EXPECT_NEAR(rolled(camera(), 33).up.dot(camera().target - camera().eye), 0, 1e-12);
 }
 
-TEST(Motion, StepsAreThoseOfTheContract) {
+TEST(Motion, StepsMatchTheContract) {
   const Camera c = camera();
   EXPECT_NEAR(moved(c, Motion::kZoom, 10).fov_y, 0.7 * std::pow(0.99, 10), 1e-12);
   EXPECT_EQ(moved(c, Motion::kRoll, 7).up, rolled(c, 21).up);
@@ -46,7 +46,7 @@ TEST(Motion, StepsAreThoseOfTheContract) {
   EXPECT_NEAR(std::acos(before.dot(after)), 8 * 0.7 / 400, 1e-9);
 }
 
-TEST(Motion, APanTurnsToTheRight) {
+TEST(Motion, PanTurnsRight) {
   const Camera c{V3d(0, 0, 2), V3d(0, 0, 0), V3d(0, 1, 0), 0.8, 0.1};
   const Camera panned = moved(c, Motion::kPan, 50);  // 0.1 radian, two units away
   EXPECT_NEAR(panned.target.x, 2 * std::tan(0.1), 1e-12);
@@ -55,7 +55,7 @@ TEST(Motion, APanTurnsToTheRight) {
   EXPECT_EQ(panned.fov_y, c.fov_y);
 }
 
-TEST(Flicker, IsWhatChangesMoreOrLessThanTheTruth) {
+TEST(Flicker, MeasuresChangeBeyondTheReference) {
   const Image dark(2, 1, {10, 10, 10, 255}), bright(2, 1, {40, 40, 40, 255});
   Image half = bright;
   half.at(0, 0) = {25, 40, 40, 255};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: does an OBJ arrive with the area, the materials and the notes that its text says?
+// OBJ import: area, materials and notes are those that the text defines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ using ::testing::Not;
 using Point = Imath::Vec2<long>;
 using Outline = std::vector<Point>;
 
-// A plane of the points (x, y): origin + x u + y v. Whole numbers, so that every area is exact.
+// A plane of the points (x, y): origin + x u + y v. Integers, so that every area is exact.
 struct Plane {
   V3d u, v, origin;
   V3d at(const Point& p) const {
@@ -60,7 +60,7 @@ Mesh import_outline(const Outline& outline, const Plane& plane = kScreen) {
   return import_mesh(folder.write("outline.obj", obj_of(outline, plane)));
 }
 
-// Twice the area, positive if it is counter-clockwise (Gauss' formula).
+// Twice the area, positive if counter-clockwise (Gauss' formula).
 long shoelace(const Outline& outline) {
   long sum = 0;
   for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -92,7 +92,7 @@ bool is_between(const Point& a, const Point& b, const Point& p) {
   return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
          p.y <= std::max(a.y, b.y);
 }
-// Two closed segments have a point in common.
+// Whether two closed segments have a common point.
 bool meet(const Point& a, const Point& b, const Point& c, const Point& d) {
   const long ac = turn(a, b, c), ad = turn(a, b, d), ca = turn(c, d, a), cb = turn(c, d, b);
   if ((ac > 0) != (ad > 0) && (ca > 0) != (cb > 0) && ac != 0 && ad != 0 && ca != 0 && cb != 0)
@@ -101,7 +101,8 @@ bool meet(const Point& a, const Point& b, const Point& c, const Point& d) {
          (ca == 0 && is_between(c, d, a)) || (cb == 0 && is_between(c, d, b));
 }
 
-// Points in any order, turned round between two edges that meet until none do; empty if that fails.
+// Random points; reverses the part between two crossing edges until no edges cross. Empty if that
+// fails.
 Outline simple_outline(Random& random, std::size_t corners, int size) {
   Outline outline;
   while (outline.size() < corners) {
@@ -114,7 +115,7 @@ Outline simple_outline(Random& random, std::size_t corners, int size) {
     for (std::size_t i = 0; i < corners && simple; ++i) {
       if (turn(corner(i), corner(i + 1), corner(i + 2)) == 0 &&
           !is_between(corner(i), corner(i + 2), corner(i + 1)))
-        return {};  // an edge that goes back along another
+        return {};  // an edge that runs back along another
       for (std::size_t j = i + 2; j < corners - (i == 0 ? 1 : 0) && simple; ++j) {
         if (!meet(corner(i), corner(i + 1), corner(j), corner(j + 1))) continue;
         std::reverse(outline.begin() + static_cast<std::ptrdiff_t>(i) + 1,
@@ -137,8 +138,8 @@ bool is_inside(const Outline& outline, const V2d& p) {
   return inside;
 }
 
-// Every side of a triangle is a side of the outline, or one of a neighbour that passes it the other
-// way: so no edge of the mesh is a false boundary.
+// Every side of a triangle is a side of the outline, or of a neighbour in the opposite direction:
+// so no edge of the mesh is a false boundary.
 std::string sides_that_do_not_fit(const Mesh& mesh, std::size_t corners) {
   using Place = std::array<double, 3>;
   std::map<std::pair<Place, Place>, int> sides;
@@ -157,10 +158,10 @@ std::string sides_that_do_not_fit(const Mesh& mesh, std::size_t corners) {
   return border == corners ? "" : "the border has " + std::to_string(border) + " sides";
 }
 
-// ---- faces --------------------------------------------------------------------------------------
+// ---- Faces -------------------------------------------------------------------------------------
 
-TEST(ObjPolygon, ConcaveFaceHasTheFragmentsOfItsArea) {
-  // In quarters of a unit; 16 pixels a unit, and 2.5 units.
+TEST(ObjPolygon, ConcaveFaceHasFragmentsOfItsArea) {
+  // In quarters of a unit; 16 pixels per unit, and 2.5 units.
   Outline c = {{-4, -4}, {4, -4}, {4, -2}, {-2, -2}, {-2, 2}, {4, 2}, {4, 4}, {-4, 4}};
   const Plane quarters{{0.25, 0, 0}, {0, 0.25, 0}, {0, 0, 0}};
   for (const bool turned : {false, true}) {
@@ -214,9 +215,9 @@ TEST(ObjPolygon, TrianglesTileEverySimplePolygon) {
   EXPECT_GT(simple, 500);
 }
 
-// A wall whose neighbours have corners along its sides: no triangle may lie in a side, since its
+// A wall whose neighbours have corners along its sides: no triangle may be degenerate, since its
 // sides would be edges of faces without area.
-TEST(ObjPolygon, CornersAlongASideMakeNoFlatTriangles) {
+TEST(ObjPolygon, CornersAlongSideMakeNoFlatTriangles) {
   Outline comb;
   for (long k = 0; k < 40; ++k) comb.push_back({k % 2 == 0 ? 0 : 50, k});
   comb.push_back({-1, 40});
@@ -229,7 +230,7 @@ TEST(ObjPolygon, CornersAlongASideMakeNoFlatTriangles) {
   EXPECT_EQ(sides_that_do_not_fit(mesh, comb.size()), "");
 }
 
-TEST(ObjPolygon, CornersKeepTheirTextureCoordinatesAndNormals) {
+TEST(ObjPolygon, CornersKeepTextureCoordinatesAndNormals) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(
       folder.write("l.obj",
@@ -257,7 +258,7 @@ TEST(ObjPolygon, CornersKeepTheirTextureCoordinatesAndNormals) {
   }
 }
 
-TEST(ObjPolygon, BridgeToAHoleLeavesTheHoleOpen) {
+TEST(ObjPolygon, BridgeToHoleLeavesHoleOpen) {
   // A square of three with a hole of one, the bridge at the corner; then two holes.
   Outline one = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
   Outline two = {{0, 0}, {9, 0}, {9, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2},
@@ -274,7 +275,7 @@ TEST(ObjPolygon, BridgeToAHoleLeavesTheHoleOpen) {
   }
 }
 
-TEST(ObjPolygon, FaceThatCrossesItselfIsFilledAndNamed) {
+TEST(ObjPolygon, SelfIntersectingFaceIsFilledAndNamed) {
   const TemporaryFolder folder;
   const Mesh bow = import_mesh(folder.write(
       "bow.obj",
@@ -290,8 +291,8 @@ TEST(ObjPolygon, FaceThatCrossesItselfIsFilledAndNamed) {
   ASSERT_NE(centre, bow.vertices.end());
   EXPECT_EQ(centre->uv, V2d(0.5, 0.5));
   EXPECT_NEAR((centre->normal - V3d(1, 0, 1).normalized()).length(), 0, 1e-6);
-  // A pentagram is filled with its middle: ten triangles between the centre, five points and five
-  // crossings, of which a radius of 1 gives an area of 10 sin(36) cos(72) / (2 cos(36)).
+  // A pentagram is filled including its middle: ten triangles between the centre, five points and
+  // five crossings. With a radius of 1 the area is 10 sin(36) cos(72) / (2 cos(36)).
   std::string star;
   for (int k = 0; k < 5; ++k) {
     const double angle = 4 * std::numbers::pi * k / 5;
@@ -304,7 +305,7 @@ TEST(ObjPolygon, FaceThatCrossesItselfIsFilledAndNamed) {
   EXPECT_THAT(filled.notes, Contains(HasSubstr("1, the first in line 6")));
 }
 
-TEST(ObjPolygon, FacesWithoutAreaAreNamedAndTheOthersDrawn) {
+TEST(ObjPolygon, FacesWithoutAreaAreNamedOthersDrawn) {
   const TemporaryFolder folder;
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\n";
   for (const std::string face : {"1 2 3", "1 2 3 4", "1 2 1 5", "1 1 1 1", "1 2 3 4 3 2"}) {
@@ -316,7 +317,7 @@ TEST(ObjPolygon, FacesWithoutAreaAreNamedAndTheOthersDrawn) {
   }
   EXPECT_THAT(file_error([&] { import_mesh(folder.write("a.obj", vertices + "f 1 2 3 4\n")); }),
               HasSubstr("line 6: a face has no area, and no other face has one"));
-  // A corner that is there twice takes nothing away.
+  // A repeated corner changes nothing.
   for (const std::string face : {"1 2 5 5", "1 2 2 5 5", "1 1 2 2 5"}) {
     const Mesh mesh = import_mesh(folder.write("a.obj", vertices + "f " + face + "\n"));
     ASSERT_EQ(mesh.triangles.size(), 1u) << face;
@@ -325,8 +326,7 @@ TEST(ObjPolygon, FacesWithoutAreaAreNamedAndTheOthersDrawn) {
   }
 }
 
-// The order of these corners is what it was before faces went to a tessellator.
-TEST(ObjPolygon, ConvexQuadIsCutAlongItsShorterDiagonal) {
+TEST(ObjPolygon, ConvexQuadIsCutAlongShorterDiagonal) {
   const TemporaryFolder folder;
   const auto order = [&](const std::string& vertices) {
     const Mesh mesh = import_mesh(folder.write("q.obj", vertices + "f 1 2 3 4\n"));
@@ -343,8 +343,8 @@ TEST(ObjPolygon, ConvexQuadIsCutAlongItsShorterDiagonal) {
   EXPECT_EQ(order("v 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 0\n"), "01 11 00 11 10 00 ") << "clockwise";
 }
 
-// Along the shorter diagonal one triangle would be in the side with three corners.
-TEST(ObjPolygon, QuadWithThreeCornersOnALineIsCutAtTheMiddleOne) {
+// Along the shorter diagonal one triangle would be degenerate: three corners on one line.
+TEST(ObjPolygon, QuadWithCollinearCornersIsCutAtMiddleOne) {
   for (std::size_t first = 0; first < 4; ++first) {
     Outline kite = {{0, 0}, {1, 0}, {2, 0}, {1, 9}};
     std::rotate(kite.begin(), kite.begin() + static_cast<std::ptrdiff_t>(first), kite.end());
@@ -354,7 +354,7 @@ TEST(ObjPolygon, QuadWithThreeCornersOnALineIsCutAtTheMiddleOne) {
   }
 }
 
-TEST(ObjPolygon, AnArrowOfFourCornersIsCutInside) {
+TEST(ObjPolygon, ConcaveQuadIsCutInside) {
   for (std::size_t first = 0; first < 4; ++first) {
     Outline arrow = {{0, 0}, {10, -1}, {8, 0}, {10, 1}};  // the line between its ends is outside
     std::rotate(arrow.begin(), arrow.begin() + static_cast<std::ptrdiff_t>(first), arrow.end());
@@ -365,7 +365,7 @@ TEST(ObjPolygon, AnArrowOfFourCornersIsCutInside) {
   }
 }
 
-TEST(ObjPolygon, TenThousandCornersAreTakenAndMoreThanTheLimitIsNot) {
+TEST(ObjPolygon, AcceptsTenThousandCornersUpToLimit) {
   const auto star = [](int corners) {
     Outline outline;
     for (int k = 0; k < corners; ++k) {
@@ -383,8 +383,9 @@ TEST(ObjPolygon, TenThousandCornersAreTakenAndMoreThanTheLimitIsNot) {
               AllOf(HasSubstr("line 32770: a face has 32769 corners, the limit is 32768")));
 }
 
-// Random chords cross in about a quarter of the pairs: 300 more than 4096 times, 128 less often.
-TEST(ObjPolygon, FaceThatCrossesItselfTooOftenIsAnError) {
+// Random chords cross in about a quarter of the pairs: 300 cross more than 4096 times, 128 less
+// often.
+TEST(ObjPolygon, RejectsFaceWithTooManyCrossings) {
   const auto tangle = [](int corners) {
     Random random(3);
     Outline outline;
@@ -399,8 +400,8 @@ TEST(ObjPolygon, FaceThatCrossesItselfTooOftenIsAnError) {
                           ": a face crosses itself more than 4096"));
 }
 
-// tinyobjloader keeps eight bits of a face's corners.
-TEST(ObjPolygon, FacesOf256CornersAreToldApart) {
+// tinyobjloader keeps eight bits of a face's corner count.
+TEST(ObjPolygon, ReadsFacesOf256Corners) {
   std::string text;
   for (int k = 0; k < 256; ++k) {
     const double angle = 2 * std::numbers::pi * k / 256;
@@ -414,7 +415,7 @@ TEST(ObjPolygon, FacesOf256CornersAreToldApart) {
   EXPECT_EQ(mesh.triangles.size(), 1u + 254 + 254 + 2);
 }
 
-// ---- materials ----------------------------------------------------------------------------------
+// ---- Materials ---------------------------------------------------------------------------------
 
 const char* const kMapped =
     "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0.5 1\nf 1/1 2/2 3/3\n";
@@ -424,7 +425,7 @@ Mesh import_mapped(const TemporaryFolder& folder, const std::string& material) {
   return import_mesh(folder.write("m.obj", kMapped));
 }
 
-TEST(ObjMaterial, ScaleOffsetAndClampOfAMapAreApplied) {
+TEST(ObjMaterial, AppliesScaleOffsetAndClampOfMap) {
   const TemporaryFolder folder;
   write_image(folder / "2048.png", noise(8, 8));
   const auto uv = [](const Mesh& mesh) {
@@ -441,12 +442,12 @@ TEST(ObjMaterial, ScaleOffsetAndClampOfAMapAreApplied) {
     EXPECT_EQ(mesh.textures.at(0).wrap_s, spec::texture::Wrap::kRepeat);
     EXPECT_THAT(mesh.notes, Each(Not(HasSubstr("left out"))));
   }
-  // A number that is not there is 1 of a scale, 0 of an offset.
+  // A missing number is 1 in a scale, 0 in an offset.
   const Mesh one = import_mapped(folder, "newmtl a\nmap_Kd -clamp on -s 2 -o 1 2048.png\n");
   EXPECT_EQ(uv(one), (std::array<V2d, 3>{V2d(1, 1), V2d(3, 1), V2d(2, 0)}));
   EXPECT_EQ(one.textures.at(0).wrap_s, spec::texture::Wrap::kClampToEdge);
   EXPECT_EQ(one.textures.at(0).wrap_t, spec::texture::Wrap::kClampToEdge);
-  // With a texture of the command line, too.
+  // Also with a texture of the command line.
   EXPECT_EQ(uv(import_mesh(folder / "m.obj", {.textures = false})), uv(one));
 }
 
@@ -462,7 +463,7 @@ TEST(ObjMaterial, OneImageMayBeClampedAndRepeated) {
   EXPECT_EQ(mesh.textures[0].image, mesh.textures[1].image);
 }
 
-TEST(ObjMaterial, OneNumberOfKdIsAGrey) {
+TEST(ObjMaterial, OneNumberOfKdIsGrey) {
   const TemporaryFolder folder;
   const auto colour = [&](const std::string& kd) {
     return import_mapped(folder, "newmtl a\n" + kd + "\n").materials.at(0).colour;
@@ -473,7 +474,7 @@ TEST(ObjMaterial, OneNumberOfKdIsAGrey) {
   EXPECT_EQ(colour("Kd .5 2.5e-1 +1"), V3d(0.5, 0.25, 1));
 }
 
-TEST(ObjMaterial, WhatIsNotReadIsNamedWithItsLine) {
+TEST(ObjMaterial, UnsupportedStatementsAreNamedWithLine) {
   const TemporaryFolder folder;
   write_image(folder / "t.png", noise(8, 8));
   const auto left_out = [&](const std::string& lines) {
@@ -503,7 +504,7 @@ TEST(ObjMaterial, WhatIsNotReadIsNamedWithItsLine) {
             V3d(0.5, 0.25, 0));
 }
 
-TEST(ObjMaterial, KdThatIsNotANumberIsGreyAndNoted) {
+TEST(ObjMaterial, KdThatIsNotNumberIsGreyAndNoted) {
   const TemporaryFolder folder;
   for (const std::string kd :
        {"red", "nan", "1 nan 0", "1 abc 0", "1 0,5 0", "0,5 0,5 0,5", "1 1 1e999", "1 x # y"}) {
@@ -515,7 +516,7 @@ TEST(ObjMaterial, KdThatIsNotANumberIsGreyAndNoted) {
   }
 }
 
-TEST(ObjMaterial, MaterialWithoutAColourIsGreyAndNoted) {
+TEST(ObjMaterial, MaterialWithoutColourIsGreyAndNoted) {
   const TemporaryFolder folder;
   write_image(folder / "t.png", noise(8, 8));
   const Mesh mesh = import_mapped(folder, "# c\nnewmtl a\nKa 1 1 1\nnewmtl b\nmap_Kd t.png\n");
@@ -526,7 +527,7 @@ TEST(ObjMaterial, MaterialWithoutAColourIsGreyAndNoted) {
               Each(Not(HasSubstr("left out"))));
 }
 
-TEST(ObjMaterial, ALineThatEndsWithABackslashGoesOn) {
+TEST(ObjMaterial, BackslashContinuesLine) {
   const TemporaryFolder folder;
   write_image(folder / "a #1.png", noise(8, 8));
   for (const std::string end : {"\n", "\r\n"}) {
@@ -539,9 +540,9 @@ TEST(ObjMaterial, ALineThatEndsWithABackslashGoesOn) {
   }
 }
 
-// ---- text ---------------------------------------------------------------------------------------
+// ---- Text --------------------------------------------------------------------------------------
 
-TEST(ObjText, ByteOrderMarksAreNoStatements) {
+TEST(ObjText, ByteOrderMarksAreIgnored) {
   const TemporaryFolder folder;
   const std::string mark = "\xEF\xBB\xBF";
   folder.write("m.mtl", mark + "newmtl a\nKd 0.5 0.25 0.125\n");
@@ -565,7 +566,7 @@ TEST(ObjText, ByteOrderMarksAreNoStatements) {
               HasSubstr("'m.mtl' is written in UTF-16"));
 }
 
-TEST(ObjText, WhatIsNotReadIsNamedWithItsLine) {
+TEST(ObjText, UnsupportedStatementsAreNamedWithLine) {
   const TemporaryFolder folder;
   const auto notes = [&](const std::string& lines) {
     return import_mesh(folder.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n" + lines)).notes;
@@ -581,7 +582,7 @@ TEST(ObjText, WhatIsNotReadIsNamedWithItsLine) {
       notes("1 2 3\n\x01\n"),
       Contains("statements that were left out: '1' (line 5), what is no statement (line 6)"));
   EXPECT_EQ(notes("# c\n\n \no x\ng y z\ns off\ns 1\nmg 1 2\nlod 3\nbevel on\n").size(), usual);
-  // A note has an end, whatever the file is.
+  // A note has a limited length for any file.
   std::string much;
   for (int k = 0; k < 500; ++k) much += "x" + std::to_string(k) + " 1\n";
   EXPECT_THAT(notes(much), Contains(AllOf(HasSubstr("'x11' (line 16) and 488 more lines"))));
@@ -598,7 +599,7 @@ TEST(ObjText, NotesHaveNoControlCharacters) {
               HasSubstr("'?[31m' in a vertex"));
 }
 
-TEST(ObjText, ACommentMayFollowNumbers) {
+TEST(ObjText, CommentMayFollowNumbers) {
   const TemporaryFolder folder;
   for (const std::string end : {"\n", "\r\n"}) {
     const Mesh mesh = import_mesh(folder.write(

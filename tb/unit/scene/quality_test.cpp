@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: do the measures of quality, and the pictures made of pictures, give the known answers?
+// Image quality measures and image compositions give the known results.
 #include "tb/scene/quality.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace deburr::tb::quality_test {
 namespace {
 
-TEST(Quality, PsnrKnownAnswers) {
+TEST(Quality, PsnrGivesKnownValues) {
   const Image a(10, 10, {100, 100, 100, 255});
   EXPECT_TRUE(std::isinf(psnr(a, a)));
   EXPECT_NEAR(psnr(a, Image(10, 10, {101, 101, 101, 0})), 48.1308, 1e-4);    // alpha does not count
@@ -39,7 +39,7 @@ TEST(Quality, PsnrKnownAnswers) {
   EXPECT_EQ(count_different(a, b, inverted(mask)), 0) << "it is not selected";
 }
 
-TEST(Quality, EdgesAndSilhouettes) {
+TEST(Quality, MasksEdgesAndSilhouettes) {
   Image reference(5, 1, {50, 50, 50, 255}), input = reference;
   input.at(1, 0)[2] = 52;  // 2: not an edge
   input.at(2, 0)[0] = 47;  // 3: an edge
@@ -57,14 +57,14 @@ TEST(Quality, EdgesAndSilhouettes) {
   EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
   for (float& value : depth.pixels) value = 1.0f / value;  // distances instead of inverse depth
   EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
-  // Background against background is no step; against a surface it is.
+  // Between two background pixels there is no step; between background and a surface there is.
   const float infinity = std::numeric_limits<float>::infinity();
   depth.pixels = {1.0f, 0.0f, infinity, 0.0f, 0.5f};
   EXPECT_EQ(silhouette_mask(edges, depth).pixels, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
 }
 
-// A step to any of the four neighbours, and none across the picture's border.
-TEST(Quality, SilhouettesLookAtFourNeighbours) {
+// A step to any of the four neighbours counts; pixels beyond the image border do not.
+TEST(Quality, SilhouettesUseFourNeighbours) {
   Mask edges(4, 3, 1);
   DepthImage depth(4, 3, 1.0f);
   depth.at(2, 1) = 0.5f;
@@ -74,27 +74,28 @@ TEST(Quality, SilhouettesLookAtFourNeighbours) {
   EXPECT_EQ(silhouette_mask(edges, depth).pixels,
             (std::vector<std::uint8_t>{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0}));
   depth = DepthImage(4, 3, 1.0f);
-  depth.at(0, 2) = 1.05f;  // just no step of 5 % and just one
+  depth.at(0, 2) = 1.05f;  // just below a step of 5 % and just above
   EXPECT_EQ(count(silhouette_mask(edges, depth, 0.051)), 0);
   EXPECT_EQ(count(silhouette_mask(edges, depth, 0.049)), 3);
   EXPECT_THROW(silhouette_mask(edges, DepthImage(3, 4)), spec::ConfigError);
 }
 
 // docs/reference/run.md#several-frames, by hand.
-TEST(Flicker, KnownAnswers) {
+TEST(Flicker, GivesKnownValues) {
   const Mask all(2, 1, 1);
   FlickerMeter meter;
   EXPECT_EQ(meter.mean(), 0);
   const auto frame = [](std::uint8_t left, std::uint8_t right) {
     Image image(2, 1, {left, left, left, 255});
-    image.at(1, 0) = {right, right, right, 7};  // no alpha counts
+    image.at(1, 0) = {right, right, right, 7};  // alpha does not count
     return image;
   };
   meter.add(frame(10, 50), frame(10, 50), all);
   EXPECT_EQ(meter.mean(), 0);
   meter.add(frame(16, 50), frame(10, 52), all);  // 6 and -2 more than the reference
   EXPECT_DOUBLE_EQ(meter.mean(), std::sqrt((36.0 + 4.0) / 2));
-  meter.add(frame(10, 50), frame(10, 50), all);  // the same back: the first of equals is the worst
+  meter.add(frame(10, 50), frame(10, 50),
+            all);  // the same change reversed: of equal changes, the first is the worst
   EXPECT_DOUBLE_EQ(meter.worst(), std::sqrt(20.0));
   EXPECT_EQ(meter.worst_frame(), 1);
   meter.add(frame(13, 50), frame(10, 50), all);
@@ -102,7 +103,7 @@ TEST(Flicker, KnownAnswers) {
   EXPECT_EQ(meter.frames(), 4);
 }
 
-TEST(Flicker, CountsPixelsThatBothFramesDraw) {
+TEST(Flicker, CountsPixelsDrawnInBothFrames) {
   Mask left(2, 1), both(2, 1, 1), right(2, 1);
   left.at(0, 0) = right.at(1, 0) = 1;
   const Image black(2, 1, {0, 0, 0, 255}), grey(2, 1, {8, 8, 8, 255});
@@ -111,9 +112,9 @@ TEST(Flicker, CountsPixelsThatBothFramesDraw) {
   FlickerMeter meter;
   meter.add(black, black, left);
   meter.add(half, black, both);
-  EXPECT_DOUBLE_EQ(meter.mean(), 4);  // and not of the right pixel, which stays
+  EXPECT_DOUBLE_EQ(meter.mean(), 4);  // without the right pixel, which does not change
   meter.add(black, black, left);
-  meter.add(grey, black, right);  // no pixel in both: it does not count
+  meter.add(grey, black, right);  // no pixel drawn in both: the pair does not count
   EXPECT_DOUBLE_EQ(meter.mean(), 4);
   EXPECT_DOUBLE_EQ(meter.worst(), 4);
 }
@@ -125,7 +126,7 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
   EXPECT_EQ(difference(a, b, 8).at(0, 0), (Rgba8{0, 0, 0, 255}));
   EXPECT_EQ(difference(a, b, 100).at(1, 1), (Rgba8{255, 0, 255, 255}));
 
-  const Image cut = crop(b, 3, 1, 2, 5);  // moved inside: columns 2..3, rows 0..1
+  const Image cut = crop(b, 3, 1, 2, 5);  // clamped to columns 2..3, rows 0..1
   EXPECT_EQ(cut.width, 2);
   EXPECT_EQ(cut.height, 2);
   EXPECT_EQ(crop(b, 1, 1, 1, 1).at(0, 0), (Rgba8{15, 20, 0, 0}));
@@ -140,7 +141,7 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
   EXPECT_EQ(page.height, 2 + 3 + 2);
   EXPECT_EQ(page.at(8, 1), b.at(1, 1));
   EXPECT_EQ(page.at(4, 0), red);
-  EXPECT_EQ(page.at(3, 6), red);  // the smaller cell does not fill its place
+  EXPECT_EQ(page.at(3, 6), red);  // the smaller cell does not fill its space
   Image framed = a;
   Mask first(4, 2);
   first.at(0, 0) = 1;
@@ -152,8 +153,8 @@ TEST(Compose, DifferenceCropZoomAndSheet) {
   EXPECT_EQ(framed.at(3, 0), a.at(3, 0));
 }
 
-// Pixel by pixel: "#" is drawn, a digit is the red of what was there.
-TEST(Compose, PicturesByThePixel) {
+// Pixel by pixel: "#" is drawn, a digit is the red of the original.
+TEST(Compose, DrawsExpectedPixels) {
   const auto text = [](const Image& image) {
     std::string all;
     for (int y = 0; y < image.height; ++y, all += '|')
@@ -191,7 +192,7 @@ TEST(Compose, PicturesByThePixel) {
   EXPECT_EQ(text(onto), "012|345|6##|");
 }
 
-TEST(DepthCodes, AreRoundedTo24Bits) {
+TEST(DepthCodes, RoundTo24Bits) {
   DepthImage depth(8, 1);
   depth.pixels = {0.0f, 1.0f, 0.5f, -1.0f, 2.0f, std::nanf(""), 1.4f / 0xFFFFFF, 1.6f / 0xFFFFFF};
   EXPECT_EQ(depth_codes(depth),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Question: does every pixel get the fragments that geometry says, with the coordinates that
-// perspective says, always the same ones?
+// Every pixel gets the fragments that geometry defines, with perspective-correct coordinates,
+// always the same ones.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ RasterOptions options(int width, int height, Visibility visibility = Visibility:
   return {width, height, traversal, visibility};
 }
 
-// How many fragments each pixel gets from all triangles.
+// The number of fragments of each pixel, over all triangles.
 ImageOf<int> fragments_per_pixel(const FragmentStream& stream) {
   ImageOf<int> count(stream.width, stream.height);
   for (const spec::texture::Quad& quad : stream.quads)
@@ -45,11 +45,10 @@ ImageOf<int> overdraw(const Scene& scene, int size) {
   return fragments_per_pixel(rasterise(scene, options(size, size, Visibility::kOverdraw)));
 }
 
-// ---- coverage -----------------------------------------------------------------------------------
+// ---- Coverage ----------------------------------------------------------------------------------
 
-// A mesh over the whole screen and beyond, with vertices moved at random; `snap` puts them on
-// multiples of 1/snap pixel, so that many lie exactly on pixel centres and many edges run through
-// them.
+// A mesh larger than the screen with randomly moved vertices; `snap` puts them on multiples of
+// 1/snap pixel, so that many lie exactly on pixel centres and many edges run through them.
 void add_random_mesh(FlatScreen& screen, int size, std::uint32_t seed, double snap, double jitter) {
   Random random(seed);
   const auto offset = [&] { return random.uniform(-jitter, jitter); };
@@ -66,7 +65,7 @@ void add_random_mesh(FlatScreen& screen, int size, std::uint32_t seed, double sn
   for (std::size_t j = 0; j < kCells; ++j) {
     for (std::size_t i = 0; i < kCells; ++i) {
       const auto a = grid[j][i], b = grid[j][i + 1], c = grid[j + 1][i], d = grid[j + 1][i + 1];
-      // Either diagonal and either orientation: the rule must not depend on them.
+      // Either diagonal and either orientation: the fill rule must not depend on them.
       if (random.chance(500)) {
         screen.triangle(a, b, d);
         screen.triangle(c, a, d);
@@ -91,7 +90,7 @@ TEST(Coverage, NeighboursCoverEveryPixelExactlyOnce) {
   }
 }
 
-TEST(Coverage, AFanAroundAPixelCentreCoversItOnce) {
+TEST(Coverage, FanAroundPixelCentreCoversItOnce) {
   for (int corners = 3; corners <= 16; ++corners) {
     FlatScreen screen(32);
     const auto centre = screen.vertex(16.5, 16.5);
@@ -107,7 +106,7 @@ TEST(Coverage, AFanAroundAPixelCentreCoversItOnce) {
   }
 }
 
-TEST(Coverage, ThePlantedFaultsAreSeen) {
+TEST(Coverage, DetectsInjectedFaults) {
   FlatScreen screen(64);
   add_random_mesh(screen, 64, 1, 256.0, 2.0);
   Scene gap = screen.scene(), twice = screen.scene();
@@ -117,7 +116,7 @@ TEST(Coverage, ThePlantedFaultsAreSeen) {
   EXPECT_THAT(overdraw(twice, 64).pixels, ::testing::Contains(2));
 }
 
-TEST(Coverage, TopLeftRuleOfARectangle) {
+TEST(Coverage, RectangleFollowsTopLeftRule) {
   FlatScreen screen(16);
   screen.rectangle(2.5, 3.5, 6.5, 5.5);  // all four sides run through pixel centres
   const ImageOf<int> count = overdraw(screen.scene(), 16);
@@ -126,7 +125,7 @@ TEST(Coverage, TopLeftRuleOfARectangle) {
       EXPECT_EQ(count.at(x, y), x >= 2 && x < 6 && y >= 3 && y < 5 ? 1 : 0) << x << "," << y;
 }
 
-TEST(Coverage, VerticesSnapToOne256thOfAPixel) {
+TEST(Coverage, VerticesSnapToOne256thOfPixel) {
   for (const double shift : {0.49 / 256, -0.49 / 256}) {
     FlatScreen screen(16);
     screen.rectangle(2.5 + shift, 2, 4.5, 4);
@@ -137,10 +136,10 @@ TEST(Coverage, VerticesSnapToOne256thOfAPixel) {
   EXPECT_EQ(overdraw(screen.scene(), 16).at(2, 3), 0);
 }
 
-// ---- coordinates --------------------------------------------------------------------------------
+// ---- Coordinates -------------------------------------------------------------------------------
 
-// Where the ray through a picture position meets the plane of a triangle, in double and without any
-// of the rasteriser's steps.
+// The intersection of the ray through an image position with the plane of a triangle, in double and
+// independent of the rasteriser's steps.
 class RayReference {
  public:
   RayReference(const Camera& camera, int width, int height) : camera_(camera) {
@@ -190,8 +189,9 @@ Scene random_triangle(std::uint32_t seed) {
   return scene;
 }
 
-// Largest |got - reference| of all lanes, in units of what a vertex moved by half a subpixel may
-// cause.
+// Largest
+// got - reference
+// over all lanes, relative to the effect of moving a vertex by half a subpixel.
 struct Deviation {
   double worst = 0.0;
   int lanes = 0, helpers = 0;
@@ -207,7 +207,7 @@ Deviation compare(const Scene& scene, int size) {
       const Triangle& triangle = scene.mesh.triangles[0];
       const V3d want = rays.coordinates(scene.mesh, triangle, x, y);
       if (want.z <= 0.02 || (quad.clamped >> lane & 1) != 0) continue;
-      // The plane's own change over two pixels bounds what snapping can do to it.
+      // The change of the plane over two pixels bounds the effect of snapping.
       const V3d left = rays.coordinates(scene.mesh, triangle, x - 1, y),
                 right = rays.coordinates(scene.mesh, triangle, x + 1, y),
                 above = rays.coordinates(scene.mesh, triangle, x, y - 1),
@@ -217,7 +217,7 @@ Deviation compare(const Scene& scene, int size) {
         const double change = std::abs(right[k] - left[k]) + std::abs(below[k] - above[k]);
         const auto index = static_cast<std::size_t>(lane);
         double difference = (k == 0 ? quad.s[index] : quad.t[index]) / kOne - want[k];
-        difference -= std::round(difference);  // whole repeats were taken off
+        difference -= std::round(difference);  // whole repeats were removed
         result.worst = std::max(result.worst, std::abs(difference) / (change / 256 + 4 / kOne));
       }
       ++result.lanes;
@@ -227,11 +227,11 @@ Deviation compare(const Scene& scene, int size) {
   return result;
 }
 
-TEST(Coordinates, PerspectiveAgreesWithRaysHelperLanesToo) {
+TEST(Coordinates, PerspectiveMatchesRaysIncludingHelperLanes) {
   int lanes = 0, helpers = 0, drawn = 0;
   for (std::uint32_t seed = 1; seed <= 300; ++seed) {
     const Scene scene = random_triangle(seed);
-    // A sliver's plane turns a lot when its corners snap; it says nothing about perspective.
+    // The plane of a sliver rotates a lot when its corners snap; it cannot test perspective.
     const FragmentStream stream = rasterise(scene, options(64, 64));
     if (stream.counts.fragments < 150) continue;
     const Deviation deviation = compare(scene, 64);
@@ -245,15 +245,15 @@ TEST(Coordinates, PerspectiveAgreesWithRaysHelperLanesToo) {
   EXPECT_GT(helpers, 3000);
 }
 
-TEST(Coordinates, ThePlantedFaultIsSeen) {
+TEST(Coordinates, DetectsInjectedFault) {
   Scene scene = random_triangle(3);
   int found = 0;
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     scene = random_triangle(seed);
     if (rasterise(scene, options(64, 64)).counts.fragments < 400) continue;
     const double near_before = compare(scene, 64).worst;
-    // The reference camera looks a tenth of a pixel aside: as wrong as coordinates not at the
-    // centre.
+    // The reference camera points a tenth of a pixel to the side: the same error as coordinates
+    // that are not at the centre.
     const FragmentStream stream = rasterise(scene, options(64, 64));
     const RayReference rays(scene.camera, 64, 64);
     double worst = 0.0;
@@ -272,13 +272,13 @@ TEST(Coordinates, ThePlantedFaultIsSeen) {
   EXPECT_GT(found, 3);
 }
 
-TEST(Coordinates, GroundPlaneUpToTheHorizon) {
+TEST(Coordinates, GroundPlaneIsCorrectUpToHorizon) {
   Scene scene = make_scene("plane", {.texture_size = 16});
   scene.mesh.triangles.resize(1);
   EXPECT_LT(compare(scene, 128).worst, 4.0);
 }
 
-TEST(Coordinates, WholeRepeatsAreTakenOff) {
+TEST(Coordinates, WholeRepeatsAreRemoved) {
   for (const spec::texture::Wrap wrap :
        {spec::texture::Wrap::kRepeat, spec::texture::Wrap::kMirroredRepeat,
         spec::texture::Wrap::kClampToEdge}) {
@@ -286,7 +286,7 @@ TEST(Coordinates, WholeRepeatsAreTakenOff) {
     for (Vertex& vertex : far.mesh.vertices) vertex.uv += Imath::V2d(1024.0, -4096.0);
     const FragmentStream a = rasterise(near, options(64, 64)), b = rasterise(far, options(64, 64));
     ASSERT_EQ(a.quads.size(), b.quads.size());
-    if (wrap == spec::texture::Wrap::kClampToEdge) {  // no repeat may be taken off: both saturate
+    if (wrap == spec::texture::Wrap::kClampToEdge) {  // no repeat may be removed: both saturate
       EXPECT_EQ(b.quads[0].s[0], std::numeric_limits<std::int32_t>::max());
       EXPECT_EQ(b.quads[0].t[0], std::numeric_limits<std::int32_t>::min());
       EXPECT_EQ(b.quads[0].clamped, 0xF);
@@ -299,7 +299,7 @@ TEST(Coordinates, WholeRepeatsAreTakenOff) {
         EXPECT_NEAR(a.quads[i].t[lane], b.quads[i].t[lane], 1);
       }
   }
-  // A mirrored texture repeats after two: an odd shift must stay visible.
+  // A mirrored texture repeats after two: an odd shift must remain visible.
   Scene odd =
       make_scene("quad", {.texture_size = 16, .wrap = spec::texture::Wrap::kMirroredRepeat});
   for (Vertex& vertex : odd.mesh.vertices) vertex.uv.x += 1001.0;
@@ -309,7 +309,7 @@ TEST(Coordinates, WholeRepeatsAreTakenOff) {
   }
 }
 
-TEST(Coordinates, MoreRepeatsThanTheFormatHolds) {
+TEST(Coordinates, HandlesMoreRepeatsThanFormatHolds) {
   Scene scene = make_scene("quad", {.texture_size = 16});
   for (Vertex& vertex : scene.mesh.vertices) vertex.uv *= 3000.0;
   const FragmentStream stream = rasterise(scene, options(64, 64));
@@ -320,7 +320,7 @@ TEST(Coordinates, MoreRepeatsThanTheFormatHolds) {
 }
 
 // Mirrored: whole pairs of repeats.
-TEST(Coordinates, AnEvenNumberOfRepeatsIsTakenOffAFarQuad) {
+TEST(Coordinates, EvenNumberOfRepeatsIsRemovedFromFarQuad) {
   Scene scene =
       make_scene("quad", {.texture_size = 16, .wrap = spec::texture::Wrap::kMirroredRepeat});
   for (Vertex& vertex : scene.mesh.vertices) vertex.uv *= 3000.0;
@@ -369,7 +369,7 @@ TEST(Coordinates, SnappingIsDefinedForEveryDouble) {
   }
 }
 
-TEST(Coordinates, NotANumberIsMarked) {
+TEST(Coordinates, MarksNotANumber) {
   Scene scene = make_scene("quad", {.texture_size = 16});
   scene.mesh.vertices[0].uv.x = std::numeric_limits<double>::quiet_NaN();
   const FragmentStream stream = rasterise(scene, options(32, 32));
@@ -385,25 +385,25 @@ TEST(Coordinates, NotANumberIsMarked) {
             rasterise(make_scene("quad", {.texture_size = 16}), options(32, 32)).counts.quads);
 }
 
-// ---- clipping -----------------------------------------------------------------------------------
+// ---- Clipping ----------------------------------------------------------------------------------
 
-// Whether the ray through a picture position meets a triangle in front of the near plane.
+// Whether the ray through an image position hits a triangle beyond the near plane.
 bool hit(const Scene& scene, const RayReference& rays, const Triangle& triangle, double x,
          double y) {
   const V3d d = rays.direction(x, y);
   std::array<V3d, 3> p;
   for (std::size_t i = 0; i < 3; ++i)
     p[i] = scene.mesh.vertices[triangle.vertex[i]].position - scene.camera.eye;
-  // Signed volumes: no division, so that nothing is lost where the triangle is seen edge-on.
+  // Signed volumes avoid a division, so that triangles seen edge-on are exact.
   const double v0 = d.dot(p[1].cross(p[2])), v1 = d.dot(p[2].cross(p[0])),
                v2 = d.dot(p[0].cross(p[1]));
   if (!((v0 > 0 && v1 > 0 && v2 > 0) || (v0 < 0 && v1 < 0 && v2 < 0))) return false;
   const double distance = p[0].dot(p[1].cross(p[2])) / (v0 + v1 + v2);
-  return distance >= scene.camera.near_plane;  // `d` is one unit long along the view direction
+  return distance >= scene.camera.near_plane;  // `d` has length 1 along the view direction
 }
 
-// Compares coverage with rays. Pixels where the answer changes within a 64th of a pixel are left
-// out.
+// Compares coverage with rays. Pixels where the answer changes within a 64th of a pixel are not
+// compared.
 void expect_coverage_of_rays(const Scene& scene, int size, const std::string& what) {
   const ImageOf<int> count = overdraw(scene, size);
   const RayReference rays(scene.camera, size, size);
@@ -440,7 +440,7 @@ Scene one_triangle(const V3d& a, const V3d& b, const V3d& c) {
   return scene;
 }
 
-TEST(Clipping, VerticesBehindTheEyeAndFarOutside) {
+TEST(Clipping, HandlesVerticesBehindEyeAndFarOutside) {
   expect_coverage_of_rays(one_triangle({-2, 0, -3}, {2, 0, -3}, {0, 0, 5}), 64,
                           "one vertex behind the eye");
   expect_coverage_of_rays(one_triangle({-3, 0, 4}, {3, 0, 4}, {0, 0, -9}), 64,
@@ -457,7 +457,7 @@ TEST(Clipping, VerticesBehindTheEyeAndFarOutside) {
                           "two vertices just in front of the near plane");
 }
 
-TEST(Clipping, CountsSayWhatHappened) {
+TEST(Clipping, CountersShowClippedTriangles) {
   auto counts = [](const Scene& scene) { return rasterise(scene, options(64, 64)).counts; };
   EXPECT_EQ(counts(one_triangle({-2, 0, 3}, {2, 0, 3}, {0, 0, 5})).outside, 1u);
   EXPECT_EQ(counts(one_triangle({-2, 90, -3}, {2, 90, -3}, {0, 99, -3})).outside, 1u);
@@ -472,7 +472,7 @@ TEST(Clipping, CountsSayWhatHappened) {
 }
 
 TEST(Clipping, ClippedNeighboursStayWatertight) {
-  // A floor of many triangles that passes under and behind the eye and out of every side.
+  // A floor of many triangles that passes below and behind the eye and beyond every side.
   Random random(11);
   const auto jitter = [&] { return random.uniform(-0.3, 0.3); };
   Scene scene = one_triangle({0, 0, 0}, {1, 0, 0}, {0, 0, 1});
@@ -502,9 +502,9 @@ TEST(Clipping, ClippedNeighboursStayWatertight) {
     for (int x = 0; x < 128; ++x) ASSERT_EQ(count.at(x, y), 1) << x << "," << y;
 }
 
-// ---- order and visibility -----------------------------------------------------------------------
+// ---- Order and visibility ----------------------------------------------------------------------
 
-TEST(Stream, VisibleGivesOneFragmentAPixelTheNearest) {
+TEST(Stream, VisibleGivesNearestFragmentPerPixel) {
   FlatScreen screen(64);
   screen.rectangle(4, 4, 60, 60);
   const auto a = screen.vertex(10, 10, 0.5), b = screen.vertex(50, 12, 0.5),
@@ -528,7 +528,7 @@ TEST(Stream, VisibleGivesOneFragmentAPixelTheNearest) {
   EXPECT_EQ(seen, visible.counts.fragments);
 }
 
-TEST(Stream, TraversalsGiveTheSameQuadsInTheirOrder) {
+TEST(Stream, TraversalsGiveSameQuadsInOwnOrder) {
   FlatScreen screen(64);
   screen.rectangle(3, 5, 61, 50);
   screen.scene().mesh.triangles.resize(1);
@@ -553,7 +553,7 @@ TEST(Stream, TraversalsGiveTheSameQuadsInTheirOrder) {
   }
 }
 
-TEST(Stream, OddSizesAndSmallestPicture) {
+TEST(Stream, HandlesOddSizesAndSmallestImage) {
   for (const auto& [w, h] : {std::pair(1, 1), {5, 3}, {33, 17}, {2, 2}}) {
     const FragmentStream stream =
         rasterise(make_scene("plane", {.texture_size = 16}), options(w, h));
@@ -584,7 +584,7 @@ std::uint64_t fnv(const FragmentStream& stream) {
   return hash.value();
 }
 
-TEST(Stream, SameBitsEverywhere) {
+TEST(Stream, BitsAreEqualOnEveryMachine) {
   const std::map<std::string, std::uint64_t> recorded{
       {"plane", 0x3961ED83CD4AD336u},  {"quad", 0x8C4A32F60A601B65u},
       {"tunnel", 0xC65D3C849D9C4A7Fu}, {"object", 0x89EE23D9E92F493Cu},
@@ -597,7 +597,7 @@ TEST(Stream, SameBitsEverywhere) {
   }
 }
 
-TEST(Frame, ColoursGoBackToTheirPixels) {
+TEST(Frame, ColoursReturnToTheirPixels) {
   const Scene scene = make_scene("object", {.texture_size = 16});
   const FragmentStream stream = rasterise(scene, options(64, 64, Visibility::kOverdraw));
   FrameAssembler frame(stream, scene);
@@ -642,7 +642,7 @@ TEST(Scenes, NamesCamerasAndTextures) {
   SceneOptions bad;
   bad.camera = Camera{.eye = {0, 0, 0}, .target = {0, 0, 0}};
   EXPECT_THROW(make_scene("plane", bad), spec::ConfigError);
-  bad.camera = Camera{.eye = {0, 0, 0}, .target = {0, 5, 0}};  // along up
+  bad.camera = Camera{.eye = {0, 0, 0}, .target = {0, 5, 0}};  // parallel to up
   EXPECT_THROW(make_scene("plane", bad), spec::ConfigError);
   bad.camera = Camera{.fov_y = 3.2};
   EXPECT_THROW(make_scene("plane", bad), spec::ConfigError);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Question: is the supersampled picture the reference it claims to be: analytic coverage, analytic
-// depth, and the frames that another program rendered from the same scene?
+// The supersampled image is a valid reference: analytic coverage, analytic depth, and the frames
+// that another program rendered from the same scene.
 #include "tb/scene/reference.h"
 
 #include <gtest/gtest.h>
@@ -28,10 +28,10 @@ RenderOptions texture_options(int size, int samples) {
   return options;
 }
 
-// White in front of black: a pixel's value is its coverage.
+// White on black: a pixel's value is its coverage.
 double coverage(const Image& image, int x, int y) { return image.at(x, y)[0] / 255.0; }
 
-TEST(Reference, CoverageOfStraightEdges) {
+TEST(Reference, StraightEdgesHaveExactCoverage) {
   FlatScreen screen(32);
   screen.rectangle(4.25, 3, 20, 18.5);
   const Image image = render(screen.scene(), texture_options(32, 8));
@@ -64,7 +64,7 @@ TEST(Reference, LinearAveragingIsBrighter) {
   EXPECT_EQ(render(screen.scene(), options).at(4, 8)[0], 188);  // sRGB of one half
 }
 
-TEST(Reference, OneSampleIsTheFragment) {
+TEST(Reference, OneSampleEqualsTheFragment) {
   const Scene scene = make_scene("quad", {.texture = "noise", .texture_size = 64});
   RenderOptions options = texture_options(128, 1);
   options.sampling = Sampling::kNearest;
@@ -79,11 +79,12 @@ TEST(Reference, OneSampleIsTheFragment) {
                    .lane = lane,
                    .rgba = texture.at((quad.s[lane] >> 18) & 63, (quad.t[lane] >> 18) & 63)});
   EXPECT_LE(count_different(frame.frame(), image),
-            2);  // a coordinate on a texel's border may round over
+            2);  // a coordinate on a texel's border may round across it
 }
 
-TEST(Reference, BilinearMeetsTexelsAtTheirCentres) {
-  // A texel to four pixels: its centre lies between pixels 1 and 2, an eighth of a texel from each.
+TEST(Reference, BilinearReachesTexelValuesAtCentres) {
+  // One texel covers four pixels: its centre lies between pixels 1 and 2, an eighth of a texel from
+  // each.
   FlatScreen screen(32);
   screen.rectangle(0, 0, 32, 32);
   screen.scene().mesh.textures[0].image = Image(8, 8, {0, 0, 0, 255});
@@ -93,7 +94,7 @@ TEST(Reference, BilinearMeetsTexelsAtTheirCentres) {
   const std::array<double, 8> weight{1.0 / 8, far, 5.0 / 8, near, near, 5.0 / 8, far, 1.0 / 8};
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) {
-      const int i = x - 10, j = y - 18;  // the texel reaches two pixels further than its own four
+      const int i = x - 10, j = y - 18;  // the texel reaches two pixels beyond its own four
       const bool inside = i >= 0 && i < 8 && j >= 0 && j < 8;
       const double want =
           inside ? weight[static_cast<std::size_t>(i)] * weight[static_cast<std::size_t>(j)] : 0;
@@ -109,22 +110,23 @@ TEST(Reference, BilinearMeetsTexelsAtTheirCentres) {
   EXPECT_EQ(blocks.at(16, 20)[0], 0);
 }
 
-// Of a texture that is eight times as wide as high, with a wrap mode per axis: transposed, and read
-// with s and t exchanged, it gives the same pixels. The plane recedes, so that every level is read.
-TEST(Reference, TransposedTextureWithExchangedCoordinatesGivesTheSamePicture) {
+// For a texture that is eight times as wide as high, with a wrap mode per axis: transposed, and
+// sampled with s and t exchanged, it gives the same pixels. The plane recedes, so that every level
+// is read.
+TEST(Reference, TransposingTextureAndCoordinatesKeepsImage) {
   Scene scene = make_scene("plane", {.texture_size = 16});
   Texture& texture = scene.mesh.textures[0];
   const Image square = noise(64, 64);
   Image wide(64, 8), high(8, 64);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 64; ++x) wide.at(x, y) = high.at(y, x) = square.at(x, y);
-  // Turned, and stretched so that either side of a footprint is the longer one somewhere.
+  // Rotated and stretched so that either side of a footprint is the longer one somewhere.
   for (Vertex& vertex : scene.mesh.vertices)
     vertex.uv = {3.2 * vertex.uv.x - 0.6 * vertex.uv.y, 2.4 * vertex.uv.x + 0.8 * vertex.uv.y};
   texture.wrap_t = spec::texture::Wrap::kMirroredRepeat;
   texture.image = wide;
   RenderOptions options = texture_options(64, 2);
-  options.shading = Shading::kLit;  // which reads levels
+  options.shading = Shading::kLit;  // this mode reads mip levels
   const Image one = render(scene, options);
   for (Vertex& vertex : scene.mesh.vertices) std::swap(vertex.uv.x, vertex.uv.y);
   std::swap(texture.wrap_s, texture.wrap_t);
@@ -134,7 +136,7 @@ TEST(Reference, TransposedTextureWithExchangedCoordinatesGivesTheSamePicture) {
     for (std::size_t c = 0; c < 4; ++c) ASSERT_NEAR(one.pixels[i][c], other.pixels[i][c], 1) << i;
 }
 
-TEST(Reference, ConvergesAndKeepsAFlatTexture) {
+TEST(Reference, ConvergesAndKeepsFlatTexture) {
   Scene scene = make_scene("plane", {.texture_size = 256});
   const Image fine = render(scene, texture_options(64, 16));
   const double coarse = psnr(render(scene, texture_options(64, 2)), fine);
@@ -149,7 +151,7 @@ TEST(Reference, ConvergesAndKeepsAFlatTexture) {
   }
 }
 
-TEST(Reference, RotatedGridHasFourLevelsBothWays) {
+TEST(Reference, RotatedGridHasFourLevelsInBothDirections) {
   // A vertical and a horizontal edge moved in eighths of a pixel: each crosses the samples one by
   // one.
   for (const bool vertical : {true, false}) {
@@ -170,7 +172,7 @@ TEST(Reference, RotatedGridHasFourLevelsBothWays) {
   }
 }
 
-TEST(Reference, MultisamplingLiesBetweenOneSampleAndTheTruth) {
+TEST(Reference, MultisamplingLiesBetweenOneSampleAndReference) {
   const Scene scene = make_scene("cylinders");
   const LitFrames frames = render_lit_frames(scene, 256, 192, 8);
   const Image msaa = render_msaa4(scene, 256, 192);
@@ -179,23 +181,23 @@ TEST(Reference, MultisamplingLiesBetweenOneSampleAndTheTruth) {
   const Mask silhouettes = silhouette_mask(edges, frames.depth);
   EXPECT_GT(count(silhouettes), 500);
   EXPECT_LE(count(silhouettes), count(edges));
-  EXPECT_LT(count(edges), 256 * 192 / 10);  // inside, frames with one and many samples agree
+  EXPECT_LT(count(edges), 256 * 192 / 10);  // elsewhere, frames with one and many samples agree
 }
 
-TEST(Reference, DepthOfAPlaneIsAnalytic) {
+TEST(Reference, DepthOfPlaneIsAnalytic) {
   const Scene scene = make_scene("plane", {.texture_size = 16});
   const DepthImage depth = render_depth(scene, 64, 64);
   const double pitch = std::atan2(1.0 - 0.704, 1.0), slope = std::tan(0.25);
   for (int y = 0; y < 64; ++y) {
     const double v = (32 - (y + 0.5)) / 32 * slope;  // tangent above the view direction
-    // The ray falls by sin(pitch) - v cos(pitch) for each unit of w, and the eye is one unit high.
+    // The ray falls by sin(pitch) - v cos(pitch) per unit of w, and the eye is one unit high.
     const double inverse_w = std::sin(pitch) - v * std::cos(pitch);
     for (int x = 0; x < 64; x += 9) EXPECT_NEAR(depth.at(x, y), 0.1 * inverse_w, 2e-6);
   }
 }
 
-// Whatever makes rendering faster must not move a bit. An odd size leaves tiles cut at two sides.
-TEST(Reference, PicturesAreRecorded) {
+// Optimisations must not change a bit. An odd size leaves partial tiles on two sides.
+TEST(Reference, ImageHashesMatchRecordedOnes) {
   struct Recorded {
     const char* scene;
     std::uint64_t lit, lit_as_stored, stored, linear, msaa, depth;
@@ -230,8 +232,8 @@ TEST(Reference, PicturesAreRecorded) {
   }
 }
 
-// A square at one unit from the eye that faces it. The pixel right below the middle is seen half a
-// pixel of eight aside, both ways.
+// A square one unit in front of the eye and facing it. The pixel right of and below the
+// middle is 1/16 off the axis in both directions.
 class LitSquare : public testing::Test {
  protected:
   LitSquare() {
@@ -262,27 +264,27 @@ class LitSquare : public testing::Test {
       colour[c++] = static_cast<std::uint8_t>(std::lround(255 * std::pow(light, 1 / 2.2)));
     return colour;
   }
-  // All of the key light, 0.8 of the other one.
+  // All of the key light, 0.8 of the second one.
   static constexpr double kDiffuse = 0.125 + 0.5 + 0.25 * 0.8;
   FlatScreen screen_{16};
 };
 
-TEST_F(LitSquare, HasTheLightOfBothLamps) {
+TEST_F(LitSquare, ReceivesLightOfBothLamps) {
   const Rgba8 expected = coded(0.5 * kDiffuse, 0.25 * kDiffuse, 0.0625 * kDiffuse);
   const Image image = picture(Shading::kLit);
   EXPECT_EQ(image.at(8, 8), expected);
   EXPECT_EQ(image.at(2, 2), expected);
-  // Row by row from one colour to the other: (y + 0.5) / 16 of the way.
+  // Row by row from one colour to the other: at (y + 0.5) / 16.
   EXPECT_EQ(image.at(0, 0), (Rgba8{5, 100, 195, 255}));
   EXPECT_EQ(image.at(15, 7), (Rgba8{75, 100, 125, 255}));
   EXPECT_EQ(image.at(1, 15), (Rgba8{155, 100, 45, 255}));
-  // Its other side is lit as well: the normals turn to the eye.
+  // Its back is lit as well: the normals turn to the eye.
   for (Vertex& vertex : screen_.scene().mesh.vertices) vertex.normal = {0, 0, -1};
   EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
   for (Triangle& triangle : screen_.scene().mesh.triangles)
     std::swap(triangle.vertex[0], triangle.vertex[1]);
   EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
-  // Normals of the vertices count where the scene is smooth.
+  // In a smooth scene the vertex normals are used.
   for (Vertex& vertex : screen_.scene().mesh.vertices) vertex.normal = {0.6, 0, -0.8};
   screen_.scene().lighting.smooth = false;
   EXPECT_EQ(picture(Shading::kLit).at(8, 8), expected);
@@ -291,8 +293,8 @@ TEST_F(LitSquare, HasTheLightOfBothLamps) {
   EXPECT_EQ(picture(Shading::kLit).at(8, 8), coded(0.5 * tilted, 0.25 * tilted, 0.0625 * tilted));
 }
 
-TEST_F(LitSquare, ShinesByPhong) {
-  const auto shines = [](double x, double y) {  // towards the eye from there
+TEST_F(LitSquare, ShowsPhongHighlight) {
+  const auto shines = [](double x, double y) {  // towards the eye from that position
     const double length = std::sqrt(x * x + y * y + 1), key = 1 / length,
                  fill = (-0.6 * y + 0.8) / length;
     return 0.25 * (0.5 * std::pow(key, 32) + 0.25 * std::pow(fill, 32));
@@ -313,7 +315,7 @@ TEST_F(LitSquare, ShinesByPhong) {
   EXPECT_EQ(light(scene_of(), buffer), image);
 }
 
-TEST(Reference, DeferredLightIsThatOfTheFrame) {
+TEST(Reference, DeferredLightEqualsLightOfTheFrame) {
   const Scene scene = make_scene("object", {.texture_size = 64});
   const Image image = render(scene, {.width = 97,
                                      .height = 61,
@@ -331,7 +333,7 @@ TEST(Reference, DeferredLightIsThatOfTheFrame) {
   EXPECT_EQ(frames.noaa, render_covered(scene, 33, 31, 1, Shading::kPhong));
 }
 
-// Samples of coverage stand at the middles of equal parts of the pixel.
+// Coverage samples lie at the centres of equal parts of the pixel.
 TEST(Covered, CountsItsSamples) {
   for (const int samples : {1, 2, 3, 8}) {
     FlatScreen screen(16);
@@ -347,14 +349,14 @@ TEST(Covered, CountsItsSamples) {
   EXPECT_THROW(render_covered(FlatScreen(16).scene(), 16, 16, 0), spec::ConfigError);
 }
 
-TEST(Reference, RejectsImpossibleRequests) {
+TEST(Reference, RejectsInvalidRequests) {
   const Scene scene = make_scene("quad", {.texture_size = 16});
   EXPECT_THROW(render(scene, texture_options(16, 0)), spec::ConfigError);
   EXPECT_THROW(render(scene, texture_options(16, 33)), spec::ConfigError);
   EXPECT_THROW(render(scene, texture_options(9000, 1)), spec::ConfigError);
 }
 
-// ---- against another program --------------------------------------------------------------------
+// ---- Comparison with another program -----------------------------------------------------------
 
 Scene track(const std::filesystem::path& data) {
   SceneOptions options;
@@ -362,7 +364,7 @@ Scene track(const std::filesystem::path& data) {
   return import_scene(data / "meshes" / "scene_track.obj", options);
 }
 
-TEST(Data, DepthOfTheTrackAgreesWithTheOtherRenderer) {
+TEST(Data, TrackDepthMatchesOtherRenderer) {
   DEBURR_REQUIRE_DATA(data);
   const DepthImage theirs = read_depth(data / "frames" / "track_720p_depth24.png");
   Scene scene = track(data);
@@ -377,7 +379,7 @@ TEST(Data, DepthOfTheTrackAgreesWithTheOtherRenderer) {
   RecordProperty("close_percent", std::to_string(100.0 * static_cast<double>(close) / pixels));
   EXPECT_GT(static_cast<double>(close), 0.999 * pixels);
   EXPECT_LT(static_cast<double>(far), 0.001 * pixels);
-  // The injected fault: a camera moved by a centimetre is seen.
+  // The injected fault: a camera moved by a centimetre is detected.
   scene.camera.eye.x += 0.01;
   const DepthImage moved = render_depth(scene, theirs.width, theirs.height);
   close = 0;
@@ -386,7 +388,7 @@ TEST(Data, DepthOfTheTrackAgreesWithTheOtherRenderer) {
   EXPECT_LT(static_cast<double>(close), 0.9 * pixels);
 }
 
-TEST(Data, FramesOfTheTrackLookAlike) {
+TEST(Data, TrackFramesMatchOtherRenderer) {
   DEBURR_REQUIRE_DATA(data);
   const Image theirs = read_image(data / "frames" / "track_720p_noaa.png");
   RenderOptions options;
@@ -394,11 +396,11 @@ TEST(Data, FramesOfTheTrackLookAlike) {
   options.height = theirs.height;
   options.shading = Shading::kLit;
   options.averaging = Averaging::kLinear;
-  EXPECT_GT(psnr(render(track(data), options), theirs), 26.0);  // the lights are not the same
+  EXPECT_GT(psnr(render(track(data), options), theirs), 26.0);  // the lights differ
 }
 
-// Edges alone are smoothed: where no edge is, a pixel is that of one sample, textures and all.
-TEST(Covered, IsTheFrameButAtItsEdges) {
+// Only edges are smoothed: elsewhere a pixel equals that of one sample, including textures.
+TEST(Covered, EqualsOneSampleExceptAtEdges) {
   SceneOptions options;
   options.texture_size = 256;
   const Scene scene = make_scene("object", options);
@@ -408,9 +410,9 @@ TEST(Covered, IsTheFrameButAtItsEdges) {
   const Mask edges = edge_mask(covered, lit.noaa);
   EXPECT_GT(count(edges), 300);
   EXPECT_LT(count(edges), 160 * 120 / 8);
-  // Supersampling blurs the texture as well.
+  // Supersampling also blurs the texture.
   EXPECT_GT(count(edge_mask(lit.reference, lit.noaa)), 2 * count(edges));
-  // Both see the same coverage.
+  // Both have the same coverage.
   EXPECT_GT(psnr(covered, lit.reference, edges), psnr(lit.noaa, lit.reference, edges) + 4.0);
   EXPECT_THROW(render_covered(scene, 8, 8, 9), spec::ConfigError);
 }

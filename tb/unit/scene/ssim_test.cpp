@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: is it SSIM? Against its formula where the moments of every window are known.
+// SSIM: compared with its formula where the moments of every window are known.
 #include "tb/scene/ssim.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kC1 = 2.55 * 2.55, kC2 = 7.65 * 7.65;
 
-// Of windows with these means, this variance in both, and this covariance.
+// SSIM of windows with these means, this variance in both, and this covariance.
 double formula(double a, double b, double variance_a, double variance_b, double covariance) {
   return (2 * a * b + kC1) * (2 * covariance + kC2) /
          ((a * a + b * b + kC1) * (variance_a + variance_b + kC2));
@@ -33,7 +33,7 @@ double alternating() {
   return sum / all;
 }
 
-TEST(Ssim, OfPlainPicturesIsThatOfTheirMeans) {
+TEST(Ssim, PlainImagesFollowTheirMeans) {
   for (const auto& [a, b] : {std::pair(0, 255), {100, 110}, {7, 9}, {200, 200}}) {
     EXPECT_NEAR(ssim(Image(20, 15, stimuli::grey(a)), Image(20, 15, stimuli::grey(b))),
                 formula(a, b, 0, 0, 0), 1e-9)
@@ -42,21 +42,21 @@ TEST(Ssim, OfPlainPicturesIsThatOfTheirMeans) {
   EXPECT_NEAR(formula(0, 255, 0, 0, 0), 0.0001, 1e-6) << "black against white";
 }
 
-// Colours count by their luma: 0.299 x 255 of red against 0.587 x 255 of green.
-TEST(Ssim, IsOfLuma) {
+// Only luma counts: 0.299 x 255 for red, 0.587 x 255 for green.
+TEST(Ssim, ComparesLuma) {
   EXPECT_NEAR(ssim(Image(11, 11, {255, 0, 0, 255}), Image(11, 11, {0, 255, 0, 0})),
               formula(76.245, 149.685, 0, 0, 0), 1e-9);
 }
 
-// A checkerboard of m + d and m - d against m + g d and m - g d, and against its opposite. The mean
-// of a window is m plus or minus d times the square of alternating().
-TEST(Ssim, OfCheckerboardsFollowsFromTheWindow) {
+// A checkerboard of m + d and m - d compared with one of m + g d and m - g d, and with the opposite
+// one. The mean of a window is m plus or minus d times the square of alternating().
+TEST(Ssim, CheckerboardsFollowTheWindow) {
   const auto board = [](int first, int second) {
     return stimuli::draw(
         24, 19, [&](int x, int y) { return stimuli::grey((x + y) % 2 == 0 ? first : second); });
   };
   const double e = alternating() * alternating();
-  // Of both signs of the offset as many windows: 14 x 9 of them.
+  // Both signs of the offset are equally frequent: 14 x 9 windows each.
   const auto expected = [&](double m, double d, double g) {
     const auto of = [&](double offset) {
       const double spread = d * d * (1 - offset * offset);
@@ -71,9 +71,9 @@ TEST(Ssim, OfCheckerboardsFollowsFromTheWindow) {
   EXPECT_LT(ssim(reference, board(60, 140)), -0.9) << "structure that is inverted";
 }
 
-// One pixel of a plain picture, d codes off: of a window whose weight there is w the mean moves by
-// w d, and its variance is w (1 - w) d^2.
-TEST(Ssim, OfOnePixelIsTheWindowsWeight) {
+// One pixel of a plain image is d codes off: for a window of weight w at this pixel the mean
+// changes by w d, and the variance is w (1 - w) d^2.
+TEST(Ssim, SinglePixelFollowsWindowWeight) {
   const Image reference(11, 11, stimuli::grey(100));
   Image test = reference;
   test.at(5, 5) = stimuli::grey(160);
@@ -86,32 +86,32 @@ TEST(Ssim, OfOnePixelIsTheWindowsWeight) {
   EXPECT_NEAR(ssim(reference, test), 1, 1e-12);
 }
 
-TEST(Ssim, IsSymmetricAndHasNoDirection) {
+TEST(Ssim, SymmetricAndIndependentOfDirection) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image();
   EXPECT_NEAR(ssim(a, b), ssim(b, a), 1e-12);
   EXPECT_NEAR(ssim(stimuli::mirrored_x(a), stimuli::mirrored_x(b)), ssim(a, b), 1e-12);
   EXPECT_NEAR(ssim(stimuli::transposed(a), stimuli::transposed(b)), ssim(a, b), 1e-12);
 }
 
-// Bands change nothing: a picture that repeats has the mean of its period in each.
-TEST(Ssim, OfManyBandsIsThatOfOne) {
+// Bands change nothing: a periodic image has the mean of its period in each.
+TEST(Ssim, ManyBandsGiveTheValueOfOne) {
   const auto stripes = [](int height, int low, int high) {
     return stimuli::draw(32, height,
                          [&](int, int y) { return stimuli::grey(y % 8 < 4 ? low : high); });
   };
-  // 8 n places of the window from top to bottom: whole periods.
+  // 8 n positions of the window from top to bottom: whole periods.
   const double one = ssim(stripes(10 + 8, 50, 200), stripes(10 + 8, 70, 150));
   EXPECT_NEAR(ssim(stripes(10 + 24 * kBandRows, 50, 200), stripes(10 + 24 * kBandRows, 70, 150)),
               one, 1e-9);
 }
 
-TEST(Ssim, OfSeveralIsThatOfEach) {
+TEST(Ssim, SeveralImagesGiveValuesOfEach) {
   const Image a = stimuli::blocks_image(), b = stimuli::shades_image();
   const std::array<const Image*, 2> tests = {&b, &a};
   EXPECT_EQ(ssim(a, tests), (std::vector<double>{ssim(a, b), ssim(a, a)}));
 }
 
-TEST(Ssim, NeedsAWindow) {
+TEST(Ssim, RejectsImageSmallerThanWindow) {
   EXPECT_TRUE(std::isnan(ssim(Image(10, 30), Image(10, 30))));
   EXPECT_TRUE(std::isnan(ssim(Image(30, 10), Image(30, 10))));
   EXPECT_FALSE(std::isnan(ssim(Image(11, 11), Image(11, 11))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: are textures the same everywhere, and are mip levels true area averages?
+// Textures are the same on every machine, and mip levels are exact area averages.
 #include "tb/scene/textures.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 using test::fnv;
 
-TEST(Textures, SameBytesForSameSeedAndOthersForAnother) {
+TEST(Textures, BytesDependOnlyOnSeed) {
   for (const std::string_view name : texture_names()) {
     const Image first = make_texture(name, 64, 48, 7);
     EXPECT_EQ(first.width, 64);
@@ -26,7 +26,7 @@ TEST(Textures, SameBytesForSameSeedAndOthersForAnother) {
     EXPECT_NE(make_texture(name, 64, 64, 1), make_texture(name, 64, 64, 2)) << name;
 }
 
-TEST(Textures, BytesAreRecorded) {
+TEST(Textures, BytesMatchRecordedHashes) {
   EXPECT_EQ(fnv(make_texture("checker", 256, 256)), 0x1638216043702325u);
   EXPECT_EQ(fnv(make_texture("road", 256, 256)), 0x92BFFD600DB611FAu);
   EXPECT_EQ(fnv(make_texture("brick", 256, 256)), 0x745EF200A0983A91u);
@@ -35,12 +35,12 @@ TEST(Textures, BytesAreRecorded) {
   EXPECT_EQ(fnv(make_texture("noise", 256, 256)), 0x12F83692F78AA84u);
 }
 
-TEST(Textures, StonesAreRecorded) {
+TEST(Textures, StonesMatchRecordedHash) {
   EXPECT_EQ(fnv(make_texture("stones", 256, 256)), 0x2BE620F5D8625DB1u);
   EXPECT_NE(make_texture("stones", 64, 64, 1), make_texture("stones", 64, 64, 2));
 }
 
-TEST(Textures, AGradientGoesFromSideToSide) {
+TEST(Textures, GradientRunsFromSideToSide) {
   const Image image = gradient(6, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 6; ++x)
@@ -50,7 +50,7 @@ TEST(Textures, AGradientGoesFromSideToSide) {
   EXPECT_EQ(gradient(1, 1).at(0, 0), (Rgba8{0, 0, 255, 255}));
 }
 
-TEST(Textures, UnknownNameListsTheKnown) {
+TEST(Textures, UnknownNameListsKnownOnes) {
   try {
     make_texture("chequer", 64, 64);
     FAIL();
@@ -70,7 +70,7 @@ TEST(Textures, ZonePlateReachesNyquistAtItsBorder) {
   EXPECT_GT(largest, 200);
 }
 
-TEST(MipChain, SizesOfEveryShape) {
+TEST(MipChain, SizesAreCorrectForEveryShape) {
   for (const auto& [w, h] :
        {std::pair(1, 1), {16, 16}, {31, 55}, {1, 9}, {127, 99}, {3, 7}, {640, 3}}) {
     const std::vector<Image> levels = mip_chain(noise(w, h));
@@ -103,7 +103,7 @@ double area_mean(const Image& source, const Image& target, int x, int y, std::si
   return sum / area;
 }
 
-TEST(MipChain, IsTheAreaAverageForOddSizesToo) {
+TEST(MipChain, LevelsAreAreaAveragesForOddSizes) {
   for (const auto& [w, h] : {std::pair(8, 8), {12, 6}, {7, 5}, {13, 4}, {3, 1}, {31, 17}}) {
     const std::vector<Image> levels = mip_chain(noise(w, h, 3));
     for (std::size_t k = 1; k < levels.size(); ++k)
@@ -120,14 +120,14 @@ TEST(MipChain, SrgbAveragesLight) {
   EXPECT_EQ(stored[1].at(0, 0), (Rgba8{128, 128, 128, 255}));  // 127.5, half up
   const std::vector<Image> light = mip_chain(checkerboard(4, 4, 4), MipSpace::kSrgb);
   EXPECT_EQ(light[1].at(0, 0), (Rgba8{188, 188, 188, 255}));
-  for (int v = 0; v < 256; ++v) {  // a flat colour stays what it is
+  for (int v = 0; v < 256; ++v) {  // a flat colour does not change
     const auto value = static_cast<std::uint8_t>(v);
     EXPECT_EQ(mip_chain(Image(3, 3, {value, value, value, value}), MipSpace::kSrgb).back().at(0, 0),
               (Rgba8{value, value, value, value}));
   }
 }
 
-TEST(ExactMath, SineAndCosine) {
+TEST(ExactMath, SineAndCosineAreExact) {
   for (int i = -4000; i <= 4000; ++i) {
     const double angle = 0.0127 * i;
     EXPECT_NEAR(sin_cos(angle).sin, std::sin(angle), 1e-14);
@@ -136,7 +136,7 @@ TEST(ExactMath, SineAndCosine) {
   EXPECT_NEAR(tangent(0.7), std::tan(0.7), 1e-15);
 }
 
-TEST(ExactMath, ExponentialAndLogarithm) {
+TEST(ExactMath, ExponentialAndLogarithmAreExact) {
   for (int i = -4000; i <= 4000; ++i) {
     const double x = 0.0127 * i, e = std::exp(x);
     EXPECT_NEAR(exponential(x) / e, 1, 1e-15) << x;

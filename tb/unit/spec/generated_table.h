@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables of pages that are made from data: a test holds the page to them, and brings it up to date.
+// Tables of pages that are generated from data: a test compares the page with them and can update
+// it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 
 namespace deburr::tb {
 
-// Rows of cells, as a page has them.
+// Rows of cells, formatted as on a page.
 class MarkdownTable {
  public:
   explicit MarkdownTable(const std::vector<std::string>& titles) {
@@ -55,8 +56,8 @@ class GeneratedPart {
   std::string before_, part_, after_;
 };
 
-// Of a page of docs/; `name` is that of the test. With DEBURR_WRITE_PAGES in its environment the
-// test writes the page.
+// Compares a page of docs/; `name` is that of the test. With DEBURR_WRITE_PAGES in the environment
+// the test writes the page.
 inline void expect_generated(const std::string& page, const std::string& name,
                              const std::string& table) {
   const auto path = source_folder() / "docs" / page;
@@ -72,7 +73,7 @@ inline void expect_generated(const std::string& page, const std::string& name,
                                  << name;
 }
 
-// The injected fault of a table: each value of a row's result, changed, changes the table.
+// The injected fault of a table: changing any value of a row's result changes the table.
 template <class Rows, class Table>
 void expect_table_has_each_value(const Rows& rows, const Table& table) {
   const std::string kept = table(rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What runners of the contracts' test vectors (spec/ENGINE/vectors.h) share: parameters by the
-// names that a vector gives, and what of a result is not as the vector says.
+// Helpers of the runners of the contracts' test vectors (spec/ENGINE/vectors.h): parameters by the
+// names in a vector, and the differences between a result and its vector.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace deburr::tb {
 
-// Each value that is not as expected, with its name; nothing if all are.
+// Each value that differs from the expected one, with its name; empty if all are equal.
 template <class Result>
 std::string differences(const Result& expected, const Result& got) {
   std::vector<std::uint64_t> values;
@@ -34,7 +34,7 @@ std::string differences(const Result& expected, const Result& got) {
   return all;
 }
 
-// The injected fault of a runner: each value of a vector, changed, is seen.
+// The injected fault of a runner: changing any value of a vector is detected.
 template <class Result>
 void expect_each_value_is_compared(const Result& expected, const Result& got) {
   ASSERT_EQ(differences(expected, got), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patterns have the share of edges that they are asked for.
+// Patterns have the requested fraction of edges.
 #include "tb/stimuli/frames.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace deburr::tb::stimuli::frames_test {
 namespace {
 
-// Pixels of 1000 that differ from the pixel to the left or above.
+// Pixels per 1000 that differ from the pixel to the left or above.
 int edge_permille(const Image& image) {
   int edges = 0;
   for (int y = 0; y < image.height; ++y)
@@ -21,7 +21,7 @@ int edge_permille(const Image& image) {
   return static_cast<int>(1000LL * edges / (image.width * image.height));
 }
 
-TEST(Frames, RandomEdgesHaveTheirShare) {
+TEST(Frames, RandomEdgesHaveTheRequestedFraction) {
   for (const int permille : {0, 10, 100, 200, 500, 750}) {
     const int tolerance = 1 + permille / 50;
     EXPECT_NEAR(edge_permille(random_edges(500, 400, permille)), permille, tolerance) << permille;
@@ -29,17 +29,17 @@ TEST(Frames, RandomEdgesHaveTheirShare) {
   EXPECT_THROW(random_edges(4, 4, 751), spec::CheckFailed);
 }
 
-TEST(Frames, RandomEdgesAreTheSameForTheSameSeedAlone) {
+TEST(Frames, RandomEdgesDependOnlyOnSeed) {
   EXPECT_EQ(random_edges(60, 40, 200, 3), random_edges(60, 40, 200, 3));
   EXPECT_NE(random_edges(60, 40, 200, 3), random_edges(60, 40, 200, 4));
 }
 
-TEST(Frames, DiagonalsHaveAnEdgeInOnePixelOfTheirThickness) {
+TEST(Frames, DiagonalsHaveEdgesByThickness) {
   for (const int thickness : {2, 4, 5})
     EXPECT_NEAR(edge_permille(diagonals(200, 200, thickness)), 1000.0 / thickness, 3) << thickness;
 }
 
-TEST(Frames, TurnedTwiceAreThemselves) {
+TEST(Frames, TransposingTwiceRestoresThem) {
   const Image image = blocks_image(31, 20);
   EXPECT_EQ(transposed(transposed(image)), image);
   EXPECT_EQ(mirrored_x(mirrored_x(image)), image);
@@ -57,7 +57,7 @@ std::string drawn(const Image& image) {
   return text;
 }
 
-TEST(Frames, AreDrawnByTheirFormulas) {
+TEST(Frames, FollowTheirFormulas) {
   EXPECT_EQ(drawn(checkerboard(3, 2)), ".#.|#.#|");
   EXPECT_EQ(drawn(diagonals(5, 2, 2)), "..##.|.##..|");
   EXPECT_EQ(drawn(long_step(2)), "....|...#|.###|####|");
@@ -71,7 +71,7 @@ TEST(Frames, AreDrawnByTheirFormulas) {
   EXPECT_NE(hash(colour), hash(Image(1, 1, {10, 20, 31, 40})));
 }
 
-// Three rows alike, of dark and bright greys in turn; a last one may be lower.
+// Three equal rows, of dark and bright greys in turn; the last band may be lower.
 TEST(Frames, BandsAreThreeRowsHigh) {
   Random random(3);
   const Image image = bands(40, 8, random);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are weights read back as they were written, and is everything else rejected with its line?
+// Weights are read back as written, and everything else is rejected with its line.
 #include "tb/stimuli/weight_file.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace {
 using golden::morphological::WeightTables;
 using ::testing::HasSubstr;
 
-// Every entry is another one than its neighbours.
+// Every entry differs from its neighbours.
 WeightTables counted() {
   WeightTables tables;
   int next = 0;
@@ -41,7 +41,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(at, what.size(), by);
 }
 
-TEST(WeightFile, IsReadAsItWasWritten) {
+TEST(WeightFile, ReadsBackAsWritten) {
   const WeightTables tables = counted();
   const std::string text = weight_file_text(tables, {"a note", "# another"});
   EXPECT_THAT(text, HasSubstr("deburr-weights 1\n# a note\n# # another\ncodes 1024\n-128 -127 "));
@@ -52,7 +52,7 @@ TEST(WeightFile, IsReadAsItWasWritten) {
   EXPECT_EQ(weight_file_text(read, {"a note", "# another"}), text);
 }
 
-TEST(WeightFile, EntriesAreInTheOrderOfTheRegisters) {
+TEST(WeightFile, EntriesFollowOrderOfRegisters) {
   const WeightTables tables = counted();
   const std::vector<std::int8_t> entries = entries_of(tables);
   ASSERT_EQ(entries.size(), 2304u);
@@ -62,14 +62,14 @@ TEST(WeightFile, EntriesAreInTheOrderOfTheRegisters) {
   EXPECT_EQ(sum_of(WeightTables()), spec::morphological::kWeightsSum);
 }
 
-TEST(WeightFile, LinesMayEndAndCommentsStandAnywhere) {
+TEST(WeightFile, AllowsBlankLinesAndCommentsAnywhere) {
   const std::string text = weight_file_text(counted(), {});
   EXPECT_EQ(complaint(replaced(text, "near 640\n", "near 640\r\n\n  # nothing\n# more\r\n")),
             "taken");
   EXPECT_EQ(complaint(text.substr(0, text.size() - 1)), "taken");
 }
 
-TEST(WeightFile, SaysWhatIsWrongAndWhere) {
+TEST(WeightFile, ErrorNamesCauseAndLine) {
   const std::string text = weight_file_text(counted(), {});
   EXPECT_THAT(complaint(""), HasSubstr("'some.weights', line 0: expected 'deburr-weights', got the "
                                        "end of the file"));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces of fragments: what is written is read back to the bit, single fragments become the quads
-// that their derivatives say, and files that were spoiled anywhere are rejected or read, never
-// more.
+// Traces of fragments: files are read back exactly, single fragments become the quads that their
+// derivatives define, and corrupt files are either rejected or read without a crash.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,7 +76,7 @@ void expect_same(const std::vector<TracedQuad>& a, const std::vector<TracedQuad>
   }
 }
 
-TEST_P(FragmentTrace, IsReadBackToTheBit) {
+TEST_P(FragmentTrace, ReadsBackExactly) {
   const std::vector<TracedQuad> written = write_random(1, 5000);
   expect_same(written, read());
   const FragmentReader reader(file_, kTextures);
@@ -88,7 +87,7 @@ TEST_P(FragmentTrace, IsReadBackToTheBit) {
   EXPECT_GT(summary.fragments, 5000u);
 }
 
-TEST_P(FragmentTrace, WithoutASizeIsReadBackToo) {
+TEST_P(FragmentTrace, ReadsBackWithoutSize) {
   FragmentWriter writer(file_, GetParam(), 0, 0);
   TracedQuad quad;
   quad.quad.s = {0, spec::texture::kCoordinateOne, -1, 1};
@@ -98,8 +97,8 @@ TEST_P(FragmentTrace, WithoutASizeIsReadBackToo) {
   EXPECT_EQ(FragmentReader(file_, 1).width(), 0);
 }
 
-// Any byte changed, or any number of bytes cut off: it is read or rejected with a FileError.
-TEST_P(FragmentTrace, SpoiledIsReadOrRejected) {
+// With any byte changed, or any number of bytes cut off, it is read or rejected with a FileError.
+TEST_P(FragmentTrace, CorruptFileIsReadOrRejected) {
   write_random(2, 8);
   const std::string good = bytes();
   Random random(3);
@@ -124,7 +123,7 @@ TEST_P(FragmentTrace, SpoiledIsReadOrRejected) {
   EXPECT_GT(rejected, 1000);
 }
 
-TEST_P(FragmentTrace, EndsAtTheLastQuad) {
+TEST_P(FragmentTrace, EndsAtLastQuad) {
   write_random(4, 1);
   FragmentReader reader(file_, kTextures);
   TracedQuad quad;
@@ -133,7 +132,7 @@ TEST_P(FragmentTrace, EndsAtTheLastQuad) {
   EXPECT_FALSE(reader.next(quad));
 }
 
-TEST_P(FragmentTrace, ThatIsNotFinishedIsGone) {
+TEST_P(FragmentTrace, UnfinishedFileIsRemoved) {
   { FragmentWriter writer(file_, GetParam(), 0, 0); }
   EXPECT_FALSE(fs::exists(file_));
 }
@@ -144,8 +143,8 @@ INSTANTIATE_TEST_SUITE_P(Format, FragmentTrace,
                            return format.param == TraceFormat::kText ? "Text" : "Binary";
                          });
 
-// One fragment at each place of a quad: neighbours by the derivatives, one lane covered.
-TEST_F(FragmentTrace, ASingleFragmentGetsTheQuadAroundIt) {
+// One fragment at each position of a quad: neighbours by the derivatives, one lane covered.
+TEST_F(FragmentTrace, SingleFragmentGetsItsQuad) {
   put("deburr-fragments 1\nsize 8 8\n"
       "fragment 0 2 4 0.5 0.25 0.125 0.0625 -0.25 -0.5\n"
       "fragment 1 3 5 0.5 0.25 0.125 0.0625 -0.25 -0.5\n"
@@ -170,7 +169,7 @@ TEST_F(FragmentTrace, ASingleFragmentGetsTheQuadAroundIt) {
   EXPECT_EQ(quads[2].quad.s, quads[0].quad.s);
 }
 
-// What a file is: how many quads, or what is wrong, without the file's name.
+// The result of a file: the number of quads, or the error without the file's name.
 constexpr const char* kBegin = "deburr-fragments 1\nsize 8 6\n";
 constexpr const char* kValues = " 0 0 0 0 0 0 0 0\n";
 
@@ -189,7 +188,7 @@ std::string verdict_on(const fs::path& file, const std::string& bytes) {
   }
 }
 
-TEST_F(FragmentTrace, OfTextIsAcceptedOrSaysWhatIsWrong) {
+TEST_F(FragmentTrace, TextIsAcceptedOrErrorExplained) {
   const std::string begin = kBegin, values = kValues, quad = "quad 0 f f 0 2 4" + values;
   const std::string long_line = "#" + std::string(999, 'x') + "\n";
   const std::pair<std::string, std::string> rows[] = {
@@ -297,7 +296,7 @@ TEST_F(FragmentTrace, OfTextIsAcceptedOrSaysWhatIsWrong) {
   for (const auto& [text, said] : rows) EXPECT_EQ(verdict_on(file_, text), said) << text;
 }
 
-// The header and a record of the binary format, with some bytes changed.
+// The header and one record of the binary format, with some bytes changed.
 std::string binary(std::initializer_list<std::pair<std::size_t, int>> changes,
                    std::size_t records = 1) {
   std::string bytes(kFragmentTraceMagic);
@@ -313,7 +312,7 @@ std::string binary(std::initializer_list<std::pair<std::size_t, int>> changes,
   return bytes;
 }
 
-TEST_F(FragmentTrace, OfBytesIsAcceptedOrSaysWhatIsWrong) {
+TEST_F(FragmentTrace, BytesAreAcceptedOrErrorExplained) {
   const std::pair<std::string, std::string> rows[] = {
       {binary({}), "1 quads, 4 fragments of 8 x 6"},
       {binary({}, 3), "3 quads, 12 fragments of 8 x 6"},
@@ -368,7 +367,7 @@ TEST_F(FragmentTrace, OfBytesIsAcceptedOrSaysWhatIsWrong) {
   for (const auto& [bytes, said] : rows) EXPECT_EQ(verdict_on(file_, bytes), said);
 }
 
-TEST_F(FragmentTrace, HasItsFieldsWhereTheyAreDocumented) {
+TEST_F(FragmentTrace, FieldsLieWhereDocumented) {
   constexpr int kEighth = spec::texture::kCoordinateOne / 8;
   put(binary({{72, 0}, {73, 1}, {74, 7}, {75, 3}, {76, 5}}));
   const std::vector<TracedQuad> quads = read();

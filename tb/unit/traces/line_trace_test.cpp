@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines that a memory port asks for, as records: the clock of the request, a record a line of a
-// burst, the bytes that are enabled; look-ups of a cache with the clock of each.
+// Requests of a memory port as trace records: the cycle of the request, one record per line of a
+// burst, the enabled bytes; lookups of a cache with the cycle of each.
 #include "tb/traces/line_trace.h"
 
 #include <fcntl.h>
@@ -78,7 +78,7 @@ void send(Bench& bench) {
   bench.driver.send(write);
 }
 
-TEST_F(Lines, AreRecordsWithTheClockOfTheirRequest) {
+TEST_F(Lines, RecordsHaveCycleOfTheirRequest) {
   Bench bench(bursts());
   send(bench);
   LineTrace trace(file_, {"some_unit", 148.5, TraceFormat::kText, false});
@@ -92,7 +92,7 @@ TEST_F(Lines, AreRecordsWithTheClockOfTheirRequest) {
             "1 read 0x00001000 64 0\n1 read 0x00001040 64 0\n2 write 0x00000040 8 0\n# end 3\n");
 }
 
-TEST_F(Lines, AreBytesAsDocumented) {
+TEST_F(Lines, BytesMatchDocumentation) {
   Bench bench(bursts());
   send(bench);
   {
@@ -122,7 +122,7 @@ TEST_F(Lines, AreBytesAsDocumented) {
   EXPECT_EQ(all.substr(last + 21), std::string(3, '\0'));
 }
 
-TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
+TEST_F(Lines, LookupsHaveCycleOfTheirLookup) {
   texture_rtl::CacheBench bench;
   LineTrace trace(file_, {"some_unit", 148.5, TraceFormat::kText, true});
   bench.ends.source.add(texture_rtl::in_line(3));
@@ -131,8 +131,8 @@ TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
   bench.ends.source.add(texture_rtl::in_line(3));
   bench.clock.run(10);
   trace.finish();
-  // Pushed in 0, 1 and 100; the sets are read a clock later, and looked up in the next one. The
-  // miss queue takes the miss in 3 and asks for the line in 4.
+  // Pushed in 0, 1 and 100; the sets are read one cycle later and looked up in the next. The miss
+  // queue takes the miss in 3 and requests the line in 4.
   EXPECT_EQ(bytes(),
             "# deburr-lines 1\n# engine some_unit\n# clock_mhz 148.5\n"
             "# port 0 memory 64 cache.memory_port\n# port 1 lookups 64 cache.tag_stage\n"
@@ -141,9 +141,9 @@ TEST_F(Lines, OfLookUpsHaveTheClockOfTheLookUp) {
             "102 hit 0x000000c0 64 1\n# end 4\n");
 }
 
-// Of several ports each has its number and its line; in a clock they stand by number, whichever
-// came first.
-TEST_F(Lines, OfTwoPortsAreInOrder) {
+// With several ports each record has its port number and line; within a cycle they are ordered by
+// number, whichever came first.
+TEST_F(Lines, RecordsOfTwoPortsAreOrdered) {
   struct One {
     Driver<MemoryRequest> driver;
     rtl::MemoryPort port;
@@ -199,7 +199,7 @@ TEST_F(Lines, RejectsPortsOfTwoClockDomains) {
                   testing::HasSubstr("first belongs to one and second to two")));
 }
 
-TEST_F(Lines, OfNobodyAreRejected) {
+TEST_F(Lines, RejectsTraceWithoutMemoryPort) {
   EXPECT_THROW(LineTrace(file_, {}), spec::ConfigError);
   EXPECT_FALSE(fs::exists(file_));
   Bench bench(bursts());
@@ -211,8 +211,8 @@ TEST_F(Lines, OfNobodyAreRejected) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
-// What is no file stays: a run that only checks writes to the null device.
-TEST(TraceOutput, RemovesOnlyFiles) {
+// Other targets remain: a run that only checks writes to the null device.
+TEST(TraceOutput, RemovesOnlyRegularFiles) {
   const fs::path pipe = fs::temp_directory_path() / ("deburr_pipe_" + std::to_string(::getpid()));
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);

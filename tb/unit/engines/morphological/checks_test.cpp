@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checks of the morphological engine complain of.
+// Failures that the checks of the morphological engine report.
 #include "spec/morphological/registers.h"
 #include "tb/engines/morphological/morphological_checks.h"
 #include "tb/unit/platform/fakes.h"
@@ -15,7 +15,7 @@ spec::morphological::BlendedBeat beat(bool start_of_frame, bool end_of_row) {
   return result;
 }
 
-TEST(MorphologicalChecks, AFrameStartsWithItsFirstPixelAlone) {
+TEST(MorphologicalChecks, FrameStartsWithFirstPixelOnly) {
   MorphologicalSetup setup;
   setup.morphological.lanes = spec::morphological::Lanes::kOne;
   MorphologicalChecks checks(setup, true);
@@ -36,8 +36,8 @@ spec::morphological::BlendedBeat beat_of(int count, bool start_of_frame, bool en
   return result;
 }
 
-// Rows of 10 in beats of 4, 4 and 2: which pixel is said to be wrong; empty: none.
-TEST(MorphologicalChecks, EachBeatHasItsPixelsAndItsSignals) {
+// Rows of 10 in beats of 4, 4 and 2: the pixel that is reported as wrong; empty: none.
+TEST(MorphologicalChecks, EachBeatHasItsPixelsAndSignals) {
   MorphologicalSetup setup;
   setup.morphological.lanes = spec::morphological::Lanes::kFour;
   const MorphologicalInput frame{Image(10, 3), {}};
@@ -62,7 +62,7 @@ TEST(MorphologicalChecks, EachBeatHasItsPixelsAndItsSignals) {
   EXPECT_EQ(wrong(18, 2, beat_of(2, false, false)), "pixel (9, 1)") << "its row should end";
 }
 
-TEST(MorphologicalChecks, NameThePixelOfAFrameThatIsNotSquare) {
+TEST(MorphologicalChecks, NamePixelInNonSquareFrame) {
   MorphologicalSetup setup;
   MorphologicalChecks checks(setup, true);
   const MorphologicalInput frame{Image(5, 3), {}};
@@ -80,8 +80,9 @@ TEST(MorphologicalChecks, NameThePixelOfAFrameThatIsNotSquare) {
   EXPECT_EQ(checks.pixels.differences()[0].item, "pixel (3, 2)");
 }
 
-// A run in which little was compared is no pass: as much is needed as all frames have.
-TEST(MorphologicalChecks, NeedWhatAllFramesHave) {
+// A run with too few comparisons must not pass: the comparisons of all frames are
+// required.
+TEST(MorphologicalChecks, RequireComparisonsOfAllFrames) {
   MorphologicalSetup setup;
   setup.morphological.storage = spec::morphological::Storage::kMemory;
   setup.descriptors = true;
@@ -104,8 +105,8 @@ TEST(MorphologicalChecks, NeedWhatAllFramesHave) {
   EXPECT_THAT(needed(checks.lines), HasSubstr("at least 5 are needed"));
 }
 
-// Each count of the work of all frames against its own register, cycles and errors too.
-TEST(MorphologicalChecks, EachCounterIsThatOfItsWork) {
+// Each count of the work of all frames is compared with its register, including cycles and errors.
+TEST(MorphologicalChecks, EachCounterEqualsItsWork) {
   MorphologicalSetup setup;
   const std::vector<MorphologicalInput> frames(1, {Image(8, 4), {}});
   const auto mismatches = [&](std::uint32_t wrong) {
@@ -128,8 +129,8 @@ TEST(MorphologicalChecks, EachCounterIsThatOfItsWork) {
   EXPECT_EQ(mismatches(spec::morphological::reg::kMemoryErrors), 1u);
 }
 
-// MEMORY_ERRORS counts on from frame to frame: a line that cannot be read could not be written.
-TEST(MorphologicalChecks, MemoryErrorsAreThoseOfAllFrames) {
+// MEMORY_ERRORS accumulates over frames: a line that could not be written cannot be read.
+TEST(MorphologicalChecks, MemoryErrorsAccumulateOverFrames) {
   const auto mismatches = [](std::uint32_t memory_errors) {
     MorphologicalSetup setup;
     setup.morphological.storage = spec::morphological::Storage::kMemory;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Discs: what is measured where nothing is smoothed, and of all radii together.
+// Discs: errors without smoothing, and over all radii together.
 #include "tb/stimuli/discs.h"
 
 #include <gtest/gtest.h>
@@ -9,12 +9,12 @@
 namespace deburr::tb::morphological::discs_test {
 namespace {
 
-// Of all pixels that a straight line crosses, over all its directions and places: the root of the
-// mean square of (weight on its side - whether the middle is), and of (1 - weight). A circle is
+// Over all pixels that a straight line crosses, in all directions and positions: the root of the
+// mean square of (weight on its side - whether the centre is), and of (1 - weight). A circle is
 // nearly straight.
 constexpr double kSampled = 246.9, kUncovered = 608.0;  // x 1000
 
-TEST(Discs, AllRadiiCountAlike) {
+TEST(Discs, AllRadiiCountEqually) {
   const auto none = [](const Image& image) { return image; };
   const stimuli::DiscFigures f = stimuli::measure_discs(none, {.pixels = 600, .seeds = 2});
   double squares = 0;
@@ -25,7 +25,7 @@ TEST(Discs, AllRadiiCountAlike) {
   EXPECT_NEAR(f.all, std::sqrt(squares / 6), 1e-9);
 }
 
-TEST(Discs, AreHeldAgainstTheExactShare) {
+TEST(Discs, ErrorIsMeasuredAgainstExactWeight) {
   const auto white = [](const Image& image) {
     return Image(image.width, image.height, {255, 255, 255, 255});
   };

@@ -15,11 +15,11 @@ using spec::morphological::Storage;
 
 constexpr double kMhz = 200;
 
-// Rows of full beats, and rows that end in half of one.
+// Rows of full beats, and rows that end in a half beat.
 const std::vector<MorphologicalInput>& frames() {
   static const std::vector<MorphologicalInput> all = {
       morphological_system::blocks(47, 20, 3), morphological_system::noise(24, 33, 5),
-      // A shallow edge, and a steep one beside it: runs that are extended.
+      // A shallow edge next to a steep one: runs that are extended.
       morphological_system::draw(50, 22, [](int x, int y) {
         return morphological_system::grey((x < 30 ? 7 * y > x + 40 : 2 * y > 15 * (x - 37)) ? 200
                                                                                             : 40);
@@ -144,12 +144,12 @@ void expect_formulas(const Json& r, double lanes) {
   EXPECT_EQ(r["work"]["fits_1080p60"], w("clock_for_1080p60") <= 148.5);
 }
 
-TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
+TEST(MorphologicalFigures, ThreeFramesGiveSumsRatiosOrLastValues) {
   for (const MorphologicalSetup& setup : setups()) {
     const std::vector<Json> alone = each_alone(setup);
     const Json all = run(frames(), setup);
     const double lanes = platform::lanes_of(setup.morphological);
-    // With memory, when a unit's inputs come may differ by a few cycles after another frame.
+    // With memory, the arrival of a unit's inputs may shift by a few cycles after another frame.
     const bool stored = setup.morphological.storage == Storage::kMemory;
     SeveralFrames figures = kFigures;
     if (stored)
@@ -196,8 +196,8 @@ TEST(MorphologicalFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
   }
 }
 
-// The hash is of every pixel and tap of every frame, in order.
-TEST(MorphologicalFigures, TheHashIsOfEveryFrame) {
+// The hash covers every pixel and probe of every frame, in order.
+TEST(MorphologicalFigures, HashCoversEveryFrame) {
   const MorphologicalSetup setup = lines_on_chip();
   OutputHash hash;
   golden::morphological::MorphologicalGolden golden(setup.morphological);
@@ -222,8 +222,8 @@ TEST(MorphologicalFigures, TheHashIsOfEveryFrame) {
   EXPECT_EQ(run(frames(), setup)["hash"], hash.value());
 }
 
-// As slow for its cycles as the frame was: by how much stalls lengthened it.
-TEST(MorphologicalFigures, AFrameThatStallsNeedsAFasterClock) {
+// The required clock scales with the cycles that stalls add to the frame.
+TEST(MorphologicalFigures, StalledFrameNeedsFasterClock) {
   Options options;
   options.stall_permille = 200;
   const Json r = run(frames(), lines_on_chip(), options);
@@ -232,7 +232,7 @@ TEST(MorphologicalFigures, AFrameThatStallsNeedsAFasterClock) {
   expect_formulas(r, 1);
 }
 
-// A bright rectangle from (3, 2) on, so wide and so high.
+// A bright rectangle with its corner at (3, 2).
 Json run_of_a_rectangle(int wide, int high) {
   const MorphologicalInput frame = morphological_system::draw(12, 8, [&](int x, int y) {
     return morphological_system::grey(x >= 3 && x < 3 + wide && y >= 2 && y < 2 + high ? 240 : 10);
@@ -256,10 +256,10 @@ Json run_of_a_rectangle(int wide, int high) {
   return r;
 }
 
-TEST(MorphologicalFigures, MapsOfARectangleAreThoseByHand) {
+TEST(MorphologicalFigures, MapsOfRectangleMatchValuesByHand) {
   run_of_a_rectangle(3, 5);
   const Json r = run_of_a_rectangle(5, 3);
-  // Of a pixel inside: the edge below it is that of the row beyond.
+  // The edge below an inner pixel belongs to the next row.
   std::set<std::string> seen;
   for (const Json& step : r["pixel"]["steps"]) {
     seen.insert(step["step"].get<std::string>() + " " + step["item"].get<std::string>());
@@ -271,8 +271,8 @@ TEST(MorphologicalFigures, MapsOfARectangleAreThoseByHand) {
   EXPECT_FALSE(seen.contains("right edge run"));
 }
 
-// One frame's maps must come to what was counted; those of several show the last.
-TEST(MorphologicalFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
+// Maps of one frame must add up to its counters; those of several frames show the last.
+TEST(MorphologicalFigures, MapsAndHistoryShowLastFrame) {
   Options options;
   options.maps = true;
   options.pixel = PixelAddress{9, 6};
@@ -286,8 +286,8 @@ TEST(MorphologicalFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
   }
 }
 
-// Of a frame that was broken off nothing is taken from the one before.
-TEST(MorphologicalFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
+// An aborted frame takes nothing from the previous one.
+TEST(MorphologicalFigures, HistoryOfAbortedFrameIsItsOwn) {
   Options options;
   options.pixel = PixelAddress{9, 6};
   const std::vector<MorphologicalInput> two = {frames()[1], frames()[0]};
@@ -301,20 +301,20 @@ TEST(MorphologicalFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
   EXPECT_EQ(all["frame"], alone["frame"]);
 }
 
-TEST(MorphologicalFigures, AResetInTheFirstOfTwoFramesChangesNoFigure) {
+TEST(MorphologicalFigures, ResetInFirstFrameChangesNoFigure) {
   const std::vector<MorphologicalInput> two = {frames()[2], frames()[0]};
   for (const MorphologicalSetup& setup : setups()) {
     Options options;
     options.maps = true;
     const Json whole = run(two, setup, options);
-    // Before the first pixel comes out, while they come, and before the last one.
+    // Before the first output pixel, during output, and before the last pixel.
     const auto first = static_cast<rtl::Cycle>(number_at(run({two[0]}, setup), "/cycles"));
     for (const rtl::Cycle at : {rtl::Cycle{70}, first - 300, first - 10}) {
       options.reset_after = at;
       Json again = run(two, setup, options);
       for (const char* const key : {"checks", "scoreboards"}) again[key] = whole[key];
       for (const auto& [name, unit] : whole["units"].items())
-        again["units"][name]["idle"] = unit["idle"];  // while memory was drained, too
+        again["units"][name]["idle"] = unit["idle"];  // includes draining memory
       again["work"]["line_unit_h_occupancy_percent"] =
           whole["work"]["line_unit_h_occupancy_percent"];
       again["work"]["line_unit_v_occupancy_percent"] =
@@ -337,8 +337,8 @@ std::uint64_t errors_of(const std::vector<MorphologicalInput>& of, std::int64_t 
   return error.empty() ? 0 : std::stoull(error.substr(sizeof "memory answered " - 1));
 }
 
-// Lines at the end of memory are those of the largest frame alone: it has the errors, wherever it
-// comes among the others, and MEMORY_ERRORS keeps them to the end.
+// Lines at the end of memory belong to the largest frame only: it has the errors, at any position
+// among the others, and MEMORY_ERRORS keeps them to the end.
 TEST(MorphologicalFigures, ErrorsOfOneFrameOfThreeAreExpected) {
   // 2 x 33 and 4 x 11 lines
   const MorphologicalInput &tall = frames()[1], flat = morphological_system::a_fifth(50, 11);
@@ -348,7 +348,7 @@ TEST(MorphologicalFigures, ErrorsOfOneFrameOfThreeAreExpected) {
     EXPECT_EQ(errors_of(order, behind, 3 * 64), 2u * 3);
   EXPECT_EQ(errors_of({tall, flat, tall}, behind, 3 * 64), 2u * 2 * 3);
   EXPECT_EQ(errors_of({flat, flat}, behind, 3 * 64), 0u);
-  // The last byte of a line and the first of the next: both fail, whole.
+  // The last byte of a line and the first of the next: both lines fail as a whole.
   EXPECT_EQ(errors_of({flat, flat}, 4096 + 64 * 20 + 63, 2), 2u * 2 * 2);
   EXPECT_EQ(errors_of({flat, flat}, 4096 + 64 * 20 + 1, 63), 2u * 2 * 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fans of lines: what is measured of a picture that nobody smooths, and what a limit says.
+// Fans of lines: measurements of an unsmoothed image, and limits.
 #include "tb/stimuli/line_fans.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ FanFigures figures(double by, double undulation, double jump) {
   return f;
 }
 
-TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
+TEST(Fans, UnsmoothedFansMatchContract) {
   stimuli::FanOptions options;
   options.lines = 12;
   options.seeds = 1;
@@ -36,8 +36,9 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
   for (std::size_t c = 0; c < f.by_class.size(); ++c)
     EXPECT_NEAR(f.by_class[c], stimuli::contract_figures()[0].figures.by_class[c], 6)
         << stimuli::kSlopeClasses[c];
-  // The error of a column is a sawtooth of height 1, which falls by 1 in a weight s of all columns,
-  // the line's slope, and rises by s from column to column: of jumps the mean square is s (1 - s).
+  // The error of a column is a sawtooth of height 1: it falls by 1 in a fraction s of all columns
+  // (the slope of the line) and rises by s from column to column. The mean square of the jumps is s
+  // (1 - s).
   double squares = 0;
   for (int n = 2; n <= 20; ++n)
     for (int i = 0; i < options.lines; ++i) {
@@ -53,8 +54,8 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
   EXPECT_EQ(turned.by_class, few.by_class);
   EXPECT_EQ(turned.undulation, few.undulation);
   EXPECT_EQ(turned.jump, few.jump);
-  // All of it white: off by what the line leaves uncovered, in a column by half of its crossing at
-  // least.
+  // All white: the error is what the line leaves uncovered, in each column at least half of its
+  // crossing.
   const FanFigures white = stimuli::measure_fans(
       [](const Image& image) {
         return Image(image.width, image.height, {255, 255, 255, 255});
@@ -65,7 +66,7 @@ TEST(Fans, WithoutSmoothingAreThoseOfTheContract) {
   EXPECT_GT(white.jump, 10);
 }
 
-TEST(Fans, ExceedEachLimitThatIsGiven) {
+TEST(Fans, DetectEachExceededLimit) {
   const stimuli::FanLimit limit{"x", figures(10, 5, 0)};
   EXPECT_THAT(stimuli::exceeded(limit, figures(10, 5, 100)), IsEmpty());
   EXPECT_THAT(stimuli::exceeded(limit, figures(10.9, 5.4, 0), 0.1), IsEmpty());
@@ -79,12 +80,12 @@ TEST(Fans, ExceedEachLimitThatIsGiven) {
   EXPECT_EQ(stimuli::asked_of_ours().name, "fit N = 4");
 }
 
-TEST(Fans, AreALineOfATable) {
+TEST(Fans, FormatAsTableRow) {
   EXPECT_EQ(to_text("fit N = 4", figures(10.06, 5, 123.45)),
             "fit N = 4         10.1    20.1    30.2    40.2    50.3    60.4         5.0   123.5");
 }
 
-TEST(Fans, HaveTheRowsOfTheContract) {
+TEST(Fans, RowsMatchTheContract) {
   std::vector<std::string> names;
   for (const stimuli::FanRow& row : stimuli::fan_rows()) {
     names.push_back(row.name + "|" + std::to_string(row.parameters.steps));

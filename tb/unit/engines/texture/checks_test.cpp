@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checks of the texture unit complain of.
+// Failures that the checks of the texture unit report.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,7 +13,7 @@ namespace {
 
 namespace reg = spec::texture::reg;
 
-TEST(TextureChecks, EachCounterIsThatOfItsWork) {
+TEST(TextureChecks, EachCounterEqualsItsWork) {
   const std::map<std::uint32_t, std::uint32_t> right = {
       {reg::kFragments, 11},       {reg::kBilinears, 22}, {reg::kLineFills, 33},
       {reg::kClamped, 44},         {reg::kSaturated, 55}, {reg::kMemoryErrors, 66},
@@ -50,8 +50,8 @@ TEST(TextureChecks, EachCounterIsThatOfItsWork) {
   }
 }
 
-// A run in which little was compared is no pass.
-TEST(TextureChecks, NeedEveryFragmentAndALine) {
+// A run with too few comparisons must not pass.
+TEST(TextureChecks, RequireEveryFragmentAndOneLine) {
   SceneParameters parameters;
   parameters.width = parameters.height = 2;
   parameters.texture_size = 4;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Choosing units in SystemVerilog, in a program that has none.
+// Selecting units in SystemVerilog, in a program built without them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::string rejection(const std::string& units) {
   }
 }
 
-TEST(TextureCounterparts, SayHowToBuildThem) {
+TEST(TextureCounterparts, ErrorTellsHowToBuildThem) {
   EXPECT_EQ(rejection(""), "0");
   for (const char* units : {"all", "cache", "address,filter"})
     EXPECT_THAT(rejection(units), AllOf(HasSubstr("run.hdl"), HasSubstr("DEBURR_HDL=ON"),
@@ -34,7 +34,7 @@ TEST(TextureCounterparts, RejectUnknownUnits) {
     EXPECT_THAT(rejection(units), HasSubstr("address, cache or filter")) << units;
 }
 
-TEST(TextureCounterparts, AreNotThereWhereTheProgramHasNone) {
+TEST(TextureCounterparts, UnavailableInProgramWithoutThem) {
   EXPECT_FALSE(texture_counterparts({}, {}, 1));
   EXPECT_FALSE(texture_counterparts_there_are({}, 1));
   EXPECT_THROW(texture_counterparts({"cache"}, {}, 1), spec::ConfigError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures, maps and expectations of runs of the texture unit, also of one that was reset.
+// Figures, maps and expectations of runs of the texture unit, including a run with a reset.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace deburr::tb::figures_test {
 namespace {
 
-// No square, and more fragments than pixels.
+// Not square, with more fragments than pixels.
 const TextureScene& scene(spec::texture::Format format = spec::texture::Format::kRgba8) {
   static std::map<spec::texture::Format, TextureScene> all;
   if (const auto found = all.find(format); found != all.end()) return found->second;
@@ -78,7 +78,7 @@ Json run(const TextureScene& of, const TextureSetup& setup, const SimulationOpti
   }));
 }
 
-// One that has several fragments, in another than the first lane.
+// A pixel with several fragments, not in the first lane.
 PixelAddress busy_pixel() {
   const FragmentStream& stream = scene().stream();
   std::map<std::pair<int, int>, int> fragments;
@@ -99,11 +99,11 @@ SimulationOptions watched() {
   return options;
 }
 
-TEST(TextureFigures, AResetChangesNoFigure) {
+TEST(TextureFigures, ResetChangesNoFigure) {
   SimulationOptions options = watched();
   const Json whole = run(scene(), small_setup(), options);
   const auto cycles = static_cast<rtl::Cycle>(number_at(whole, "/cycles"));
-  // Cycles are counted from the first clock of the run on.
+  // Cycles are counted from the start of the run.
   const auto without_cycles = [](Json json) {
     for (Json& step : json["pixel"]["steps"]) step.erase("clock");
     return json;
@@ -118,7 +118,7 @@ TEST(TextureFigures, AResetChangesNoFigure) {
   }
 }
 
-TEST(TextureFigures, AreOfEveryFragmentAndLine) {
+TEST(TextureFigures, CoverEveryFragmentAndLine) {
   const std::pair<spec::texture::Format, double> formats[] = {{spec::texture::Format::kRgba8, 4},
                                                               {spec::texture::Format::kL8, 1}};
   for (const auto& [format, bytes] : formats)
@@ -154,7 +154,7 @@ TEST(TextureFigures, AreOfEveryFragmentAndLine) {
     }
 }
 
-TEST(TextureFigures, TheHashIsOfEveryPartOfEveryColour) {
+TEST(TextureFigures, HashCoversEveryPartOfEveryColour) {
   const TextureSetup setup = small_setup();
   golden::texture::TextureGolden golden = make_golden(scene(), setup.texture);
   OutputHash hash;
@@ -167,8 +167,8 @@ TEST(TextureFigures, TheHashIsOfEveryPartOfEveryColour) {
   EXPECT_EQ(run(scene(), setup)["hash"], hash.value());
 }
 
-// Each fragment's pixel has its values, and no other: sums over the picture are the counters.
-TEST(TextureFigures, MapsAreOfThePixelsThatWereDrawn) {
+// Only drawn pixels have values: sums over the image equal the counters.
+TEST(TextureFigures, MapsCoverTheDrawnPixels) {
   const Json r = run(scene(), small_setup(), watched());
   std::vector<int> fragments(40 * 26);
   const FragmentStream& stream = scene().stream();
@@ -205,10 +205,10 @@ TEST(TextureFigures, MapsAreOfThePixelsThatWereDrawn) {
   for (const Json& step : r["pixel"]["steps"]) EXPECT_EQ(step["differs"], false) << step.dump();
 }
 
-// A step of one fragment as golden decides it: part, step, item, value.
+// A step of one fragment by the golden model: part, step, item, value.
 using Decided = std::array<std::string, 4>;
 
-// Numbers with so many fraction bits, beside each other.
+// Numbers with this number of fraction bits, separated by blanks.
 std::string numbers(int fraction_bits, std::initializer_list<double> values) {
   std::string text;
   for (const double value : values)
@@ -216,7 +216,7 @@ std::string numbers(int fraction_bits, std::initializer_list<double> values) {
   return text;
 }
 
-// Of one pixel of a scene, from golden alone.
+// Steps of one pixel of a scene by the golden model.
 std::vector<Decided> decided(const TextureScene& of, const PixelAddress& pixel,
                              const spec::texture::Parameters& p) {
   using golden::texture::TextureGolden;
@@ -289,9 +289,9 @@ std::vector<Decided> decided(const TextureScene& of, const PixelAddress& pixel,
   return all;
 }
 
-// docs/reference/run.md, "One pixel": all that golden decides is there, in order, and the hardware
-// has it all, also of one of four fragments of a quad.
-TEST(TextureFigures, AHistoryHasEveryStepOfEveryFragmentOfThePixel) {
+// docs/reference/run.md, "One pixel": the history has all golden steps in order, and all of the
+// hardware's, also for one of four fragments of a quad.
+TEST(TextureFigures, HistoryHasEveryStepOfEveryFragment) {
   SimulationOptions options = watched();
   const auto told = [&](const TextureScene& of, const TextureSetup& setup) {
     const Json r = run(of, setup, options);
@@ -326,8 +326,8 @@ TEST(TextureFigures, AHistoryHasEveryStepOfEveryFragmentOfThePixel) {
   }
 }
 
-// docs/reference/coverage.md: each fragment once in each group that it belongs to.
-TEST(TextureFigures, BinsAreOfEveryFragment) {
+// docs/reference/coverage.md: each fragment counts once in each group that it belongs to.
+TEST(TextureFigures, BinsCoverEveryFragment) {
   using namespace spec::texture;
   SimulationOptions options;
   options.coverage = true;
@@ -396,8 +396,8 @@ TEST(TextureFigures, BinsAreOfEveryFragment) {
   }
 }
 
-// Each line that the range has a byte of fails as often as it is read.
-TEST(TextureFigures, ErrorsOfLinesAreExpected) {
+// Each line that overlaps the range fails at every read.
+TEST(TextureFigures, LineErrorsMatchErrorRange) {
   const auto errors_of = [](std::int64_t from, std::int64_t bytes) {
     TextureSetup setup = small_setup();
     setup.memory.error_address = from;
@@ -412,7 +412,7 @@ TEST(TextureFigures, ErrorsOfLinesAreExpected) {
     EXPECT_EQ(work(r, "miss_queue_memory_errors"), count);
     return count;
   };
-  // Two lines side by side that are read.
+  // Two adjacent lines that are read.
   golden::texture::TextureGolden golden = make_golden(
       scene(), small_setup().texture, golden::texture::TextureGolden::Traffic::kPredict);
   golden.record_fills(true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Textures in memory and scenes as the unit gets them: where each texel lies, what the registers
-// hold, and that the golden model reads back what was put in.
+// Textures in memory and scenes as the unit receives them: the position of each texel, the
+// registers, and reading back by the golden model.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@
 namespace deburr::tb::scene_test {
 namespace {
 
-TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
+TEST(TextureMemory, TexelsFollowFormatAndLayout) {
   const Image image = noise(37, 21, 3);
   const std::vector<Image> levels = mip_chain(image);
   for (const spec::texture::Layout layout :
@@ -55,7 +55,7 @@ TEST(TextureMemory, EveryTexelIsWhereItsFormatAndLayoutSay) {
   }
 }
 
-TEST(TextureMemory, RejectsWhatTheUnitCannotHold) {
+TEST(TextureMemory, RejectsUnsupportedTextures) {
   platform::TextureMemory memory;
   const auto add = [&](const std::vector<Image>& levels) {
     return memory.add(levels_of(levels), {});
@@ -73,7 +73,7 @@ TEST(TextureMemory, RejectsWhatTheUnitCannotHold) {
   EXPECT_THROW(add(one), spec::ConfigError);
 }
 
-TEST(DescriptorRegisters, HoldEachFieldInItsPlace) {
+TEST(DescriptorRegisters, HoldEachFieldAtItsPosition) {
   namespace reg = spec::texture::reg;
   spec::texture::Descriptor d;
   d.width = 0x123;
@@ -110,7 +110,7 @@ SceneParameters small(const char* source) {
   return p;
 }
 
-TEST(TextureScene, GivesTheSamplerItsState) {
+TEST(TextureScene, ConfiguresTheSampler) {
   SamplerParameters sampler;
   sampler.mode = spec::texture::MinFilter::kNearestMipmapLinear;
   sampler.wrap = WrapChoice::kClampToEdge;
@@ -129,9 +129,9 @@ TEST(TextureScene, GivesTheSamplerItsState) {
   EXPECT_TRUE(scene.inputs().empty()) << "made by formula";
 }
 
-// Fragments, hardware and reference must go by the same wrap mode, or a picture is compared with
-// the reference of another one.
-TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndReference) {
+// Fragments, hardware and reference must use the same wrap mode, or an image is compared with the
+// wrong reference.
+TEST(TextureScene, WrapModeAppliesToFragmentsAndReference) {
   SceneParameters p = small("plane");
   p.texture = "gradient";
   const auto picture = [&](WrapChoice wrap, bool reference) {
@@ -156,7 +156,7 @@ TEST(TextureScene, AChosenWrapModeIsThatOfFragmentsAndReference) {
     }
 }
 
-TEST(TextureScene, SameSeedSameTextures) {
+TEST(TextureScene, SameSeedGivesSameTextures) {
   SceneParameters p = small("plane");
   p.texture = "noise";
   const auto bytes = [&](std::uint32_t seed) {
@@ -166,7 +166,7 @@ TEST(TextureScene, SameSeedSameTextures) {
   EXPECT_NE(bytes(1), bytes(2));
 }
 
-TEST(TextureScene, RejectsImpossibleCameras) {
+TEST(TextureScene, RejectsInvalidCameras) {
   for (const auto& [eye, target] : {std::pair{"1,2", ""},
                                     {"1,2,3,4", ""},
                                     {"a,b,c", ""},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A colour finds the pixel of its quad, once; what cannot be right is an error, or nothing where
-// colours may be anything.
+// A colour finds the pixel of its quad, once; an impossible colour is an error, or ignored where
+// any colour is allowed.
 #include "tb/engines/texture/sent_quads.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +41,8 @@ TEST(SentQuads, EachLaneIsTakenOnce) {
   EXPECT_THROW(sent.add(quad(5, 1)), spec::CheckFailed) << "out of order";
 }
 
-// Those that are done go; those that are not stay until later ones have come.
-TEST(SentQuads, ForgetsWhatIsDone) {
+// Complete quads are removed; incomplete ones remain until later ones have been sent.
+TEST(SentQuads, RemovesCompleteQuads) {
   SentQuads sent;
   constexpr std::uint32_t kMany = 20000;
   for (std::uint32_t tag = 0; tag < kMany; ++tag) {
@@ -59,7 +59,7 @@ TEST(SentQuads, ForgetsWhatIsDone) {
   EXPECT_NE(waiting.take(colour(0, 0), true), nullptr) << "nothing has come yet: nothing is done";
 }
 
-TEST(Show, PutsWhatIsToBeSeenWhereItBelongs) {
+TEST(Show, WritesColourToItsPixel) {
   Image picture(8, 8);
   traces::TracedQuad q = quad(0, 0xF);
   q.visible = 0b0111;

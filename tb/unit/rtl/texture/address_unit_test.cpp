@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The AddressUnit: what its blocks take together.
+// The AddressUnit: total latency of its blocks.
 #include "rtl_model/texture/address_unit.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlAddressUnit, LatencyByRule) {
+TEST(TextureRtlAddressUnit, LatencyFollowsConfiguration) {
   ClockDomain clock("clock", period());
   rtl::LatencyProbe probe;
   using spec::texture::Axes;
@@ -26,8 +26,8 @@ TEST(TextureRtlAddressUnit, LatencyByRule) {
     CountRule count;
     Cycle latency;
   };
-  // 3 + 2 + 1 + 3 + 3 + 5; the root takes 17 more than a shift and an addition, a correction two;
-  // directions 8 in place of 2, or 22 in place of 19, and axis_cycles - 1; any count one.
+  // 3 + 2 + 1 + 3 + 3 + 5. The root takes 17 more than a shift and an addition, a correction two;
+  // directions take 8 instead of 2, or 22 instead of 19, and axis_cycles - 1; any count takes one.
   const auto kHalf = FootprintRule::kHalf, kExact = FootprintRule::kExact;
   const std::vector<Row> rows = {
       // the earliest first

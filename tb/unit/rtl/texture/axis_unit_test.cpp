@@ -26,7 +26,7 @@ struct AxisBench {
   Ends<DerivativeToken, FootprintToken> ends;
 };
 
-// P and D of a fragment of a 1024 x 1024 texture: texels are 64 coordinate units... 2^16 of 2^14.
+// P and D of a fragment in a 1024 x 1024 texture: a texel is 64 of 2^16 coordinate units.
 DerivativeToken token(std::int64_t s_x, std::int64_t t_x, std::int64_t s_y, std::int64_t t_y,
                       std::uint32_t tag = 0) {
   const auto size = [](std::int64_t v) {
@@ -35,13 +35,13 @@ DerivativeToken token(std::int64_t s_x, std::int64_t t_x, std::int64_t s_y, std:
   return {ticket(tag), 11, -12, s_x, t_x, s_y, t_y, size(s_x), size(t_x), size(s_y), size(t_y)};
 }
 
-// By hand: rows and columns that are equal, opposite, at right angles.
-TEST(TextureRtlAxis, ByHand) {
+// By hand: rows and columns that are equal, opposite, or at right angles.
+TEST(TextureRtlAxis, MatchesValuesByHand) {
   ClockDomain clock("clock", period());
   AxisBench b(clock, "", Axes::kEight, FootprintRule::kExact);
-  b.ends.source.add(token(1280, 0, 0, 1280));     // a square: 0 and 4 are equal, the smaller stays
+  b.ends.source.add(token(1280, 0, 0, 1280));     // a square: 0 and 4 are equal, the smaller wins
   b.ends.source.add(token(0, 0, 0, 1280));        // upright
-  b.ends.source.add(token(1280, 0, 1280, 0));     // both alike: 45 degrees, (90 + 90) x 10
+  b.ends.source.add(token(1280, 0, 1280, 0));     // both equal: 45 degrees, (90 + 90) x 10
   b.ends.source.add(token(1280, 0, -1280, 0));    // 135 degrees
   b.ends.source.add(token(-1280, 256, 0, 2560));  // 67.5: 49 P_x + 118 P_y, against 0 + 128 P_y
   clock.run(60);
@@ -86,7 +86,7 @@ constexpr std::array<Timed, 7> kTimed = {{
     {"exact4_", Axes::kEight, FootprintRule::kExact, 4},
 }};
 
-TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
+TEST(TextureRtlAxis, LatencyAndCyclesFollowConfiguration) {
   ClockDomain clock("clock", period());
   std::vector<std::unique_ptr<AxisBench>> benches;
   for (const Timed& row : kTimed) {
@@ -105,9 +105,9 @@ TEST(TextureRtlAxis, LatencyByRuleAndClocks) {
   }
 }
 
-// A fragment every so many cycles, through a stall as well.
-TEST(TextureRtlAxis, IntervalIsAxisClocks) {
-  constexpr Cycle kHeld = 30, kStall = 13;  // every row is in the middle of its tokens then
+// One fragment per axis_cycles, also through a stall.
+TEST(TextureRtlAxis, IntervalIsAxisCycles) {
+  constexpr Cycle kHeld = 30, kStall = 13;  // every row is then in the middle of its tokens
   ClockDomain clock("clock", period());
   std::vector<std::unique_ptr<AxisBench>> benches;
   for (const Timed& row : kTimed) {
@@ -131,14 +131,14 @@ TEST(TextureRtlAxis, IntervalIsAxisClocks) {
       }
       EXPECT_EQ(got[n].token.ticket.tag, n);
     }
-    // The link's two places are used up meanwhile; the unit is late by the rest of the stall.
+    // The two entries of the link fill in the meantime; the unit is late by the rest of the stall.
     const Cycle late = got.back().cycle - alone(39);
     EXPECT_LE(late, kStall);
     EXPECT_GE(late + 3 * (cycles - 1), kStall);
   }
 }
 
-TEST(TextureRtlAxis, ResetForgetsTheFragmentInHand) {
+TEST(TextureRtlAxis, ResetDropsFragmentInProgress) {
   ClockDomain clock("clock", period());
   AxisBench b(clock, "", Axes::kEight, FootprintRule::kHalf, 4);
   b.ends.source.add(token(1, 2, 3, 4, 1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A TextureCache between a queue of requests and a sink, with a memory whose words hold their own
-// addresses. Cycles are counted from the push of a request by its producer: pushed in c, taken in
-// c + 1.
+// addresses. Cycles are counted from the push of a request by its producer: pushed in c, taken in c
+// + 1.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace deburr::tb::texture_rtl {
 
-// A hit comes out this long after it has been taken: tag check (2), FIFO, data read (2).
+// Cycles from taking a hit to its output: tag check (2), FIFO, data read (2).
 inline constexpr Cycle kHit = 5;
-// A miss of one line, besides the latency of memory: tag check (2), miss queue, port, memory,
-// response, fill buffer (2), data stage (2).
+// Cycles of a miss of one line, without the memory latency: tag check (2), miss queue, port,
+// memory, response, fill buffer (2), data stage (2).
 inline constexpr Cycle kMiss = 10;
 
 inline spec::texture::Parameters small_cache() {
@@ -38,7 +38,7 @@ inline rtl::texture::TexelToken request(std::array<std::uint32_t, 4> address,
   t.address = address;
   return t;
 }
-// Four neighbours in one line.
+// Four adjacent texels in one line.
 inline rtl::texture::TexelToken in_line(std::uint32_t line, std::uint32_t tag = 0) {
   const std::uint32_t a = line * 64;
   return request({a, a + 4, a + 16, a + 20}, tag);
@@ -68,7 +68,7 @@ struct CacheBench {
   static std::uint32_t word(std::uint64_t address) {
     return static_cast<std::uint32_t>(address * 2654435761u + 12345);
   }
-  // The clock in which a request that is pushed now comes out.
+  // The cycle in which a request that is pushed now leaves.
   Cycle time_of(const rtl::texture::TexelToken& t) {
     const std::size_t before = ends.sink.taken.size();
     const Cycle taken = clock.cycle() + 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The DataStage in the cache: bank passes, texels anywhere in a line, and hits in lines that are
-// replaced by the same request.
+// The DataStage in the cache: bank passes, texels anywhere in a line, and hits in lines that the
+// same request replaces.
 #include <cstring>
 #include <tuple>
 #include <utility>
@@ -14,7 +14,7 @@ namespace {
 using namespace rtl::texture;
 using testing::ElementsAre;
 
-TEST(TextureRtlDataStage, OneByteAndTwoByteTexelsAnywhereInALine) {
+TEST(TextureRtlDataStage, ReadsOneAndTwoByteTexelsAnywhereInLine) {
   CacheBench b;
   for (const auto& [format, mask] : {std::pair{spec::texture::Format::kL8, 0xFFu},
                                      std::pair{spec::texture::Format::kRgb565, 0xFFFFu}}) {
@@ -35,7 +35,7 @@ TEST(TextureRtlDataStage, OneByteAndTwoByteTexelsAnywhereInALine) {
   }
 }
 
-// A hit and a miss that overwrites it, in one request.
+// A hit, and a miss that overwrites its line, in one request.
 TEST(TextureRtlDataStage, HitIsReadBeforeItsLineIsOverwritten) {
   spec::texture::Parameters p = small_cache();
   p.cache_ways = 1;
@@ -48,15 +48,15 @@ TEST(TextureRtlDataStage, HitIsReadBeforeItsLineIsOverwritten) {
   EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 256));
 }
 
-// Word w of a line is in bank w: 0 and 64 meet, 0 and 4 or 0 and 68 do not.
-TEST(TextureRtlDataStage, BankPasses) {
+// Word w of a line is in bank w: words 0 and 64 conflict, 0 and 4 or 0 and 68 do not.
+TEST(TextureRtlDataStage, TakesOnePassPerConflictingWord) {
   spec::texture::Parameters p = small_cache();
   p.cache_bytes = 1024;
   CacheBench b(p);
   const TexelToken plain = request({0, 68, 136, 204}), columns = request({0, 64, 20, 84}),
                    rows = request({4, 8, 68, 72}), three = request({0, 64, 128, 12}),
                    four = request({0, 64, 128, 192}), words = request({0, 1, 66, 130});
-  for (const auto& t : {plain, columns, rows, three, four}) b.time_of(t);  // all lines are there
+  for (const auto& t : {plain, columns, rows, three, four}) b.time_of(t);  // loads all lines
   EXPECT_EQ(b.cache.data_stage.conflicts.value(), 4u);
   EXPECT_EQ(b.time_of(plain), kHit);
   EXPECT_EQ(b.time_of(columns), kHit + 1);
@@ -79,8 +79,8 @@ TEST(TextureRtlDataStage, BankPasses) {
   EXPECT_EQ(conflicts() - before, 1u + 1 + 3);
 }
 
-// A row of a linear texture stands at the same place in its lines as the row above it: turned, they
-// do not meet.
+// A row of a linear texture has the same position in its lines as the row above: with turned rows
+// they do not conflict.
 void check_turned_rows(std::int32_t line_bytes) {
   spec::texture::Parameters p = small_cache();
   p.cache_bytes = 4096;
@@ -95,19 +95,19 @@ void check_turned_rows(std::int32_t line_bytes) {
   for (const auto& t : asked) b.time_of(t);
   for (const auto& t : asked) EXPECT_EQ(b.time_of(t), kHit);
   EXPECT_EQ(b.cache.data_stage.conflicts.value(), 0u);
-  // The same lines as a descriptor sees them that does not turn them: right all the same.
+  // The same lines through a descriptor that does not turn them: texels are still correct.
   asked.insert(asked.end(), asked.begin(), asked.end());
   asked.push_back(request({0, 4, 1024, 1028}));
   asked.push_back(request({32, 4, 1024, 1056}));
   for (std::size_t i = asked.size() - 2; i < asked.size(); ++i) b.time_of(asked[i]);
   b.check_data(asked);
 }
-TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf32) { check_turned_rows(32); }
-TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf64) { check_turned_rows(64); }
-TEST(TextureRtlDataStage, TurnedRowsDoNotMeetInLinesOf128) { check_turned_rows(128); }
+TEST(TextureRtlDataStage, TurnedRowsDoNotConflictInLinesOf32) { check_turned_rows(32); }
+TEST(TextureRtlDataStage, TurnedRowsDoNotConflictInLinesOf64) { check_turned_rows(64); }
+TEST(TextureRtlDataStage, TurnedRowsDoNotConflictInLinesOf128) { check_turned_rows(128); }
 
-// Whatever the fragment before it had.
-TEST(TextureRtlDataStage, AFragmentWithoutATextureHasNoTexels) {
+// Even after a fragment that has texels.
+TEST(TextureRtlDataStage, FragmentWithoutTextureHasNoTexels) {
   CacheBench b;
   TexelToken token = in_line(0);
   b.time_of(token);
@@ -116,9 +116,9 @@ TEST(TextureRtlDataStage, AFragmentWithoutATextureHasNoTexels) {
   EXPECT_THAT(b.ends.sink.taken.back().token.texel, ElementsAre(0, 0, 0, 0));
 }
 
-// Two texels of one bank that hit, in lines which the two misses of the same request replace: the
-// second line has to wait for the second pass.
-TEST(TextureRtlDataStage, PassesBeforeFills) {
+// Two hits of one bank, in lines that the two misses of the same request replace: the second line
+// waits for the second pass.
+TEST(TextureRtlDataStage, PassesPrecedeFills) {
   spec::texture::Parameters p = small_cache();
   p.cache_ways = 1;
   CacheBench b(p);
@@ -131,7 +131,7 @@ TEST(TextureRtlDataStage, PassesBeforeFills) {
   EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 64, 256, 320, 0));
 }
 
-// The data stage alone, with a buffer of lines that stays empty.
+// The data stage alone, with a fill buffer that stays empty.
 struct StageBench {
   explicit StageBench(const CacheToken& first) {
     stage.requests_in(requests);
@@ -161,16 +161,17 @@ struct StageBench {
   DataStage stage{"stage", clock, parameters(), fills.reader()};
 };
 
-TEST(TextureRtlDataStage, LatencyOfTheDatasheet) {
+TEST(TextureRtlDataStage, LatencyMatchesDatasheet) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   expect_latency(DataStage::datasheet(), ready_at(b.clock, b.texels) - 1);
 }
 
-// ---- cycles of passes and fills -----------------------------------------------------------------
+// ---- Cycles of passes and fills ----------------------------------------------------------------
 
-// The data stage alone with a request of so many passes, and lines to write that have all come.
+// The data stage alone: cycles of one request, given its passes and lines to write that have all
+// arrived.
 struct Cycles {
-  Cycle taken;  // of the request, from the clock that takes it to the one that lets it go
+  Cycle taken;  // cycles from accepting the request to releasing it
   std::uint64_t wait_fill, write_fill, bank_conflict;
   friend bool operator==(const Cycles&, const Cycles&) = default;
   friend void PrintTo(const Cycles& c, std::ostream* out) {
@@ -197,9 +198,9 @@ Cycles cycles_of(const CacheToken& token) {
   const Cycle pushed = clock.cycle();
   requests.push(pushed, token);
   const Cycle ready = ready_at(clock, texels, 40);
-  // Taken a clock after the push; the last clock of stage 1 is one before the push of the texels.
+  // Taken one cycle after the push; stage 1 ends one cycle before the push of the texels.
   const auto stalls = stage.stalls();
-  // Lines are written one a clock at the end of a request: the wire is high for so many cycles.
+  // Lines are written at the end of a request, one per cycle: the wire is high once per line.
   EXPECT_EQ(line_used.high_cycles(clock.cycle()), token.fills);
   EXPECT_EQ(line_used.changes(), token.fills == 0 ? 0u : 2u);
   rtl::for_each<rtl::PortedMemory>(
@@ -207,8 +208,8 @@ Cycles cycles_of(const CacheToken& token) {
   return {ready - 1 - (pushed + 1), stalls[1].cycles, stalls[2].cycles, stalls[3].cycles};
 }
 
-// Words of one bank for as many hits as there are passes, the other hits in banks of their own.
-// What misses stands at the beginning of its line, in the bank of the hits, and meets nobody.
+// `passes` hits are in different words of one bank, the other hits in banks of their own. Misses
+// are at the start of their lines, in the bank of the hits, and conflict with no hit.
 CacheToken request_of(std::uint32_t hits, std::uint32_t passes, std::uint8_t lines,
                       bool misses_first) {
   CacheToken token = StageBench::hit({0, 0, 0, 0});
@@ -234,14 +235,14 @@ void PrintTo(const PassesAndFills& c, std::ostream* out) {
 }
 class DataStageCycles : public testing::TestWithParam<std::tuple<bool, PassesAndFills>> {};
 
-// The first line is written in the clock of the last pass, then one a clock.
-TEST_P(DataStageCycles, FillsBeginInTheClockOfTheLastPass) {
+// The first line is written in the cycle of the last pass, then one line per cycle.
+TEST_P(DataStageCycles, FillsBeginInCycleOfLastPass) {
   const auto& [misses_first, c] = GetParam();
   EXPECT_EQ(cycles_of(request_of(c.hits, c.passes, c.lines, misses_first)), c.expected);
 }
-// Behind texels that wait it takes neither a pass nor a fill, and as many cycles as ever from the
-// one in which they move on.
-TEST_P(DataStageCycles, BeginWhenTheTexelsBeforeMoveOn) {
+// While earlier texels wait, the request makes neither a pass nor a fill; once they move on, it
+// takes the usual number of cycles.
+TEST_P(DataStageCycles, BeginsWhenEarlierTexelsMoveOn) {
   const auto& [misses_first, c] = GetParam();
   const CacheToken before = StageBench::hit({0, 4, 16, 20});
   StageBench b(before);
@@ -268,7 +269,7 @@ TEST_P(DataStageCycles, BeginWhenTheTexelsBeforeMoveOn) {
     b.texels.pop(popped);
     ++texels;
   }
-  // A place of the link is free a clock after the pop; its last clock, the push, the pop.
+  // A link entry is free one cycle after the pop; the last cycle, the push, the pop.
   EXPECT_EQ(popped - from, c.expected.taken + 2);
 }
 INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageCycles,
@@ -285,11 +286,11 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageCycles,
                                                           PassesAndFills{0, 0, 2, {2, 0, 1, 0}},
                                                           PassesAndFills{0, 0, 4, {4, 0, 3, 0}})));
 
-// Two texels of a request that hit: in different words of a bank they take two passes, in one word
-// one, whichever two they are.
+// Two hits of one request: two passes in different words of a bank, one pass in the same word, for
+// any pair of texels.
 using TexelPair = std::pair<std::size_t, std::size_t>;
 class TwoTexels : public testing::TestWithParam<std::tuple<TexelPair, bool>> {};
-TEST_P(TwoTexels, MeetUnlessTheyShareAWord) {
+TEST_P(TwoTexels, ConflictUnlessTheyShareWord) {
   const auto [pair, share] = GetParam();
   const auto [first, second] = pair;
   CacheToken token = StageBench::hit({4, 8, 12, 16});
@@ -302,13 +303,13 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, TwoTexels,
                                                           TexelPair{1, 3}, TexelPair{2, 3}),
                                           testing::Bool()));
 
-// Two words, each of two texels.
-TEST(TextureRtlDataStage, TwoWordsOfABankTakeTwoPasses) {
+// Two words, each with two texels.
+TEST(TextureRtlDataStage, TwoWordsOfOneBankTakeTwoPasses) {
   EXPECT_EQ(cycles_of(StageBench::hit({0, 64, 1, 65})), (Cycles{2, 0, 0, 1}));
 }
 
-// A line that has come waits for its own request, while those before it take their passes.
-TEST(TextureRtlDataStage, AFillWaitsForItsRequestAfterBankConflicts) {
+// A line that has arrived waits for its own request while earlier requests take their passes.
+TEST(TextureRtlDataStage, FillWaitsForRequestAfterBankConflicts) {
   CacheBench b(small_cache(), 5);
   std::vector<TexelToken> asked = {in_line(0), in_line(1)};
   for (std::uint32_t line = 2; line < 6; ++line) {
@@ -322,14 +323,14 @@ TEST(TextureRtlDataStage, AFillWaitsForItsRequestAfterBankConflicts) {
   EXPECT_GE(b.cache.data_stage.conflicts.value(), 32u);
 }
 
-// ---- what the banks do not do -------------------------------------------------------------------
+// ---- Misuse of the banks -----------------------------------------------------------------------
 
-TEST(TextureRtlDataBanks, AWordIsNotThereInTheClockOfItsRead) {
+TEST(TextureRtlDataBanks, WordReadInSameCycleIsRejected) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Rejects("banks", kEarly));
 }
 
-// A second request: of the one before it, words stand on the output registers.
+// A second request, while the output registers hold words of the first.
 std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   b.clock.run(2);
@@ -337,22 +338,21 @@ std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
   b.clock.run(1);
   return of_a_stage_less(b.stage, b.clock);
 }
-TEST(TextureRtlDataBanks, AnotherWordOfTheRequestBeforeIsStale) {
+TEST(TextureRtlDataBanks, OtherWordOfPreviousRequestIsStale) {
   EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Rejects("banks", kEarly));
 }
-TEST(TextureRtlDataBanks, TheSameWordOfTheRequestBeforeIsStale) {
+TEST(TextureRtlDataBanks, SameWordOfPreviousRequestIsStale) {
   EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Rejects("banks", kEarly));
 }
 
-TEST(TextureRtlDataBanks, OneQuadAClock) {
+TEST(TextureRtlDataBanks, SecondQuadInOneCycleIsRejected) {
   const CacheToken token = StageBench::hit({0, 4, 16, 20});
   StageBench b(token);
   EXPECT_THAT(of_a_second_token(b.stage, b.requests, token, b.clock), Rejects("banks", kTooMany));
 }
 
-// Texels 1 and 3 are left for the second pass; then the place of one of them moves into the bank of
-// the other.
-TEST(TextureRtlDataBanks, ABankIsReadOnceAClock) {
+// Texels 1 and 3 remain for the second pass; then one of them moves into the bank of the other.
+TEST(TextureRtlDataBanks, BankUsedTwicePerCycleIsRejected) {
   StageBench b(StageBench::hit({0, 64, 20, 84}));
   ASSERT_EQ(b.stage.conflicts.value(), 1u);
   const CacheToken moved = StageBench::hit({0, 64, 20, 128});
@@ -361,14 +361,14 @@ TEST(TextureRtlDataBanks, ABankIsReadOnceAClock) {
               Rejects("banks", "bank 0 (address 32) is used twice"));
 }
 
-TEST(TextureRtlDataBanks, HaveNoWordBeyondTheLastLine) {
+TEST(TextureRtlDataBanks, RejectsWordBeyondLastLine) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   b.clock.run(1);
   b.requests.push(2, StageBench::hit({0, 4, 16, 1024}));
   EXPECT_THAT(rejection([&] { b.clock.run(2); }), Rejects("banks", "expected at most"));
 }
 
-TEST(TextureRtlDataBanks, HaveNoPortForAnybodyElse) {
+TEST(TextureRtlDataBanks, RejectsExtraPort) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<void>, void>(b.stage, "banks")),
               Rejects("banks", "one port more than 4R1W"));

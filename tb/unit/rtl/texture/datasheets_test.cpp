@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasheets of the texture unit: every block has one, and their numbers are the contract's.
+// The datasheets of the texture unit: every block has one that matches the contract.
 #include "rtl_model/texture/datasheets.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -8,7 +8,7 @@
 namespace deburr::tb::texture_rtl::datasheets_test {
 namespace {
 
-TEST(TextureRtlDatasheets, AreTheContracts) {
+TEST(TextureRtlDatasheets, MatchTheContract) {
   expect_contract(rtl::texture::datasheets(), {{"TextureUnit, `preset = paper`", 30, 1},
                                                {"TextureUnit, `preset = deburr`", 53, 1},
                                                {"AddressUnit, `preset = paper`", 17, 1},
@@ -35,11 +35,11 @@ TEST(TextureRtlDatasheets, AreTheContracts) {
                                                {"Descriptors", 0, 1}});
 }
 
-TEST(TextureRtlDatasheets, EveryUnitOfThePaperHasOne) {
+TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
   const UnitBench b;
   expect_datasheets(b.unit, rtl::texture::datasheets(stimuli::paper_configuration()));
 }
-TEST(TextureRtlDatasheets, EveryUnitOfThePresetDeburrHasOne) {
+TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetDeburr) {
   const UnitBench b(spec::texture::Parameters{});
   expect_datasheets(b.unit, rtl::texture::datasheets({}));
 }

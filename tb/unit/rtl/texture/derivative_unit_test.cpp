@@ -35,10 +35,10 @@ TEST(TextureRtlDerivative, RoundsToNearestAndSaturates) {
   q.s = {1, 0, 1, 0};  // -1 x 256 = 256 / 256 = 1
   q.t = {0, 0, 1, 0};  // 1 x 128 = 0.5 ulp: up
   b.ends.source.add(q);
-  q.s = {INT32_MIN, INT32_MAX, INT32_MIN, 0};  // (2^32 - 1) x 256 -> 2^32 - 1 in U15.16: too much
+  q.s = {INT32_MIN, INT32_MAX, INT32_MIN, 0};  // (2^32 - 1) x 256 -> 2^32 - 1 in U15.16: saturates
   q.t = {0, 0, 1 << 30, 0};                    // 64 x 128 = 8192 texels
   b.ends.source.add(q);
-  q.s = {0, INT32_MAX, 0, 0};  // (2^31 - 1) x 256 -> 2^31 - 1: just fits
+  q.s = {0, INT32_MAX, 0, 0};  // (2^31 - 1) x 256 -> 2^31 - 1: fits
   q.t = {0, 0, 0, 0};
   b.ends.source.add(q);
   b.clock.run(12);
@@ -51,7 +51,7 @@ TEST(TextureRtlDerivative, RoundsToNearestAndSaturates) {
   EXPECT_EQ(b.unit.saturated.value(), 1u);
 }
 
-TEST(TextureRtlDerivative, OneClockACoveredLane) {
+TEST(TextureRtlDerivative, TakesOneCyclePerCoveredLane) {
   DerivativeBench b;
   for (const std::uint8_t coverage : std::to_array<std::uint8_t>({0xF, 0x9, 0, 0, 4, 0xF})) {
     spec::texture::Quad q;
@@ -71,7 +71,7 @@ TEST(TextureRtlDerivative, OneClockACoveredLane) {
   EXPECT_EQ(b.unit.busy_cycles(), 13u + 2);  // until the last one has left
 }
 
-TEST(TextureRtlDerivative, HoldsStillWhileItsOutputWaits) {
+TEST(TextureRtlDerivative, StallsWhileOutputIsBlocked) {
   DerivativeBench b;
   b.ends.sink.hold_to = 20;
   for (const std::uint8_t coverage : std::to_array<std::uint8_t>({1, 1, 0, 0, 1, 8, 0, 2})) {
@@ -97,14 +97,14 @@ TEST(TextureRtlDerivative, TakesNothingWhileDisabled) {
   EXPECT_EQ(b.ends.sink.taken.size(), 4u);
 }
 
-TEST(TextureRtlDerivative, InvalidDescriptorIsCountedAndNotSaturated) {
+TEST(TextureRtlDerivative, InvalidDescriptorIsCountedNotSaturated) {
   DerivativeBench b;
   spec::texture::Quad q;
   q.texture = 3;
   q.coverage = 0x5;
   q.s = {INT32_MIN, INT32_MAX, 0, 0};
   b.ends.source.add(q);
-  q.texture = 200;  // no such handle
+  q.texture = 200;  // undefined handle
   b.ends.source.add(q);
   b.clock.run(12);
   ASSERT_EQ(b.ends.sink.taken.size(), 4u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Descriptors: they follow the registers, and each block reads through its own port. What they
-// make of a register is compared in equivalence_test.cpp, through the units that use it.
+// The Descriptors: they follow the registers, and each block reads through its own port. Decoding
+// of registers is compared in equivalence_test.cpp, through the units that use it.
 #include "rtl_model/texture/descriptors.h"
 
 #include <array>
@@ -19,7 +19,7 @@ spec::texture::Descriptor some_texture() {
   return d;
 }
 
-TEST(TextureRtlDescriptors, FollowTheRegisters) {
+TEST(TextureRtlDescriptors, FollowRegisters) {
   ClockDomain clock("clock", period());
   Store store(clock);
   auto read = store.descriptors.for_levels;
@@ -30,14 +30,14 @@ TEST(TextureRtlDescriptors, FollowTheRegisters) {
   EXPECT_EQ(t.level[2].width, 16);
   EXPECT_EQ(t.level[2].height, 4);
   EXPECT_FALSE(read.read(3, 2).valid);
-  EXPECT_FALSE(read.read(4, 16).valid);  // no such handle
+  EXPECT_FALSE(read.read(4, 16).valid);  // undefined handle
   clock.set_reset_n(false);
   clock.run(1);
   EXPECT_FALSE(read.read(5, 3).valid);
 }
 
-// A row or a column of texels is a texture.
-TEST(TextureRtlDescriptors, OneTexelIsEnoughOfASide) {
+// A single row or column of texels is a valid texture.
+TEST(TextureRtlDescriptors, AcceptTextureOneTexelWideOrHigh) {
   ClockDomain clock("clock", period());
   Store store(clock);
   auto read = store.descriptors.for_levels;
@@ -53,7 +53,7 @@ TEST(TextureRtlDescriptors, OneTexelIsEnoughOfASide) {
   }
 }
 
-// Each register by itself, that of the first texture's SIZE too.
+// Each register alone, including SIZE of the first texture.
 TEST(TextureRtlDescriptors, FollowEveryRegister) {
   namespace reg = spec::texture::reg;
   ClockDomain clock("clock", period());
@@ -74,7 +74,7 @@ TEST(TextureRtlDescriptors, FollowEveryRegister) {
   }
 }
 
-TEST(TextureRtlDescriptors, OneReadAClockAndPort) {
+TEST(TextureRtlDescriptors, AllowOneReadPerCycleAndPort) {
   ClockDomain clock("clock", period());
   Store store(clock);
   auto levels = store.descriptors.for_levels, texels = store.descriptors.for_texels;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Block by block: what comes out of each unit of the texture pipeline is what the golden model's
-// function says for what went in. Values only; cycles are the business of each unit's own test.
+// Block by block: the output of each unit of the texture pipeline equals the golden model's
+// function of its input. Values only; each unit's own test checks cycles.
 //
-// Where two implementations of one rule can be compared without a clock the inputs are exhaustive
+// Where two implementations of one rule can be compared without a clock, the inputs are exhaustive
 // or cover every combination of leading one, mantissa and kind of low bits. Units are fed through
-// links that stall now and then, corners first, then at random. Every block is also run with one
-// bit of one token wrong: the comparison must notice.
+// links that stall now and then, corner values first, then random ones. Every block also runs with
+// one wrong bit in one token: the comparison must notice.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,20 +28,20 @@ using texture_rtl::Store;
 using texture_rtl::write_descriptor;
 
 struct Verdict {
-  std::uint64_t compared = 0, mismatches = 0, first = 0;  // first: number of the first wrong answer
+  std::uint64_t compared = 0, mismatches = 0, first = 0;  // first: index of the first wrong answer
 };
 
 inline void expect_equal(const Verdict& v, std::uint64_t at_least) {
   EXPECT_EQ(v.mismatches, 0u) << "the first at answer " << v.first;
   EXPECT_GE(v.compared, at_least);
 }
-// The injected fault touches one token, so it may spoil no more answers than that token gives.
+// The injected fault changes one token, so it may spoil at most the answers of that token.
 inline void expect_noticed(const Verdict& v, std::uint64_t answers_a_token = 1) {
   EXPECT_GE(v.mismatches, 1u);
   EXPECT_LE(v.mismatches, answers_a_token);
 }
 
-// One unit between a driver and a sink; the unit's ports are bound to `in` and `out`.
+// One unit between a driver and a sink; its ports are bound to `in` and `out`.
 template <class From, class To>
 class Pair {
  public:
@@ -54,13 +54,13 @@ class Pair {
     sink_.beats_in(out);
     sink_.keep(false);
   }
-  // Everything back to the start; descriptors are gone.
+  // Resets everything, including descriptors.
   void reset() {
     clock.set_reset_n(false);
     clock.run(2);
     clock.set_reset_n(true);
   }
-  // Sends `tokens` tokens and checks `answers` answers, once after a reset.
+  // Sends `tokens` tokens after a reset and checks `answers` answers.
   void run(std::uint64_t tokens, const std::function<From(std::uint64_t)>& token,
            std::uint64_t answers, const std::function<bool(std::uint64_t, const To&)>& right) {
     std::uint64_t answer = 0;
@@ -77,7 +77,7 @@ class Pair {
     const bool finished =
         clock.run_until([&] { return answer >= answers; }, 100 * (tokens + answers) + 1000);
     EXPECT_TRUE(finished) << answer << " of " << answers << " answers came";
-    clock.run(50);  // none too many
+    clock.run(50);  // detects extra answers
     EXPECT_EQ(answer, answers);
   }
   Verdict verdict;
@@ -92,7 +92,7 @@ inline constexpr std::uint64_t kFaultyToken = 1000;
 
 inline constexpr std::uint32_t kMemoryBytes = 1u << 20;
 
-// Writes 16 descriptors; the golden functions are given the same.
+// Writes 16 descriptors; the golden functions get the same.
 using Descriptors = std::array<spec::texture::Descriptor, spec::texture::kMaxTextures>;
 inline void write(Store& store, const Descriptors& descriptors) {
   for (std::uint32_t h = 0; h < descriptors.size(); ++h)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each unit of the texture pipeline against the golden model's function of the same name: one
-// suite, a row per unit.
+// Compares each unit of the texture pipeline with the golden model's function of the same name: one
+// suite, one row per unit.
 #include "tb/unit/rtl/texture/equivalence.h"
 
 #include <fmt/format.h>
@@ -37,12 +37,12 @@ using stimuli::random_texture;
 namespace gold = golden::texture;
 using spec::texture::Parameters;
 
-// As the tokens have it: a magnitude and the sign of the difference it was made of.
+// As in the tokens: a magnitude with the sign of the difference it came from.
 std::int64_t signed_size(std::uint32_t magnitude, std::int64_t difference) {
   return difference < 0 ? -std::int64_t{magnitude} : std::int64_t{magnitude};
 }
 
-// ---- DerivativeUnit
+// ---- DerivativeUnit ----------------------------------------------------------------------------
 
 Verdict compare_derivative(const Parameters&, bool fault) {
   Pair<spec::texture::Quad, hw::DerivativeToken> bench;
@@ -114,7 +114,7 @@ Verdict compare_derivative(const Parameters&, bool fault) {
   return bench.verdict;
 }
 
-// ---- FootprintUnit
+// ---- FootprintUnit -----------------------------------------------------------------------------
 
 constexpr std::uint32_t kLargestSide = 0x7FFFFFFF;  // U15.16
 
@@ -171,7 +171,7 @@ Verdict compare_footprint(const Parameters& p, bool fault) {
   for (std::uint32_t s = 0; s < 128; ++s)
     for (std::uint32_t t = 0; t < 128; ++t) add(s, t, t / 2, 2 * s);
   for (std::uint32_t n = 2; n < 40'000; n += 3) {
-    // sqrt(s^2 + 0) = s: next to a perfect square in the sum of both.
+    // sqrt(s^2 + 0) = s: near perfect squares, by the sum of both components.
     const std::uint32_t s = n * (kLargestSide / 40'000);
     add(s, 0, s, 1);
   }
@@ -204,7 +204,7 @@ Verdict compare_footprint(const Parameters& p, bool fault) {
   return bench.verdict;
 }
 
-// ---- AxisUnit
+// ---- AxisUnit ----------------------------------------------------------------------------------
 
 Verdict compare_axis(const Parameters& p, bool fault) {
   Pair<hw::DerivativeToken, hw::FootprintToken> bench;
@@ -231,7 +231,7 @@ Verdict compare_axis(const Parameters& p, bool fault) {
     hw::DerivativeToken t{kTicket, 1, 2, any(), any(), any(), any(), 0, 0, 0, 0};
     if (random.chance(200)) t.s_y = t.s_x;  // ties
     if (random.chance(200)) t.t_y = random.chance(500) ? t.t_x : -t.t_x;
-    if (random.chance(100)) {  // long at 45 degrees: candidates to either side are equal
+    if (random.chance(100)) {  // long at 45 degrees: candidates on both sides are equal
       t.s_y = t.t_x;
       t.t_y = t.s_x;
     }
@@ -264,7 +264,7 @@ Verdict compare_axis(const Parameters& p, bool fault) {
   return bench.verdict;
 }
 
-// ---- Log2Unit
+// ---- Log2Unit ----------------------------------------------------------------------------------
 
 // Every leading one and every mantissa by the function; some of them through the unit.
 Verdict compare_log2(const Parameters& p, bool fault) {
@@ -282,9 +282,9 @@ Verdict compare_log2(const Parameters& p, bool fault) {
     if (v.compared % 64 == 0)
       tokens.push_back({kTicket, 1, 2, 3, 4, static_cast<std::uint32_t>(random.next()), d});
   };
-  for (std::uint32_t d = 0; d < 1u << 21; ++d) compare(d);             // below it everything
+  for (std::uint32_t d = 0; d < 1u << 21; ++d) compare(d);             // every smaller value
   for (int bit = 12; bit < 47; ++bit) {                                // an area has 47 bits
-    const std::uint64_t below = (std::uint64_t{1} << (bit - 12)) - 1;  // bits that are cut off
+    const std::uint64_t below = (std::uint64_t{1} << (bit - 12)) - 1;  // bits that are dropped
     for (std::uint32_t y = 0; y < 4096; ++y) {
       const std::uint64_t d = std::uint64_t{4096u | y} << (bit - 12);
       for (const std::uint64_t low : {std::uint64_t{0}, 1u & below, below, below >> 1,
@@ -312,9 +312,9 @@ Verdict compare_log2(const Parameters& p, bool fault) {
   return v;
 }
 
-// ---- LevelUnit
+// ---- LevelUnit ---------------------------------------------------------------------------------
 
-// Logarithms next to every threshold of a level: whole numbers, halves, rounding of the fraction.
+// Logarithms next to every threshold of a level: integers, halves, rounding of the fraction.
 std::vector<std::int32_t> log_corners() {
   std::vector<std::int32_t> all;
   for (std::int32_t whole = -16; whole <= 16; ++whole)
@@ -323,8 +323,8 @@ std::vector<std::int32_t> log_corners() {
   return all;
 }
 
-// Batch by batch: all modes, magnification filters, numbers of levels and N_max in turn, then
-// descriptors at random with any bias and any clamps.
+// By batches: all modes, magnification filters, numbers of levels and N_max in turn, then random
+// descriptors with any bias and clamps.
 spec::texture::Descriptor level_texture(Random& random, int number) {
   constexpr std::array<std::uint8_t, 4> kLevels = {1, 2, 7, 13};
   constexpr int kSystematic = 6 * 2 * 4 * 5;
@@ -401,7 +401,7 @@ Verdict compare_level(const Parameters& p, bool fault) {
   return bench.verdict;
 }
 
-// ---- SampleWalker
+// ---- SampleWalker ------------------------------------------------------------------------------
 
 constexpr std::array<std::int64_t, 7> kAxisCorners = {
     0, 1, -1, (std::int64_t{1} << 32) - 1, 1 - (std::int64_t{1} << 32), 1 << 20, -(1 << 23)};
@@ -470,7 +470,7 @@ Verdict compare_walker(const Parameters& p, bool fault) {
   return bench.verdict;
 }
 
-// ---- TexelAddresser
+// ---- TexelAddresser ----------------------------------------------------------------------------
 
 Verdict compare_addresser(const Parameters&, bool fault) {
   Pair<hw::SampleToken, hw::TexelToken> bench;
@@ -531,7 +531,7 @@ Verdict compare_addresser(const Parameters&, bool fault) {
           const auto address = [&](std::int32_t column, std::int32_t row) {
             return gold::texel_address(t, in.level, column, row);
           };
-          // Odd rows of the linear layout, which the banks of the cache take the other way round.
+          // Odd rows of the linear layout, which the cache banks store turned.
           const auto turned = [&](std::int32_t row) {
             return t.layout == spec::texture::Layout::kLinear && row % 2 != 0;
           };
@@ -548,7 +548,7 @@ Verdict compare_addresser(const Parameters&, bool fault) {
   return bench.verdict;
 }
 
-// ---- FilterPipeline
+// ---- FilterPipeline ----------------------------------------------------------------------------
 
 Verdict compare_filter(const Parameters& p, bool fault) {
   const FilterWork work = filter_work(p);
@@ -570,7 +570,7 @@ Verdict compare_filter(const Parameters& p, bool fault) {
   return bench.verdict;
 }
 
-// ---- the suite
+// ---- Suite -------------------------------------------------------------------------------------
 
 struct Row {
   const char* unit;
@@ -658,11 +658,11 @@ class Equivalence : public testing::TestWithParam<Build> {
 };
 class EquivalenceFault : public Equivalence {};
 
-TEST_P(Equivalence, UnitIsTheFunction) { expect_equal(compare(false), row.at_least); }
+TEST_P(Equivalence, UnitEqualsGoldenFunction) { expect_equal(compare(false), row.at_least); }
 INSTANTIATE_TEST_SUITE_P(Texture, Equivalence, testing::ValuesIn(builds()), name_of);
 
-// One bit of one token, in the first build of each unit.
-TEST_P(EquivalenceFault, NoticesAWrongBit) { expect_noticed(compare(true), row.answers_a_token); }
+// One wrong bit in one token, in the first build of each unit.
+TEST_P(EquivalenceFault, DetectsWrongBit) { expect_noticed(compare(true), row.answers_a_token); }
 INSTANTIATE_TEST_SUITE_P(Texture, EquivalenceFault, testing::ValuesIn([] {
                            std::vector<Build> first;
                            for (std::size_t i = 0; i < rows().size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The FillBuffer alone: in which clock a line is there, and what its memory rejects.
+// The FillBuffer alone: when a line is available, and what its memory rejects.
 #include "rtl_model/texture/fill_buffer.h"
 
 #include "spec/error.h"
@@ -13,9 +13,9 @@ using rtl::texture::FillBuffer;
 
 constexpr std::array<std::uint8_t, 64> kBeat = {11, 22};
 
-// What comes in t is read in t + 1 and there in t + 2; the next line a clock after the first was
-// used.
-TEST(TextureRtlFillBuffer, ALineIsThereTwoCyclesAfterItsBeat) {
+// A beat that arrives in t is read in t + 1 and available in t + 2; the next line follows one cycle
+// after the first was used.
+TEST(TextureRtlFillBuffer, LineIsAvailableTwoCyclesAfterBeat) {
   FillBuffer buffer("buffer", 4, 64);
   FillBuffer::Reader lines = buffer.reader();
   const Cycle there = 10 + FillBuffer::datasheet().latency.cycles;
@@ -26,7 +26,7 @@ TEST(TextureRtlFillBuffer, ALineIsThereTwoCyclesAfterItsBeat) {
   buffer.fill(11, 1, 0, kBeat, true);
   lines.read_ahead(11);
   EXPECT_FALSE(lines.ready(11));
-  EXPECT_THROW(lines.line(11), spec::CheckFailed);  // its word comes in 12
+  EXPECT_THROW(lines.line(11), spec::CheckFailed);  // its word arrives in 12
   EXPECT_FALSE(lines.ready(there - 1));
   ASSERT_TRUE(lines.ready(there));
   EXPECT_EQ(lines.line(there)[1], 22);
@@ -36,24 +36,24 @@ TEST(TextureRtlFillBuffer, ALineIsThereTwoCyclesAfterItsBeat) {
   lines.release(13);
   lines.read_ahead(13);
   EXPECT_FALSE(lines.ready(14));
-  EXPECT_THROW(lines.line(14), spec::CheckFailed);  // there is still the line of before
+  EXPECT_THROW(lines.line(14), spec::CheckFailed);  // still the previous line
 }
 
-TEST(TextureRtlFillBuffer, OneBeatAClock) {
+TEST(TextureRtlFillBuffer, SecondBeatInOneCycleIsRejected) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
   buffer.reserve(2);
   buffer.fill(10, 0, 0, kBeat, true);
   EXPECT_THROW(buffer.fill(10, 1, 0, kBeat, true), spec::CheckFailed);
-  // Whether it completes its line or not.
+  // Whether or not it completes its line.
   FillBuffer wide("wide", 4, 128);
   wide.reserve(1);
   wide.fill(10, 0, 0, kBeat, false);
   EXPECT_THROW(wide.fill(10, 0, 64, kBeat, false), spec::CheckFailed);
 }
 
-// A beat that names a half of a line which has none, as a broken response may, is rejected.
-TEST(TextureRtlFillBuffer, ABeatPastTheLine) {
+// Rejects a beat for the second half of a line that has only one, as in a broken response.
+TEST(TextureRtlFillBuffer, RejectsBeatPastTheLine) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
   EXPECT_THROW(buffer.fill(10, 0, 64, kBeat, true), spec::CheckFailed);
@@ -63,8 +63,8 @@ TEST(TextureRtlFillBuffer, ABeatPastTheLine) {
   EXPECT_THROW(wide.fill(11, 0, 128, kBeat, true), spec::CheckFailed);
 }
 
-// Above 16 kbit it is SRAM; a line of two beats is written half by half.
-TEST(TextureRtlFillBuffer, LinesOf128BytesComeInTwoBeats) {
+// Above 16 kbit it is SRAM; a line of two beats is written by halves.
+TEST(TextureRtlFillBuffer, LinesOf128BytesArriveInTwoBeats) {
   FillBuffer buffer("buffer", 64, 128);
   FillBuffer::Reader lines = buffer.reader();
   buffer.reserve(1);
@@ -78,9 +78,8 @@ TEST(TextureRtlFillBuffer, LinesOf128BytesComeInTwoBeats) {
   EXPECT_EQ(lines.line(14)[0], 11);
 }
 
-// The output register has one word: the next line cannot be read in the clock in which the one
-// before it was.
-TEST(TextureRtlFillBuffer, OneReadAClock) {
+// The output register holds one word: two lines cannot be read in the same cycle.
+TEST(TextureRtlFillBuffer, SecondReadInOneCycleIsRejected) {
   FillBuffer buffer("buffer", 4, 64);
   FillBuffer::Reader lines = buffer.reader();
   for (std::uint32_t i = 0; i < 2; ++i) {
@@ -92,8 +91,8 @@ TEST(TextureRtlFillBuffer, OneReadAClock) {
   EXPECT_THAT(rejection([&] { lines.read_ahead(12); }), Rejects("buffer", kTooMany));
 }
 
-// An entry that is used again: the line before it still stands on the output register.
-TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
+// A reused entry: the output register still holds the previous line.
+TEST(TextureRtlFillBuffer, PreviousLineOfSameEntryIsStale) {
   FillBuffer buffer("buffer", 1, 64);
   FillBuffer::Reader lines = buffer.reader();
   buffer.reserve(1);
@@ -109,7 +108,7 @@ TEST(TextureRtlFillBuffer, TheLineBeforeInTheSameEntryIsStale) {
 }
 
 // Each beat is written, each line is read once, and its bit is set once and cleared once.
-TEST(TextureRtlFillBuffer, AccessesAreThoseOfBeatsAndLines) {
+TEST(TextureRtlFillBuffer, AccessesMatchBeatsAndLines) {
   FillBuffer buffer("buffer", 4, 128);
   FillBuffer::Reader lines = buffer.reader();
   buffer.reserve(1);
@@ -126,8 +125,8 @@ TEST(TextureRtlFillBuffer, AccessesAreThoseOfBeatsAndLines) {
   EXPECT_EQ(accesses, "buffer 1R2W buffer_arrived 1R2W ");
 }
 
-// Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask of one.
-TEST(TextureRtlFillBuffer, IsBuiltAsItsBitsSay) {
+// Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask.
+TEST(TextureRtlFillBuffer, MemoryKindDependsOnSize) {
   const auto built = [](std::uint32_t entries, std::uint32_t line_bytes) -> std::string {
     const FillBuffer buffer("buffer", entries, line_bytes);
     std::string text;
@@ -145,7 +144,7 @@ TEST(TextureRtlFillBuffer, IsBuiltAsItsBitsSay) {
   EXPECT_EQ(built(17, 128), "17 x 1024 1R1W, write mask of 512 bits");
 }
 
-TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
+TEST(TextureRtlFillBuffer, RejectsReservationBeyondItsEntries) {
   FillBuffer buffer("buffer", 2, 64);
   FillBuffer::Reader lines = buffer.reader();
   EXPECT_EQ(buffer.reserve(1), 0u);
@@ -156,11 +155,11 @@ TEST(TextureRtlFillBuffer, HasNoMoreEntriesThanItSays) {
   buffer.fill(4, 0, 0, kBeat, true);
   lines.read_ahead(5);
   lines.release(6);
-  EXPECT_FALSE(buffer.can_reserve(6));  // from the next clock on
+  EXPECT_FALSE(buffer.can_reserve(6));  // free from the next cycle on
   EXPECT_EQ(buffer.reserve(7), 0u);
 }
 
-TEST(TextureRtlFillBuffer, EachBeatComesOnce) {
+TEST(TextureRtlFillBuffer, RejectsRepeatedBeat) {
   FillBuffer buffer("buffer", 4, 64);
   buffer.reserve(1);
   buffer.fill(10, 0, 0, kBeat, true);

@@ -40,7 +40,7 @@ struct FilterBench {
   Ends<TexelQuadToken, spec::texture::Colour> ends{clock};
 };
 
-// A request that is a fragment of its own.
+// A request that is a whole fragment.
 TexelQuadToken request(Format format, std::array<std::uint32_t, 4> texel, std::uint8_t u = 0,
                        std::uint8_t v = 0) {
   TexelQuadToken token{};
@@ -55,8 +55,8 @@ std::array<std::uint32_t, 4> grey(std::uint32_t a, std::uint32_t b, std::uint32_
   return {a * 0x01010101, b * 0x01010101, c * 0x01010101, d * 0x01010101};
 }
 
-// The builds whose stages differ: codes are written in a ninth stage, and weights of any count come
-// from a ROM.
+// The builds whose stages differ: sRGB codes are written in a ninth stage, and weights of any count
+// come from a ROM.
 class FilterBuild : public testing::TestWithParam<spec::texture::Configuration> {
  protected:
   FilterBench b{GetParam()};
@@ -73,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
                                   spec::texture::SrgbOutput::kEncoded)));
 
-// Weight 0 for each sample, whatever its texels are.
-TEST_P(FilterBuild, AFragmentWithoutATextureIsZero) {
+// Weight 0 for each sample, whatever its texels.
+TEST_P(FilterBuild, FragmentWithoutTextureIsZero) {
   for (const Format format : {Format::kRgb565, Format::kSrgb8A8}) {
     TexelQuadToken invalid = request(format, {~0u, ~0u, ~0u, ~0u});
     invalid.ticket.valid = false;
@@ -86,7 +86,7 @@ TEST_P(FilterBuild, AFragmentWithoutATextureIsZero) {
     EXPECT_THAT(taken.token.rgba, ElementsAre(0, 0, 0, 0));
 }
 
-TEST_P(FilterBuild, LatencyOfTheDatasheet) {
+TEST_P(FilterBuild, LatencyMatchesDatasheet) {
   b.ends.sink.hold_to = 1000;
   b.probe.enters(0);
   b.ends.in.push(0, request(Format::kRgba8, grey(1, 0, 0, 0)));
@@ -98,7 +98,7 @@ TEST_P(FilterBuild, LatencyOfTheDatasheet) {
   EXPECT_TRUE(b.ends.out.can_pop(taken + latency));
 }
 
-TEST_P(FilterBuild, OneRequestAClockAndNothingLostInStalls) {
+TEST_P(FilterBuild, TakesOneRequestPerCycleAndSurvivesStalls) {
   for (std::uint32_t i = 0; i < 100; ++i) {
     TexelQuadToken token = request(Format::kL8, {i, 0, 0, 0});
     token.ticket.tag = i;
@@ -114,15 +114,15 @@ TEST_P(FilterBuild, OneRequestAClockAndNothingLostInStalls) {
     EXPECT_EQ(b.ends.sink.taken[i].token.tag, i);
     EXPECT_EQ(b.ends.sink.taken[i].token.rgba[0], i);
   }
-  // The link takes one colour more, and is free again a clock after its consumer goes on: the
-  // pipeline stands still as long as the consumer does, with a token in every stage.
+  // The link takes one more colour and is free again one cycle after its consumer resumes: the
+  // pipeline stalls as long as the consumer does, with a token in every stage.
   EXPECT_EQ(b.unit.cycles_of(rtl::kStalledDownstream), 17u);
   for (std::size_t stage = 0; stage < FilterPipeline::kStages; ++stage)
     EXPECT_EQ(b.unit.occupancy[stage].value(), stage < latency ? 100u + 17 : 0u);
   EXPECT_EQ(b.unit.fragments.value(), 100u);
 }
 
-TEST(TextureRtlFilter, ResetForgetsPartialSums) {
+TEST(TextureRtlFilter, ResetDropsPartialSums) {
   FilterBench b;
   TexelQuadToken part = request(Format::kRgba8, grey(255, 0, 0, 0));
   part.control.last_of_fragment = false;
@@ -140,8 +140,8 @@ TEST(TextureRtlFilter, ResetForgetsPartialSums) {
   EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 3);
 }
 
-// A single request in whichever stage it is.
-TEST_P(FilterBuild, ResetForgetsEveryStage) {
+// A single request, in each stage in turn.
+TEST_P(FilterBuild, ResetClearsEveryStage) {
   for (Cycle cycles = 1; cycles <= latency; ++cycles) {
     b.add(request(Format::kSrgb8A8, grey(200, 0, 0, 0)));
     b.clock.run(cycles);
@@ -154,9 +154,8 @@ TEST_P(FilterBuild, ResetForgetsEveryStage) {
   }
 }
 
-// Of three colours one behind the other the link takes two; the third one is alone in the last
-// stage then.
-TEST_P(FilterBuild, TheLastColourWaits) {
+// The link takes two of three consecutive colours; the third is then alone in the last stage.
+TEST_P(FilterBuild, LastColourWaitsForLink) {
   for (std::uint32_t i = 0; i < 3; ++i) b.add(request(Format::kSrgb8A8, grey(i, 0, 0, 0)));
   b.ends.sink.hold_to = 40;
   b.clock.run(60);
@@ -171,18 +170,18 @@ struct CodedBench : FilterBench {
   const TexelQuadToken token = request(Format::kSrgb8A8, grey(1, 2, 3, 4));
 };
 
-TEST(TextureRtlFilterSrgb, AWordIsNotThereInTheClockOfItsRead) {
+TEST(TextureRtlFilterSrgb, WordReadInSameCycleIsRejected) {
   CodedBench b;
   EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("srgb", kEarly));
 }
 
-TEST(TextureRtlFilterSrgb, OneQuadAClock) {
+TEST(TextureRtlFilterSrgb, SecondQuadInOneCycleIsRejected) {
   CodedBench b;
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("srgb", kTooMany));
 }
 
-// Nobody else's texels are looked up.
-TEST(TextureRtlFilterSrgb, IsReadForCodedTexelsOnly) {
+// Texels of other formats are not looked up.
+TEST(TextureRtlFilterSrgb, ReadsForSrgbTexelsOnly) {
   FilterBench b;
   const auto reads = [&] {
     std::uint64_t sum = 0;
@@ -202,7 +201,7 @@ TEST(TextureRtlFilterSrgb, IsReadForCodedTexelsOnly) {
   EXPECT_EQ(reads(), 12u);
 }
 
-// The other tables: as many ports as are used, and none before its clock.
+// The weight tables: ports as used, and no read before its cycle.
 struct WeightBench : FilterBench {
   WeightBench()
       : FilterBench(configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
@@ -212,15 +211,15 @@ struct WeightBench : FilterBench {
   }
   const TexelQuadToken token = request(Format::kRgba8, grey(1, 2, 3, 4));
 };
-TEST(TextureRtlFilterWeights, AWordIsNotThereInTheClockOfItsRead) {
+TEST(TextureRtlFilterWeights, WordReadInSameCycleIsRejected) {
   WeightBench b;
   EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("weights", kEarly));
 }
-TEST(TextureRtlFilterWeights, OneSampleAClock) {
+TEST(TextureRtlFilterWeights, SecondSampleInOneCycleIsRejected) {
   WeightBench b;
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("weights", kTooMany));
 }
-TEST(TextureRtlFilterWeights, HasNoPortForAnybodyElse) {
+TEST(TextureRtlFilterWeights, RejectsExtraPort) {
   WeightBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "weights")),
               Rejects("weights", "one port more than 1R"));
@@ -228,7 +227,7 @@ TEST(TextureRtlFilterWeights, HasNoPortForAnybodyElse) {
               Rejects("codes", "one port more than 3R"));
 }
 
-TEST(TextureRtlFilterSrgb, HasNoPortForAnybodyElse) {
+TEST(TextureRtlFilterSrgb, RejectsExtraPort) {
   CodedBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "srgb")),
               Rejects("srgb", "one port more than 12R"));

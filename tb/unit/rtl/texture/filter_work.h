@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the filter pipeline send through it, and what the golden model's functions make
-// of it: every value of every format, every pair of fractions at full contrast, whole fragments at
-// random.
+// Stimuli of the tests of the filter pipeline, with the golden model's results: every value of
+// every format, every pair of fractions at full contrast, random whole fragments.
 #pragma once
 
 #include <array>
@@ -22,14 +21,14 @@
 
 namespace deburr::tb {
 
-// Requests and the colours that the golden arithmetic makes of them.
+// Requests and their golden colours.
 struct FilterWork {
   std::vector<hw::TexelQuadToken> tokens;
   std::vector<spec::texture::Colour> colours;
 
   using Requests = std::vector<std::array<std::uint32_t, 4>>;  // texels as stored
   const spec::texture::Configuration configuration;
-  // N samples of one or, with a level fraction, two requests each.
+  // N samples of one request or, with a level fraction, two requests each.
   void fragment(spec::texture::Format format, int samples, std::uint32_t fraction,
                 const std::function<hw::TexelQuadToken()>& request) {
     spec::texture::Colour colour;
@@ -103,7 +102,7 @@ inline FilterWork filter_work(const spec::texture::Configuration& configuration)
         t.control.fraction_v = static_cast<std::uint8_t>(v);
         return t;
       });
-  // Whole fragments at random, extremes often.
+  // Random whole fragments, often with extreme values.
   Random random(8);
   constexpr std::array<std::uint32_t, 5> kExtremes = {0, 0xFFFFFFFF, 0x00FF00FF, 0x01010101,
                                                       0x80808080};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The FootprintUnit alone: cycles, and which of two sides with equal roots is longer. Other values
-// are compared in equivalence_test.cpp.
+// The FootprintUnit alone: cycles, and the order of two sides with equal roots. Other values are
+// compared in equivalence_test.cpp.
 #include "rtl_model/texture/footprint_unit.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -27,7 +27,7 @@ rtl::Datasheet sheet_of(spec::texture::FootprintRule rule) {
   return FootprintUnit::datasheet(p);
 }
 
-TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
+TEST(TextureRtlFootprint, LatencyAndIntervalMatchDatasheet) {
   using spec::texture::FootprintRule;
   ClockDomain clock("clock", period());
   FootprintBench half(clock, "half_", FootprintRule::kHalf);
@@ -39,11 +39,11 @@ TEST(TextureRtlFootprint, LatencyAndIntervalOfTheDatasheet) {
        {std::pair{&half, FootprintRule::kHalf}, std::pair{&exact, FootprintRule::kExact}}) {
     const std::vector<Cycle> seen = cycles_of(bench->ends.sink);
     ASSERT_EQ(seen.size(), 40u);
-    // Pushed in i, taken in i + 1; a datasheet that is a clock off is noticed.
+    // Pushed in i, taken in i + 1; a datasheet that is one cycle off is detected.
     const auto check = [&](const rtl::Datasheet& sheet) { expect_cycles(sheet, seen, 1); };
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::latency, check);
     expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::interval, check);
-    // From the first token's clock to that of the last one's last stage, and not beyond.
+    // From the first token's cycle to the last token's last stage.
     const Cycle busy = 39 + sheet_of(rule).latency.cycles;
     EXPECT_EQ(bench->unit.busy_cycles(), busy);
     EXPECT_EQ(bench->unit.idle_cycles(), 100 - busy);
@@ -61,8 +61,8 @@ TEST(TextureRtlFootprint, DatasheetsHaveStagesFormatsAndCost) {
   }
 }
 
-// floor(sqrt) is 5 of both, but the column's square is larger: the root does not order them.
-TEST(TextureRtlFootprint, EqualRootsAreOrderedByTheirSquares) {
+// floor(sqrt) is 5 for both, but the square of the column is larger: the root does not order them.
+TEST(TextureRtlFootprint, EqualRootsAreOrderedBySquares) {
   ClockDomain clock("clock", period());
   FootprintBench b(clock, "", spec::texture::FootprintRule::kExact);
   b.ends.source.add({ticket(), 0, 0, 10, 20, 30, 40, 3, 4, 5, 1});  // 25 and 26

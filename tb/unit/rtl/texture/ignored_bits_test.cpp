@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit is given and has no use for: bits of registers that have no field,
-// bases of levels that are not there, descriptors that nobody names, bytes of memory that are no
-// texel, and of a quad what is for the testbench. Whatever is there, colours, cycles and accesses
-// of memory are the same; and what has a meaning counts, or the noise would prove nothing.
+// Inputs that the texture unit must ignore: register bits without a field, bases of unused levels,
+// unreferenced descriptors, memory bytes that are not texels, and fields of a quad that are for the
+// testbench. Colours, cycles and memory accesses must not depend on them; meaningful bits must
+// change the result, or the noise would prove nothing.
 #include <functional>
 
 #include "tb/base/random.h"
@@ -23,7 +23,7 @@ constexpr std::uint8_t kHandle = 5;
 
 class IgnoredBits : public testing::TestWithParam<Variant> {
  protected:
-  // A texture of which each channel of a texel is the next one.
+  // A texture whose channels are filled in order from `channel`.
   static platform::TextureMemory texture(const std::function<std::uint8_t()>& channel) {
     std::vector<std::vector<platform::Texel>> texels;
     std::vector<platform::TextureLevel> levels;
@@ -49,7 +49,7 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
     return texture([&random] { return static_cast<std::uint8_t>(random.word()); });
   }
 
-  // The unit with this memory and this descriptor's registers, and quads that are changed first.
+  // Runs the unit with this memory and these descriptor registers; `change` edits the quads first.
   Trail run(
       const std::vector<std::uint8_t>& bytes,
       const std::vector<std::pair<std::uint32_t, std::uint32_t>>& written,
@@ -71,7 +71,7 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
     EXPECT_TRUE(bench.finish());
     after();
     Trail trail = engine_state(bench.unit, bench.bus);
-    // The registers of descriptors are what was changed.
+    // The descriptor registers themselves were changed, so they are not compared.
     std::erase_if(
         trail, [](const std::string& line) { return line.find("TEXTURE") != std::string::npos; });
     for (const auto& taken : bench.sink.taken)
@@ -88,7 +88,7 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
   Random random{1, "noise"};
 };
 
-TEST_P(IgnoredBits, OfDescriptors) {
+TEST_P(IgnoredBits, DescriptorBitsDoNotChangeResult) {
   const Trail fresh = run(plain.bytes(), registers);
   ASSERT_GT(bench.sink.taken.size(), 100u);
   const std::uint32_t at = reg::kTextureBase + kHandle * reg::kTextureStride;
@@ -105,7 +105,7 @@ TEST_P(IgnoredBits, OfDescriptors) {
       ignored += mask != ~0u;
       value = (value & mask) | ((round == 0 ? ~0u : random.word()) & ~mask);
     }
-    // Descriptors that nobody names.
+    // Unreferenced descriptors.
     for (const std::uint32_t handle : {kHandle - 1u, kHandle + 1u})
       for (std::uint32_t offset = 0; offset < reg::kLevelBase + 4 * spec::texture::kMaxLevels;
            offset += 4)
@@ -123,8 +123,8 @@ TEST_P(IgnoredBits, OfDescriptors) {
   }
 }
 
-// Of the registers outside of descriptors, before a job and after it.
-TEST_P(IgnoredBits, OfRegisters) {
+// Registers other than descriptors, before and after a job.
+TEST_P(IgnoredBits, RegisterBitsDoNotChangeResult) {
   const Trail fresh = run(plain.bytes(), registers);
   for (const bool all : {true, false}) {
     auto noisy = registers;
@@ -146,7 +146,7 @@ TEST_P(IgnoredBits, OfRegisters) {
   }
 }
 
-TEST_P(IgnoredBits, OfMemoryAreNoTexels) {
+TEST_P(IgnoredBits, MemoryOutsideTexelsDoesNotChangeResult) {
   const Trail fresh = run(plain.bytes(), registers);
   const std::vector<std::uint8_t> none = texture([] { return std::uint8_t{0}; }).bytes(),
                                   all = texture([] { return std::uint8_t{255}; }).bytes();
@@ -164,13 +164,13 @@ TEST_P(IgnoredBits, OfMemoryAreNoTexels) {
   EXPECT_NE(state_difference(fresh, run(noisy, registers)), "");
 }
 
-TEST_P(IgnoredBits, OfQuadsAreForTheTestbench) {
+TEST_P(IgnoredBits, TestbenchFieldsOfQuadDoNotChangeResult) {
   const Trail fresh = run(plain.bytes(), registers);
   EXPECT_EQ(state_difference(fresh, run(plain.bytes(), registers,
                                         [&](spec::texture::Quad& q) {
                                           q.x = static_cast<std::uint16_t>(random.word());
                                           q.y = static_cast<std::uint16_t>(random.word());
-                                          // Of lanes without a fragment.
+                                          // Lanes without a fragment.
                                           q.clamped = static_cast<std::uint8_t>(~q.coverage & 15);
                                         })),
             "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texture unit for the suites of every engine (tb/harness/engine_kit.h).
+// The texture unit for the test suites of all engines (tb/harness/engine_kit.h).
 #pragma once
 
 #include "rtl_model/texture/register_section.h"
@@ -14,7 +14,7 @@ namespace reg = spec::texture::reg;
 
 class Kit : public EngineKit {
  public:
-  // Rules of a preset, and what is set beside them.
+  // Configuration of a preset, and additional settings.
   struct Build {
     spec::texture::Preset preset;
     const char* settings;
@@ -73,8 +73,8 @@ class Kit : public EngineKit {
   static constexpr Cycle short_reset() { return 2; }
   static constexpr Cycle long_reset() { return kLatency + 5; }
   static constexpr std::array kKept = {reg::kControl};
-  // Counters, sticky bits, descriptors, tags and their shift register, and last the unit disabled
-  // with a quad in front of it.
+  // Changes counters, sticky bits, descriptors, tags and their shift register; at last disables the
+  // unit with a quad waiting.
   void spoil() {
     spec::texture::Descriptor d = linear_texture(bench_.memory, 64);
     write_descriptor(bench_.bus, 0, d);
@@ -94,7 +94,7 @@ class Kit : public EngineKit {
       add(q);
     }
     bench_.clock.run(20);
-    bench_.bus.write(reg::kTextureBase + 3 * reg::kTextureStride, 7);  // while it is busy
+    bench_.bus.write(reg::kTextureBase + 3 * reg::kTextureStride, 7);  // while busy
     EXPECT_TRUE(bench_.finish());
     bench_.bus.write(reg::kControl, reg::kControlEnable | reg::kControlInvalidate);
     for (std::int32_t i = 0; i < 40; ++i) add(quad(i * 13, i * 9, 3, 1, 0));
@@ -113,7 +113,7 @@ class Kit : public EngineKit {
     EXPECT_EQ(bench_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register noise: garbage descriptors among it, and quads of any handle ---
+  // --- register noise: includes invalid descriptors and quads of any handle ---
   static constexpr std::uint32_t kMostOffset = 0x1000, kCycles = 60;
   static constexpr Cycle kNoiseReset = 400;
   static constexpr int kAccesses = 200;
@@ -127,7 +127,7 @@ class Kit : public EngineKit {
     q.coverage = static_cast<std::uint8_t>(random.below(16));
     add(q);
   }
-  // Enabled again, it takes what still waits, whatever that is.
+  // When enabled again, it takes all waiting quads.
   std::string noise_ends() {
     bench_.bus.try_write(reg::kControl, reg::kControlEnable);
     return bench_.finish() ? "" : "hangs on garbage";
@@ -148,7 +148,7 @@ class Kit : public EngineKit {
   static std::vector<std::string> below() {
     return {"rtl_model/texture/address_unit.h", "rtl_model/texture/texture_cache.h"};
   }
-  // An AxisUnit stands in the place of the FootprintUnit but for the axes of the paper.
+  // An AxisUnit replaces the FootprintUnit except with the axes of the paper.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters paper = stimuli::paper_configuration(), deburr, largest, stored, two;
     for (Parameters* p : {&paper, &deburr, &largest, &stored, &two}) p->cache_fifo_depth = 107;
@@ -201,7 +201,8 @@ class Kit : public EngineKit {
   std::size_t before_ = 0;
 };
 
-// Every replacement by both presets; then every rule and every size of a line in some build.
+// Every replacement policy with both presets; then every configuration value and line size in some
+// build.
 inline constexpr std::array<Kit::Build, 10> Kit::kBuilds = {{
     {spec::texture::Preset::kPaper, "cache.replacement=lru"},
     {spec::texture::Preset::kPaper, "cache.replacement=fifo"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reset, register noise, stress and tokens of the texture unit, by its kit.
+// Reset, register noise, stress and tokens of the texture unit, with its kit.
 #include "tb/unit/rtl/texture/kit.h"
 
 #include "tb/unit/rtl/engine_suites.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The LatencyFifo in the cache: full, and deep enough to hide the latency of memory.
+// The LatencyFifo in the cache: full, and deep enough to hide the memory latency.
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlLatencyFifo, LatencyOfTheDatasheet) {
+TEST(TextureRtlLatencyFifo, LatencyMatchesDatasheet) {
   ClockDomain clock("clock", period());
   LatencyFifo fifo("fifo", clock, small_cache());
   Link<CacheToken> requests("requests");
@@ -19,7 +19,7 @@ TEST(TextureRtlLatencyFifo, LatencyOfTheDatasheet) {
   expect_latency(LatencyFifo::datasheet(), latency);  // taken in 1
 }
 
-TEST(TextureRtlLatencyFifo, FullFifoStallsTheTagStage) {
+TEST(TextureRtlLatencyFifo, FullFifoStallsTagStage) {
   spec::texture::Parameters p = small_cache();
   p.cache_fifo_depth = 2;
   CacheBench b(p, 50);
@@ -31,8 +31,8 @@ TEST(TextureRtlLatencyFifo, FullFifoStallsTheTagStage) {
   EXPECT_GT(b.cache.tag_stage.stalls()[2].cycles, 40u);
 }
 
-// Misses overlap: as long as the FIFO covers the latency, each request costs one clock.
-TEST(TextureRtlLatencyFifo, LatencyIsHiddenByADeepEnoughFifo) {
+// Misses overlap: while the FIFO covers the latency, each request costs one cycle.
+TEST(TextureRtlLatencyFifo, DeepFifoHidesLatency) {
   spec::texture::Parameters p;
   p.cache_outstanding = 128;
   p.cache_fifo_depth = 160;

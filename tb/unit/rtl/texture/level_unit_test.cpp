@@ -10,9 +10,9 @@ namespace {
 
 using namespace rtl::texture;
 
-// Fragments between two levels, and those that are magnified; without a texture a fragment is
-// neither, and has one sample of level 0.
-TEST(TextureRtlLevel, CountsWhatItDecides) {
+// Counts fragments between two levels and magnified ones; a fragment without a texture is neither
+// and has one sample of level 0.
+TEST(TextureRtlLevel, CountsItsDecisions) {
   ClockDomain clock("clock", period());
   Store store(clock);
   LevelUnit unit("unit", clock, store.descriptors.for_levels, spec::texture::Axes::kTwo,
@@ -35,7 +35,7 @@ TEST(TextureRtlLevel, CountsWhatItDecides) {
   clock.run(20);
   ASSERT_EQ(ends.sink.taken.size(), 10u);
   expect_cycles(LevelUnit::datasheet(), cycles_of(ends.sink), 1);
-  // From the first fragment's clock to that of the last one's last stage, and not beyond.
+  // From the first fragment's cycle to the last fragment's last stage.
   const Cycle busy = 9 + LevelUnit::datasheet().latency.cycles;
   EXPECT_EQ(unit.busy_cycles(), busy);
   EXPECT_EQ(unit.idle_cycles(), 20 - busy);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
+TEST(TextureRtlLog2, LatencyAndIntervalMatchDatasheet) {
   using spec::texture::Log2Rule;
   ClockDomain clock("clock", period());
   struct Bench {
@@ -29,7 +29,8 @@ TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
   for (std::size_t rule = 0; rule < spec::texture::kLog2Names.size(); ++rule)
     benches.push_back(std::make_unique<Bench>(clock, std::string(spec::texture::kLog2Names[rule]),
                                               static_cast<Log2Rule>(rule)));
-  // The consumer stops: what is on its way to a correction stays what it is, the ROM's words too.
+  // When the consumer stops, tokens before the correction keep their values, including the ROM's
+  // words.
   benches.back()->ends.sink.hold_from = 5;
   benches.back()->ends.sink.hold_to = 9;
   clock.run(20);
@@ -45,7 +46,7 @@ TEST(TextureRtlLog2, LatencyAndIntervalOfTheDatasheet) {
       EXPECT_EQ(taken[1].cycle, 9u);
     } else {
       expect_interval(sheet, taken[1].cycle - taken[0].cycle);
-      // From the first fragment's clock to that of the last one's last stage, and not beyond.
+      // From the first fragment's cycle to the last fragment's last stage.
       const Cycle busy = 2 + sheet.latency.cycles;
       EXPECT_EQ(benches[rule]->unit.busy_cycles(), busy);
       EXPECT_EQ(benches[rule]->unit.idle_cycles(), 20 - busy);
@@ -67,17 +68,17 @@ struct ExactBench {
   Ends<FootprintToken, Log2Token> ends{clock};
 };
 
-TEST(TextureRtlLog2Table, AWordIsNotThereInTheClockOfItsRead) {
+TEST(TextureRtlLog2Table, WordReadInSameCycleIsRejected) {
   ExactBench b;
   EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("table", kEarly));
 }
 
-TEST(TextureRtlLog2Table, OneFragmentAClock) {
+TEST(TextureRtlLog2Table, SecondFragmentInOneCycleIsRejected) {
   ExactBench b;
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, b.clock), Rejects("table", kTooMany));
 }
 
-TEST(TextureRtlLog2Table, HasNoPortForAnybodyElse) {
+TEST(TextureRtlLog2Table, RejectsExtraPort) {
   ExactBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint16_t>, std::uint16_t>(b.unit, "table")),
               Rejects("table", "one port more than 4R"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The MissQueue in the cache: what a line takes of its cycles, and a full queue.
+// The MissQueue in the cache: cycles per line, and a full queue.
 #include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::miss_queue_test {
@@ -7,19 +7,20 @@ namespace {
 
 using namespace rtl::texture;
 
-// What the miss queue does for one line: queue it, send it, take it; between, it waits.
-TEST(TextureRtlMissQueue, MissQueueAccountsForItsClocks) {
+// Per line the miss queue works to queue it, send it and take it; otherwise it waits.
+TEST(TextureRtlMissQueue, AccountsForEveryCycle) {
   CacheBench b;
   b.time_of(in_line(0));
   const MissQueue& queue = b.cache.miss_queue;
   EXPECT_EQ(queue.busy_cycles(), 3u);
-  // Sent by the port a clock later, back after the latency, handed over in two; then the entry is
-  // held until the data stage has used the line, which is read a clock after it has come.
+  // The port sends one cycle later, the response returns after the latency and is delivered in two;
+  // then the entry is held until the data stage has used the line, which it reads one cycle after
+  // its arrival.
   EXPECT_EQ(stalls(queue, "wait_memory"), kMemoryLatency + 2u + 2);
   EXPECT_EQ(stalls(queue, "fill_buffer_full"), 0u);
 }
 
-TEST(TextureRtlMissQueue, FullQueueStallsTheTagStageAndLosesNothing) {
+TEST(TextureRtlMissQueue, FullQueueStallsTagStageAndLosesNothing) {
   CacheBench b(small_cache(), 100);  // four entries
   std::vector<TexelToken> asked;
   for (std::uint32_t i = 0; i < 12; ++i)
@@ -30,7 +31,7 @@ TEST(TextureRtlMissQueue, FullQueueStallsTheTagStageAndLosesNothing) {
   EXPECT_GT(stalls(b.cache.tag_stage, "miss_queue_full"), 500u);
   EXPECT_EQ(stalls(b.cache.tag_stage, "fifo_full"), 0u);
   EXPECT_GT(stalls(b.cache.miss_queue, "fill_buffer_full"), 500u);
-  // Never more lines outstanding than entries: each group of four waits for the group before it.
+  // At most one outstanding line per entry: each group of four waits for the previous group.
   EXPECT_EQ(b.cache.memory_port.max_outstanding.value(), 4u);
   EXPECT_EQ(b.cache.miss_queue.max_waiting.value(), 4u);
 }
@@ -51,9 +52,9 @@ struct QueueBench {
   MissQueue queue;
 };
 
-// Lines of 128 bytes come in two beats: one of them with an error is one line with an error, and
-// the next line in its place knows nothing of it, after a reset neither.
-TEST(TextureRtlMissQueue, ALineOfTwoBeatsFailsOnce) {
+// Lines of 128 bytes arrive in two beats: an error in one beat is one erroneous line, and the next
+// line in the same entry has no error, also after a reset.
+TEST(TextureRtlMissQueue, LineOfTwoBeatsFailsOnce) {
   spec::texture::Parameters p = small_cache();
   p.cache_bytes = 512;
   p.cache_line_bytes = 128;
@@ -110,8 +111,8 @@ TEST(TextureRtlMissQueue, ALineOfTwoBeatsFailsOnce) {
   EXPECT_EQ(b.queue.memory_errors.value(), 0u);
 }
 
-// Lines of two requests in a clock are more than its write ports take.
-TEST(TextureRtlMissQueue, TakesOneRequestAClock) {
+// The lines of two requests in one cycle exceed its write ports.
+TEST(TextureRtlMissQueue, SecondRequestInOneCycleIsRejected) {
   QueueBench b;
   const MissToken two{{1, 2}, 2};
   b.misses.push(0, two);
@@ -119,8 +120,8 @@ TEST(TextureRtlMissQueue, TakesOneRequestAClock) {
   EXPECT_THAT(of_a_second_token(b.queue, b.misses, two, b.clock), Rejects("lines", kTooMany));
 }
 
-// The clock in which the lines of a second request are taken into a queue of four places, where the
-// link to memory is popped from clock `from` on.
+// The cycle in which the lines of a second request enter a queue of four entries, when the link to
+// memory is popped from cycle `from` on.
 Cycle second_taken(Cycle from) {
   QueueBench b;
   b.misses.push(0, {{1, 2, 3, 4}, 4});
@@ -132,16 +133,15 @@ Cycle second_taken(Cycle from) {
   }
   return b.clock.cycle() - 1;
 }
-// Four places, of which the last one is freed in that very clock: the first lines are taken in 1
-// and sent in 2, 3, 4 and 5.
-TEST(TextureRtlMissQueue, TakesLinesIntoAPlaceThatItFreesInThatClock) {
-  EXPECT_EQ(second_taken(0), 5u);
-}
-// Two lines stand in the link; from 10 on one is popped a clock, and the others are sent in 11, 12.
-TEST(TextureRtlMissQueue, TakesThemSoAfterAMemoryThatWaited) { EXPECT_EQ(second_taken(10), 12u); }
+// Four entries, the last of which becomes free in that cycle: the first lines are taken in 1 and
+// sent in 2, 3, 4 and 5.
+TEST(TextureRtlMissQueue, EntryFreedInCycleIsReusedInCycle) { EXPECT_EQ(second_taken(0), 5u); }
+// Two lines are in the link; from 10 on one is popped per cycle, and the others are sent in 11 and
+// 12.
+TEST(TextureRtlMissQueue, EntryIsReusedAfterMemoryStall) { EXPECT_EQ(second_taken(10), 12u); }
 
-// A link to memory that takes a second request in a clock would have the next line read too.
-TEST(TextureRtlMissQueue, SendsOneLineAClock) {
+// If the link took a second request in one cycle, the next line would be read as well.
+TEST(TextureRtlMissQueue, SecondLineSentInOneCycleIsRejected) {
   QueueBench b;
   b.misses.push(0, {{1, 2, 3}, 3});
   b.clock.run(3);  // taken in 1, the first line is sent in 2
@@ -150,7 +150,7 @@ TEST(TextureRtlMissQueue, SendsOneLineAClock) {
   EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Rejects("lines", kTooMany));
 }
 
-// Memory takes nothing: two lines stand in the link, the third waits, and so it is counted.
+// Memory takes nothing: two lines are in the link, and the third waits and is counted as waiting.
 TEST(TextureRtlMissQueue, WaitsWhileMemoryTakesNothing) {
   QueueBench b;
   b.misses.push(0, {{1, 2, 3}, 3});
@@ -167,7 +167,7 @@ TEST(TextureRtlMissQueue, WaitsWhileMemoryTakesNothing) {
   EXPECT_EQ(b.queue.cycles_of(rtl::kStalledDownstream), 7u);
 }
 
-TEST(TextureRtlMissQueue, HasNoPortForAnybodyElse) {
+TEST(TextureRtlMissQueue, RejectsExtraPort) {
   QueueBench b;
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
               Rejects("lines", "one port more than 1R4W"));
@@ -175,8 +175,8 @@ TEST(TextureRtlMissQueue, HasNoPortForAnybodyElse) {
               Rejects("lines", "one port more than 1R4W"));
 }
 
-// A response for an entry that has been filled, and for one that does not exist.
-TEST(TextureRtlMissQueue, TakesEachLineOnce) {
+// A response for an entry that is already filled, and for one that does not exist.
+TEST(TextureRtlMissQueue, RejectsRepeatedLine) {
   QueueBench b;
   b.misses.push(0, {{1}, 1});
   b.clock.run(3);

@@ -28,7 +28,7 @@ rtl::Datasheet sheet_of(spec::texture::CountRule count) {
   return SampleWalker::datasheet(p);
 }
 
-TEST(TextureRtlWalker, LatencyOfTheDatasheet) {
+TEST(TextureRtlWalker, LatencyMatchesDatasheet) {
   ClockDomain clock("clock", period());
   using spec::texture::CountRule;
   WalkerBench floor(clock, "floor_", spec::texture::Kernel::kBox, 64),
@@ -40,8 +40,8 @@ TEST(TextureRtlWalker, LatencyOfTheDatasheet) {
   expect_latency(sheet_of(CountRule::kAny), ready_at(clock, any.ends.out) - taken);
 }
 
-// One sample each: a fragment a clock, also through the division; and nothing is lost in a stall.
-TEST(TextureRtlWalker, AnyCountKeepsAFragmentAClock) {
+// One sample each: one fragment per cycle, also through the division; nothing is lost in a stall.
+TEST(TextureRtlWalker, AnyCountSustainsOneFragmentPerCycle) {
   ClockDomain clock("clock", period());
   WalkerBench b(clock, "", spec::texture::Kernel::kBox, 64, spec::texture::CountRule::kAny);
   for (std::uint8_t i = 0; i < 60; ++i) b.ends.source.add({ticket(i), i, 0, 0, 0, 0, 0, 0, true});
@@ -56,8 +56,8 @@ TEST(TextureRtlWalker, AnyCountKeepsAFragmentAClock) {
   }
 }
 
-// While its requests wait, fragments go on until each stage holds one.
-TEST(TextureRtlWalker, StagesFillWhileTheOutputWaits) {
+// While its requests wait, fragments move on until each stage holds one.
+TEST(TextureRtlWalker, StagesFillWhileOutputWaits) {
   ClockDomain clock("clock", period());
   using spec::texture::CountRule;
   WalkerBench floor(clock, "floor_", spec::texture::Kernel::kBox, 64),
@@ -83,20 +83,20 @@ struct DividingBench : WalkerBench {
   const LevelToken token = {ticket(), 0, 0, 8, 8, 2, 0, 0, true};
 };
 
-TEST(TextureRtlWalkerReciprocal, AWordIsNotThereInTheClockOfItsRead) {
+TEST(TextureRtlWalkerReciprocal, WordReadInSameCycleIsRejected) {
   ClockDomain clock("clock", period());
   DividingBench b(clock);
   EXPECT_THAT(of_a_stage_less(b.unit, clock), Rejects("reciprocal", kEarly));
 }
 
-TEST(TextureRtlWalkerReciprocal, OneFragmentAClock) {
+TEST(TextureRtlWalkerReciprocal, SecondFragmentInOneCycleIsRejected) {
   ClockDomain clock("clock", period());
   DividingBench b(clock);
   EXPECT_THAT(of_a_second_token(b.unit, b.ends.in, b.token, clock),
               Rejects("reciprocal", kTooMany));
 }
 
-TEST(TextureRtlWalker, CostsNTimesLevelsClocks) {
+TEST(TextureRtlWalker, CostsNTimesLevelsCycles) {
   ClockDomain clock("clock", period());
   WalkerBench b(clock, "", spec::texture::Kernel::kBox, 64);
   Cycle at = 4;  // pushed in 0, taken in 1, to be taken in 4

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the texture unit's hardware model share: a queue of tokens at each end of a
-// block, a memory that records who asked for what, and the whole unit with both.
+// Helpers of the tests of the texture unit's RTL model: a queue of tokens at each end of a block, a
+// memory that records its requests, and the whole unit with both.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ using rtl::Unit;
 
 using unit_bench::of_a_stage_less, unit_bench::period, unit_bench::rejection;
 
-// A second token in that clock, for a unit that has forgotten the first one.
+// Sends a second token in the same cycle, for a unit that has forgotten the first.
 template <class T>
 std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const ClockDomain& clock) {
   const Cycle cycle = clock.cycle() - 1;
@@ -57,14 +57,14 @@ std::string of_a_second_token(Unit& unit, Link<T>& link, const T& token, const C
   link.push(cycle - 1, token);
   return rejection([&] { unit.tick(cycle); });
 }
-// Is this text the rejection of that memory?
+// Matches the rejection by this memory with this reason.
 MATCHER_P2(Rejects, memory, reason, "") {
   return arg.find(memory) != std::string::npos && arg.find(reason) != std::string::npos;
 }
 inline constexpr const char* kEarly = "is used";
 inline constexpr const char* kTooMany = "second access";
 
-// A port that nobody has declared, on the only memory of this kind of word below `root`.
+// Adds an undeclared port to the only memory of this word type below `root`.
 template <class Port, class Word>
 std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) {
   rtl::Memory<Word>* found = nullptr;
@@ -78,8 +78,8 @@ std::string of_one_port_more(sc_core::sc_object& root, const std::string& name) 
 using unit_bench::cycles_of, unit_bench::Ends, unit_bench::Sink, unit_bench::Source,
     unit_bench::stalls;
 
-// The clock in which the consumer of `link` can take its oldest token for the first time; kNever if
-// that does not happen within `limit` cycles. Proves "not ready at n - 1, ready at n".
+// The first cycle in which the consumer of `link` can take its oldest token; kNever if that does
+// not happen within `limit` cycles. Proves "not ready at n - 1, ready at n".
 template <class T>
 Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
   const Cycle end = clock.cycle() + limit;
@@ -90,7 +90,7 @@ Cycle ready_at(ClockDomain& clock, const Link<T>& link, Cycle limit = 1000) {
   return clock.cycle();
 }
 
-// Writes a descriptor, valid or not; TextureDriver rejects the others.
+// Writes a descriptor, valid or not; TextureDriver rejects invalid ones.
 inline void write_descriptor(platform::RegisterHost& bus, std::uint32_t handle,
                              const spec::texture::Descriptor& d) {
   for (const auto& [offset, value] : platform::descriptor_registers(static_cast<int>(handle), d))
@@ -99,7 +99,7 @@ inline void write_descriptor(platform::RegisterHost& bus, std::uint32_t handle,
 
 inline constexpr std::uint32_t kMemoryLatency = 10;
 
-// With `scatter`, answers come up to that many cycles later, at random, and overtake each other.
+// With `scatter`, responses arrive up to that many cycles later, at random, and may be reordered.
 inline platform::MemoryModelParameters memory_parameters(std::uint32_t latency,
                                                          std::uint32_t scatter) {
   platform::MemoryModelParameters p;
@@ -129,7 +129,7 @@ struct Store {
   platform::RegisterHost bus;
 };
 
-// The whole unit between source and sink, by the paper's rules unless others are given.
+// The whole unit between source and sink, with the preset `paper` by default.
 struct UnitBench {
   explicit UnitBench(const spec::texture::Parameters& parameters = stimuli::paper_configuration(),
                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
@@ -144,7 +144,7 @@ struct UnitBench {
     source.out(quads);
     sink.in(colours);
   }
-  // Until everything that was added has come out.
+  // Runs until every added quad has been answered.
   bool finish(Cycle limit = 1'000'000) {
     return clock.run_until([&] { return source.done() && unit.idle() && colours.empty(); }, limit);
   }

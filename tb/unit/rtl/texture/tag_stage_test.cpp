@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The TagStage in the cache: merged misses, the order of fills, hits behind misses.
+// The TagStage in the cache: merged misses, fill order, hits after misses.
 #include <set>
 #include <tuple>
 #include <utility>
@@ -14,8 +14,8 @@ namespace {
 using namespace rtl::texture;
 using testing::ElementsAre;
 
-// Two requests for a line in flight are one fetch, and come out one clock apart.
-TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
+// Two requests for a line in flight are one fetch; their results are one cycle apart.
+TEST(TextureRtlTagStage, MergesSecondRequestForLineInFlight) {
   CacheBench b;
   const std::vector<TexelToken> asked = {in_line(0), in_line(0), in_line(3), in_line(0)};
   for (const auto& t : asked) b.ends.source.add(t);
@@ -32,7 +32,7 @@ TEST(TextureRtlTagStage, SecondRequestForALineInFlightIsMerged) {
   EXPECT_EQ(b.ends.sink.taken[3].cycle, first + 3);
 }
 
-// The stage alone: nobody takes what it misses.
+// The stage alone: its misses are not taken.
 struct StageBench {
   StageBench() {
     stage.texels_in(ends.in);
@@ -47,7 +47,7 @@ struct StageBench {
   TagStage stage{"stage", clock, small_cache()};
 };
 
-TEST(TextureRtlTagStage, LatencyAndIntervalOfTheDatasheet) {
+TEST(TextureRtlTagStage, LatencyAndIntervalMatchDatasheet) {
   StageBench b;
   for (int i = 0; i < 9; ++i) b.ends.source.add(in_line(0));
   b.clock.run(20);
@@ -55,10 +55,10 @@ TEST(TextureRtlTagStage, LatencyAndIntervalOfTheDatasheet) {
   expect_cycles(TagStage::datasheet(), cycles_of(b.ends.sink), 1);
 }
 
-// A line is a hit from the clock on that comes after its use; a reset forgets lines and uses.
+// A line is a hit from the cycle after its use; a reset clears lines and uses.
 constexpr Cycle kFirstLookup = 2;  // of the first request, which misses
 class LineUsed : public testing::TestWithParam<Cycle> {};
-TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
+TEST_P(LineUsed, LineIsInFlightUntilWireReportsUse) {
   const Cycle used = GetParam();
   StageBench b;
   std::vector<std::pair<Cycle, LookUp>> seen;
@@ -89,8 +89,8 @@ TEST_P(LineUsed, ALineIsUnderWayUntilTheWireSaysThatItIsUsed) {
 INSTANTIATE_TEST_SUITE_P(TextureRtlTagStage, LineUsed,
                          testing::Values(kFirstLookup, kFirstLookup + 1, kFirstLookup + 2));
 
-// The observer sees each line once a request, in the clock of its look-up.
-TEST(TextureRtlTagStage, ShowsWhatBecameOfEachLine) {
+// The observer sees each line once per request, in the cycle of its lookup.
+TEST(TextureRtlTagStage, ReportsOutcomeOfEachLine) {
   CacheBench b;
   using Seen = std::tuple<Cycle, std::uint32_t, LookUp>;
   std::vector<Seen> seen;
@@ -111,8 +111,8 @@ TEST(TextureRtlTagStage, ShowsWhatBecameOfEachLine) {
   EXPECT_THAT(seen, ElementsAre(Seen{asked + 2, 3, LookUp::kHit}));
 }
 
-// The order of fills is the order of misses, whatever order memory answers in.
-TEST(TextureRtlTagStage, OrderOfFills) {
+// Fills are in the order of the misses, in whatever order memory answers.
+TEST(TextureRtlTagStage, FillsFollowOrderOfMisses) {
   CacheBench b(small_cache(), kMemoryLatency, 30);
   std::vector<TexelToken> asked = {request({64 * 9, 64 * 3, 64 * 9 + 4, 64 * 20}),
                                    request({64 * 5, 64 * 4, 64 * 5, 64 * 4}), in_line(3),
@@ -124,8 +124,8 @@ TEST(TextureRtlTagStage, OrderOfFills) {
               ElementsAre(576, 192, 1280, 320, 256, 1984, 1920, 1856, 1792, 448));
 }
 
-// Whichever of the four texels share a line, each line is fetched once and each texel is its own.
-TEST(TextureRtlTagStage, AnyOfTheTexelsMayShareALine) {
+// Whichever of the four texels share a line: each line is fetched once and each texel is correct.
+TEST(TextureRtlTagStage, TexelsMayShareLinesInAnyWay) {
   spec::texture::Parameters p = small_cache();
   p.cache_bytes = 16384;
   p.cache_ways = 4;
@@ -151,8 +151,8 @@ TEST(TextureRtlTagStage, AnyOfTheTexelsMayShareALine) {
   EXPECT_EQ(b.memory.lines_read().size(), lines);
 }
 
-// Numbers of lines are compared, not only the bits that are set in both: lines 1 and 2.
-TEST(TextureRtlTagStage, OneTexelMayLieInALineWithoutACommonBit) {
+// Line numbers are compared completely, not only by common set bits: lines 1 and 2.
+TEST(TextureRtlTagStage, DistinguishesLinesWithoutCommonBit) {
   CacheBench b;
   std::vector<TexelToken> asked;
   for (std::size_t i = 1; i < 4; ++i) {
@@ -166,7 +166,7 @@ TEST(TextureRtlTagStage, OneTexelMayLieInALineWithoutACommonBit) {
 }
 
 // A hit passes the tag stage while the miss queue is full.
-TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
+TEST(TextureRtlTagStage, HitsProceedWhileMissQueueIsFull) {
   CacheBench b(small_cache(), 200);
   b.time_of(in_line(1));
   const Cycle start = b.clock.cycle();
@@ -179,8 +179,8 @@ TEST(TextureRtlTagStage, HitsGoOnWhileTheMissQueueIsFull) {
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
 }
 
-// So does a request of several lines that are all there.
-TEST(TextureRtlTagStage, HitsInTwoLinesGoOnToo) {
+// A request that hits several lines proceeds as well.
+TEST(TextureRtlTagStage, HitsInTwoLinesProceed) {
   CacheBench b(small_cache(), 200);
   const TexelToken two_lines = request({64, 68, 192, 196});  // of set 1
   b.time_of(two_lines);
@@ -192,9 +192,9 @@ TEST(TextureRtlTagStage, HitsInTwoLinesGoOnToo) {
   EXPECT_EQ(b.cache.tag_stage.requests.value(), 1u + 4 + 5);
 }
 
-// A request that misses does not, whichever of its texels it is that misses, or all of them.
+// A request with a miss waits, whichever of its texels misses, or all of them.
 class OneMiss : public testing::TestWithParam<std::size_t> {};
-TEST_P(OneMiss, WaitsForTheMissQueue) {
+TEST_P(OneMiss, WaitsForMissQueue) {
   CacheBench b(small_cache(), 200);
   b.time_of(in_line(1));
   std::vector<TexelToken> asked = {in_line(1)};

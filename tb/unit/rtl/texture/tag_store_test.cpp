@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The TagStore alone: the rules of replacement by hand.
+// The TagStore alone: replacement policies by hand.
 #include "spec/error.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlTagStore, ReplacementConfiguration) {
+TEST(TextureRtlTagStore, ReplacementFollowsConfiguration) {
   struct Row {
     spec::texture::Replacement rule;
     std::vector<std::uint64_t> fills;
@@ -43,8 +43,8 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   p.cache_ways = 4;  // one set
   TagStore tags("tags", p);
   for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
-  // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567, ...: their low two bits; the last ones come
-  // from bits that were shifted in, from every tap.
+  // 0xACE1 -> 0x5670, 0xAB38, 0x559C, 0x2ACE, 0x1567, ...: their low two bits; the last ones depend
+  // on bits that every tap shifted in.
   for (const std::uint32_t way : {0u, 0u, 0u, 2u, 3u, 3u, 1u, 0u, 2u, 3u, 1u, 2u,
                                   1u, 2u, 1u, 2u, 1u, 0u, 0u, 2u, 1u, 0u, 2u, 3u}) {
     const TagStore::Place place = tags.allocate(100 + way, false);
@@ -54,7 +54,7 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
   tags.invalidate();
   EXPECT_EQ(tags.find(102), TagStore::kAbsent);
   for (std::uint32_t line = 0; line < 4; ++line) EXPECT_EQ(tags.allocate(line, false).slot, line);
-  // The shift register goes on where it was; a reset begins it again.
+  // The shift register continues; a reset restarts it.
   for (const std::uint32_t way : {3u, 1u, 0u, 0u})
     EXPECT_EQ(tags.allocate(200 + way, false).slot, way);
   tags.reset();
@@ -63,25 +63,24 @@ TEST(TextureRtlTagStore, RandomReplacementStepsOnlyForValidLines) {
     EXPECT_EQ(tags.allocate(300 + way, false).slot, way);
 }
 
-// The sets are read a clock before they are looked up, each through a port of its own.
-TEST(TextureRtlTagStore, SetsComeInTheNextClock) {
+// The sets are read one cycle before their lookup, each through its own port.
+TEST(TextureRtlTagStore, SetsArriveInNextCycle) {
   TagStore tags("tags", small_cache());
   tags.read(5, 0, 2);
   tags.read(5, 1, 3);
-  EXPECT_THROW(tags.check(5, 0, 2, 5), spec::CheckFailed);  // a clock early
-  EXPECT_THROW(tags.check(6, 2, 2, 5), spec::CheckFailed);  // nobody asked this port
+  EXPECT_THROW(tags.check(5, 0, 2, 5), spec::CheckFailed);  // one cycle early
+  EXPECT_THROW(tags.check(6, 2, 2, 5), spec::CheckFailed);  // this port was not read
   EXPECT_THROW(tags.check(6, 0, 3, 5), spec::CheckFailed);  // the set of another line
   tags.check(6, 0, 2, 5);
   tags.check(6, 1, 3, 5);
   tags.read(6, 0, 3);
-  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);      // one access too many
-  tags.check(6, 0, 2, 5);                                   // the word of before is still there
-  EXPECT_THROW(tags.check(7, 0, 2, 6), spec::CheckFailed);  // and now it is not
+  EXPECT_THROW(tags.read(6, 0, 3), spec::CheckFailed);      // too many accesses
+  tags.check(6, 0, 2, 5);                                   // the previous word is still there
+  EXPECT_THROW(tags.check(7, 0, 2, 6), spec::CheckFailed);  // now it is replaced
 }
 
-// A set that is read in every clock: the word of the clock before is not the one that has been
-// asked for.
-TEST(TextureRtlTagStore, TheSetOfTheClockBeforeIsStale) {
+// A set that is read in every cycle: the word of the previous cycle is not the requested one.
+TEST(TextureRtlTagStore, SetOfPreviousCycleIsStale) {
   TagStore tags("tags", small_cache());
   tags.read(5, 0, 2);
   tags.read(6, 0, 2);
@@ -89,9 +88,9 @@ TEST(TextureRtlTagStore, TheSetOfTheClockBeforeIsStale) {
   tags.check(7, 0, 2, 6);
 }
 
-// However many lines of a set a request changes, the set is written once; two requests in a clock
-// would write twice.
-TEST(TextureRtlTagStore, ASetIsWrittenOnceAClock) {
+// A set is written once, however many of its lines a request changes; two requests in one cycle
+// would write it twice.
+TEST(TextureRtlTagStore, SecondWriteOfSetInOneCycleIsRejected) {
   TagStore tags("tags", small_cache());
   tags.allocate(0, false);
   tags.allocate(2, false);
@@ -101,8 +100,8 @@ TEST(TextureRtlTagStore, ASetIsWrittenOnceAClock) {
   EXPECT_THROW(tags.commit(3), spec::CheckFailed);
 }
 
-// Whichever set the request before has changed.
-TEST(TextureRtlTagStore, EverySetThatChangesIsWritten) {
+// Whichever set the previous request changed.
+TEST(TextureRtlTagStore, EveryChangedSetIsWritten) {
   TagStore tags("tags", small_cache());
   std::uint64_t writes = 0;
   Cycle cycle = 0;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace rtl::texture;
 
-TEST(TextureRtlAddresser, LatencyOfTheDatasheetAndOneAClock) {
+TEST(TextureRtlAddresser, LatencyMatchesDatasheetWithOneRequestPerCycle) {
   ClockDomain clock("clock", period());
   Store store(clock);
   TexelAddresser unit("unit", clock, store.descriptors.for_texels);

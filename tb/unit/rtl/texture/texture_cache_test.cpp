@@ -9,8 +9,8 @@ namespace {
 using namespace rtl::texture;
 using testing::ElementsAre;
 
-// One request after the other, each with the time it takes and what it counts.
-TEST(TextureRtlCache, TimesByTable) {
+// One request after the other, each with its time and its counters.
+TEST(TextureRtlCache, TimesMatchTable) {
   CacheBench b;
   const Cycle latency = kMemoryLatency;
   const std::uint32_t a = 0, c = 2, e = 4, odd = 1;  // a, c, e share set 0
@@ -31,7 +31,8 @@ TEST(TextureRtlCache, TimesByTable) {
       {"other set", in_line(odd), kMiss + latency, 0, 1, 0},
       {"two lines that hit", request({64 * a, 64 * odd + 4, 64 * a + 16, 64 * odd + 20}), kHit, 2,
        0, 0},
-      // A second line is sent and comes a clock after the first, and is written in the next clock.
+      // A second line is sent, and arrives, one cycle after the first, and is written in the next
+      // cycle.
       {"two lines, both miss", request({64 * 6, 64 * 7, 64 * 6 + 16, 64 * 7 + 16}),
        kMiss + latency + 1, 0, 2, 1},
       {"four lines, all miss", request({64 * 8, 64 * 9, 64 * 10, 64 * 11}), kMiss + latency + 3, 0,
@@ -58,7 +59,7 @@ TEST(TextureRtlCache, TimesByTable) {
   EXPECT_EQ(b.cache.data_stage.lines_written.value(), misses);
 }
 
-TEST(TextureRtlCache, HitIsNotReadyAClockEarlier) {
+TEST(TextureRtlCache, HitIsNotReadyOneCycleEarly) {
   CacheBench b;
   b.time_of(in_line(0));
   b.ends.sink.hold_to = rtl::kNever;
@@ -70,16 +71,16 @@ TEST(TextureRtlCache, HitIsNotReadyAClockEarlier) {
   EXPECT_TRUE(b.ends.out.can_pop(pushed + 1 + kHit));
 }
 
-// Missed lines that come while the output is held: one is written, and its request waits in
-// stage 2. The next one waits on the output register of the FillBuffer, so that requests leave a
-// clock after each other.
-TEST(TextureRtlCache, MissesWhileTheOutputIsHeld) {
+// Missed lines that arrive while the output is blocked: one is written, and its request waits in
+// stage 2. The next waits on the output register of the FillBuffer, so that requests leave one
+// cycle after each other.
+TEST(TextureRtlCache, MissesLeaveCorrectlyAfterOutputStall) {
   CacheBench b;
   std::vector<TexelToken> asked = {in_line(0)};
   b.time_of(asked[0]);
   const Cycle held_to = b.clock.cycle() + 120;
   b.ends.sink.hold_to = held_to;
-  // Two hits fill the link, and a miss stage 2. The others come when nothing moves any more.
+  // Two hits fill the link, and a miss stage 2. The others arrive when nothing moves any more.
   const auto add = [&](std::uint32_t line) {
     asked.push_back(in_line(line));
     b.ends.source.add(asked.back());
@@ -89,7 +90,7 @@ TEST(TextureRtlCache, MissesWhileTheOutputIsHeld) {
   EXPECT_EQ(b.cache.data_stage.lines_written.value(), 2u);
   for (const std::uint32_t line : {2u, 3u}) add(line);
   b.clock.run_until([&] { return b.clock.cycle() >= held_to; }, 100);
-  EXPECT_EQ(b.cache.memory_port.bytes_read.value(), 4 * 64u);  // asked for long ago
+  EXPECT_EQ(b.cache.memory_port.bytes_read.value(), 4 * 64u);  // requested long ago
   EXPECT_EQ(b.cache.data_stage.lines_written.value(), 2u);
   EXPECT_EQ(b.ends.sink.taken.size(), 1u);
   b.clock.run(20);
@@ -99,9 +100,9 @@ TEST(TextureRtlCache, MissesWhileTheOutputIsHeld) {
   EXPECT_THAT(cycles, ElementsAre(held_to, held_to + 1, held_to + 2, held_to + 3, held_to + 4));
 }
 
-// A line that is evicted before its own fill has arrived: the older request must still get it, and
-// the younger one gets the newer line.
-TEST(TextureRtlCache, EvictedBeforeItArrived) {
+// A line that is evicted before its own fill has arrived: the older request still gets it, and the
+// younger one gets the newer line.
+TEST(TextureRtlCache, LineEvictedBeforeArrivalIsStillDelivered) {
   spec::texture::Parameters p = small_cache();
   p.cache_ways = 1;  // four sets
   CacheBench b(p);
@@ -116,7 +117,7 @@ TEST(TextureRtlCache, EvictedBeforeItArrived) {
   EXPECT_THAT(b.memory.lines_read(), ElementsAre(0, 256, 0, 512, 256, 0, 256, 512, 0, 256));
 }
 
-// Lines shorter than the memory port's beats, as long, and longer.
+// Lines shorter than the memory port's beats, equal, and longer.
 void check_line_size(std::int32_t bytes) {
   spec::texture::Parameters p = small_cache();
   p.cache_bytes = 1024;
@@ -134,9 +135,9 @@ void check_line_size(std::int32_t bytes) {
   for (const std::uint64_t address : b.memory.lines_read())
     EXPECT_EQ(address % static_cast<std::uint64_t>(std::min(bytes, 64)), 0u);
 }
-TEST(TextureRtlCache, Lines32) { check_line_size(32); }
-TEST(TextureRtlCache, Lines64) { check_line_size(64); }
-TEST(TextureRtlCache, Lines128) { check_line_size(128); }
+TEST(TextureRtlCache, WorksWithLinesOf32Bytes) { check_line_size(32); }
+TEST(TextureRtlCache, WorksWithLinesOf64Bytes) { check_line_size(64); }
+TEST(TextureRtlCache, WorksWithLinesOf128Bytes) { check_line_size(128); }
 
 TEST(TextureRtlCache, MemoryErrorReadsAsZeroAndIsCounted) {
   CacheBench b;
@@ -155,7 +156,7 @@ TEST(TextureRtlCache, MemoryErrorReadsAsZeroAndIsCounted) {
   EXPECT_FALSE(b.store.bus.read(reg::kStatus) & reg::kStatusMemoryError);
 }
 
-// A fragment without a valid descriptor asks for nothing and takes one clock.
+// A fragment without a valid descriptor requests nothing and takes one cycle.
 TEST(TextureRtlCache, InvalidFragmentsPassThrough) {
   CacheBench b;
   b.time_of(in_line(0));
@@ -169,14 +170,13 @@ TEST(TextureRtlCache, InvalidFragmentsPassThrough) {
 TEST(TextureRtlCache, ResetDropsLinesInFlight) {
   CacheBench b(small_cache(), 40);
   for (std::uint32_t i = 0; i < 4; ++i) b.ends.source.add(in_line(i));
-  b.clock.run(20);  // all asked for, none answered
+  b.clock.run(20);  // all requested, none answered
   EXPECT_EQ(b.memory.lines_read().size(), 4u);
   b.clock.set_reset_n(false);
   b.clock.run(2);
   b.clock.set_reset_n(true);
   EXPECT_EQ(b.cache.tag_stage.misses.value(), 0u);
-  // The same lines are missing again, and the late answers of the first time are not taken for
-  // them.
+  // The same lines miss again, and late responses from before the reset are not used for them.
   b.fill_memory(~0u);
   const std::vector<TexelToken> asked = {in_line(3), in_line(2), in_line(1)};
   for (const auto& t : asked) b.ends.source.add(t);

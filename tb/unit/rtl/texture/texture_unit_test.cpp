@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole texture unit: total latency, throughput with a warm cache, recovery from stalls,
-// registers, errors. The texture's texels are their own coordinates, so that a colour says where it
-// was taken.
+// registers, errors. Texels hold their own coordinates, so that a colour shows where it was
+// fetched.
 #include "rtl_model/texture/texture_unit.h"
 
 #include <string>
@@ -27,12 +27,12 @@ spec::texture::Descriptor nearest_texture(platform::MemoryModel& memory) {
   return d;
 }
 
-// Lane 0 in the middle of texel (x, y), lanes a texel apart.
+// Lane 0 is at the centre of texel (x, y), lanes are one texel apart.
 spec::texture::Quad quad_of(int x, int y, std::uint32_t tag = 0) {
   return quad_at(x * kTexel + kTexel / 2, y * kTexel + kTexel / 2, kTexel, kTexel, tag);
 }
 
-TEST(TextureRtlUnit, NearestGivesTheTexelsInOrder) {
+TEST(TextureRtlUnit, NearestReturnsTexelsInOrder) {
   UnitBench b;
   write_descriptor(b.bus, 5, nearest_texture(b.memory));
   for (int i = 0; i < 30; ++i) {
@@ -77,20 +77,20 @@ void check_latency(const spec::texture::Parameters& p, Cycle expected) {
   b.sink.hold_to = 0;
   b.clock.run(20);
   EXPECT_EQ(b.sink.taken.size(), cold + 4);
-  // Lane 0 takes `expected`, each further lane leaves the first block a clock later.
+  // Lane 0 takes `expected`, each further lane leaves the first block one cycle later.
   EXPECT_EQ(b.unit.fragment_latency.count(), 8u);
   EXPECT_EQ(b.unit.fragment_latency.min(), expected);
 }
-TEST(TextureRtlUnit, LatencyOfANearestFragment) {
+TEST(TextureRtlUnit, LatencyOfNearestFragmentMatches) {
   check_latency(stimuli::paper_configuration(), 30);
 }
-TEST(TextureRtlUnit, LatencyWithExactFootprint) {
+TEST(TextureRtlUnit, LatencyWithExactFootprintMatches) {
   spec::texture::Parameters p = stimuli::paper_configuration();
   p.footprint = spec::texture::FootprintRule::kExact;
   check_latency(p, 47);
 }
-TEST(TextureRtlUnit, LatencyOfThePresetDeburr) { check_latency({}, 53); }
-TEST(TextureRtlUnit, LatencyEncoded) {
+TEST(TextureRtlUnit, LatencyOfPresetDeburrMatches) { check_latency({}, 53); }
+TEST(TextureRtlUnit, LatencyWithSrgbEncodingMatches) {
   spec::texture::Parameters p = stimuli::paper_configuration();
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
   check_latency(p, 31);
@@ -105,7 +105,7 @@ TEST(TextureRtlUnit, LatencyHistogramCountsEveryFragment) {
   b.source.add(quad_of(3, 5));
   b.finish();
   const auto bins = b.unit.fragment_latency.bins();
-  ASSERT_EQ(bins.size(), 8u);  // four cold ones, later by the fills, and these
+  ASSERT_EQ(bins.size(), 8u);  // four cold ones, delayed by the fills, and these
   for (std::size_t lane = 0; lane < 4; ++lane) {
     EXPECT_EQ(bins[lane].low, 30 + lane);
     EXPECT_EQ(bins[lane].count, 1u);
@@ -117,7 +117,7 @@ spec::texture::Quad anisotropic_quad(std::uint32_t tag) {
   return quad_at(kOne / 2, kOne / 2, 12 * kTexel, 3 * kTexel, tag);
 }
 
-TEST(TextureRtlUnit, WarmCacheGivesOneBilinearAClock) {
+TEST(TextureRtlUnit, WarmCacheSustainsOneBilinearPerCycle) {
   UnitBench b;
   spec::texture::Descriptor d = linear_texture(b.memory, 64);
   d.max_anisotropy_log2 = 4;
@@ -131,14 +131,14 @@ TEST(TextureRtlUnit, WarmCacheGivesOneBilinearAClock) {
   EXPECT_EQ(b.unit.cache.miss_queue.line_fills.value(), fills);
   ASSERT_EQ(b.sink.taken.size(), warm + 200);
   EXPECT_EQ(b.bus.read(reg::kBilinears), 51u * 4 * 8);
-  // N x 2 = 8 cycles a fragment, each of them, exactly: a bilinear a clock.
+  // Each fragment takes exactly N x 2 = 8 cycles: one bilinear per cycle.
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
     EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, 8u);
 }
 
-// By the project's own rules: ratio 12 : 3 is 5 samples when it is a bit above 4, each of two
-// levels; the rate is a bilinear a clock just the same. Directions measured in several cycles end
-// at a fragment in so many.
+// With the preset deburr, a ratio slightly above 12 : 3 gives 5 samples of two levels each, still
+// at one bilinear per cycle. With directions that take several cycles, one fragment leaves per
+// axis_cycles.
 void check_warm(std::int32_t axis_cycles, std::int32_t long_side, Cycle cycles) {
   spec::texture::Parameters p;
   p.axes = spec::texture::Axes::kEight;
@@ -159,10 +159,10 @@ void check_warm(std::int32_t axis_cycles, std::int32_t long_side, Cycle cycles) 
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
     EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, cycles);
 }
-TEST(TextureRtlUnit, WarmCacheOfThePresetDeburr) { check_warm(1, 13, 10); }
-TEST(TextureRtlUnit, WarmCacheWithDirectionsInTime) { check_warm(4, 13, 10); }
-TEST(TextureRtlUnit, FragmentCostsAxisClocksAtLeast) { check_warm(4, 3, 4); }
-TEST(TextureRtlUnit, FragmentCostsTwoLevelsAtLeast) { check_warm(2, 3, 2); }
+TEST(TextureRtlUnit, WarmCacheOfPresetDeburrSustainsRate) { check_warm(1, 13, 10); }
+TEST(TextureRtlUnit, WarmCacheHidesAxisCycles) { check_warm(4, 13, 10); }
+TEST(TextureRtlUnit, FragmentCostsAtLeastAxisCycles) { check_warm(4, 3, 4); }
+TEST(TextureRtlUnit, FragmentCostsAtLeastTwoLevels) { check_warm(2, 3, 2); }
 
 // Fragments of every cost in one stream: the distance of two colours is the cost of the second.
 TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
@@ -174,7 +174,7 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
   for (const bool two_levels : {false, true})
     for (std::uint8_t n = 0; n <= 4; ++n) {
       d.max_anisotropy_log2 = n;
-      // Level 1.5 or 1, whatever N is.
+      // Level 1.5 or 1, for any N.
       d.min_lod = d.max_lod = two_levels ? 0x180 : 0x100;
       write_descriptor(b.bus, handle, d);
       spec::texture::Quad q = quad_at(kOne / 2, kOne / 2, 32 * kTexel, kTexel, handle);
@@ -190,11 +190,11 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
   ASSERT_EQ(b.sink.taken.size(), warm + 4 * quads.size());
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
     EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, cost[b.sink.taken[i].token.tag]);
-  // Every clock between the first and the last request, the cache had one.
+  // The cache had a request in every cycle between the first and the last.
   EXPECT_EQ(b.unit.cache.tag_stage.requests.value(), b.bus.read(reg::kBilinears));
 }
 
-// A injected fault for the two tests above: when the consumer stops, the distances are not the
+// Shows that the two tests above can fail: when the consumer stops, the distances differ from the
 // costs.
 TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
   UnitBench b;
@@ -218,7 +218,7 @@ TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
   EXPECT_GT(b.unit.filter.cycles_of(rtl::kStalledDownstream), 50u);
 }
 
-TEST(TextureRtlUnit, RulesRegisterNamesTheBuild) {
+TEST(TextureRtlUnit, RulesRegisterShowsTheBuild) {
   spec::texture::Parameters p;
   p.footprint = spec::texture::FootprintRule::kMax;
   p.log2 = spec::texture::Log2Rule::kSegments;
@@ -233,7 +233,7 @@ TEST(TextureRtlUnit, RulesRegisterNamesTheBuild) {
             4u | 2u << 4 | 1u << 6 | 1u << 8 | 1u << 10 | 1u << 11 | 1u << 12 | 102u << 16);
 }
 
-TEST(TextureRtlUnit, ControlCommands) {
+TEST(TextureRtlUnit, ControlCommandsTakeEffect) {
   UnitBench b;
   write_descriptor(b.bus, 0, nearest_texture(b.memory));
   b.source.add(quad_of(3, 5));
@@ -249,7 +249,7 @@ TEST(TextureRtlUnit, ControlCommands) {
   b.source.add(quad_of(3, 5));
   b.finish();
   EXPECT_EQ(fills(), 2 * cold);
-  // While busy it does nothing but set the sticky bit.
+  // While busy, the command only sets the sticky bit.
   b.source.add(quad_of(3, 5));
   b.clock.run(4);
   b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlInvalidate);
@@ -262,7 +262,7 @@ TEST(TextureRtlUnit, ControlCommands) {
   b.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   EXPECT_EQ(b.bus.read(reg::kFragments), 0u);
   EXPECT_EQ(b.bus.read(reg::kLineFills), 0u);
-  // That is all it does: the cache is still warm.
+  // It has no other effect: the cache is still warm.
   b.source.add(quad_of(3, 5));
   b.finish();
   EXPECT_EQ(fills(), 0u);
@@ -278,7 +278,7 @@ TEST(TextureRtlUnit, ControlCommands) {
   EXPECT_EQ(b.bus.read(reg::kFragments), 4u);
 }
 
-TEST(TextureRtlUnit, EachInvalidDescriptorGivesZeroAndIsCounted) {
+TEST(TextureRtlUnit, InvalidDescriptorsGiveZeroAndAreCounted) {
   UnitBench b;
   const spec::texture::Descriptor good = nearest_texture(b.memory);
   std::vector<spec::texture::Descriptor> bad(13, good);
@@ -297,7 +297,7 @@ TEST(TextureRtlUnit, EachInvalidDescriptorGivesZeroAndIsCounted) {
   bad[12].base[0] = 1;
   for (std::uint8_t h = 0; h < 13; ++h) write_descriptor(b.bus, h, bad[h]);
   spec::texture::Descriptor unused_base = good;
-  unused_base.base[7] = 33;  // a level that is not there
+  unused_base.base[7] = 33;  // an unused level
   write_descriptor(b.bus, 13, unused_base);
   write_descriptor(b.bus, 14, good);
   for (std::uint8_t h = 0; h < 17; ++h) {  // 15 was never written, 16 does not exist
@@ -319,12 +319,12 @@ TEST(TextureRtlUnit, EachInvalidDescriptorGivesZeroAndIsCounted) {
   EXPECT_EQ(b.bus.read(reg::kClamped), 17u);
   EXPECT_EQ(b.bus.read(reg::kSaturated), 0u);
   EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusInvalidTexture);
-  // One clock a fragment.
+  // One cycle per fragment.
   for (std::size_t i = 1; i < 13 * 4; ++i)
     EXPECT_EQ(b.sink.taken[i].cycle, b.sink.taken[0].cycle + i);
 }
 
-TEST(TextureRtlUnit, MemoryErrors) {
+TEST(TextureRtlUnit, MemoryErrorsAreReported) {
   UnitBench b;
   const spec::texture::Descriptor d = nearest_texture(b.memory);
   write_descriptor(b.bus, 0, d);
@@ -345,8 +345,8 @@ TEST(TextureRtlUnit, MemoryErrors) {
   EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusMemoryError);
 }
 
-// What they are is compared with the page by the suite Tokens.
-TEST(TextureRtlUnit, MemoriesCanBeBuilt) {
+// The suite Tokens compares them with the page.
+TEST(TextureRtlUnit, MemoriesAreImplementable) {
   ClockDomain clock("clock", period());
   spec::texture::Parameters encoded;
   encoded.srgb_output = spec::texture::SrgbOutput::kEncoded;
@@ -362,8 +362,9 @@ TEST(TextureRtlUnit, MemoriesCanBeBuilt) {
   }
 }
 
-// Ordered as 0, the FIFO is as deep as the memory asks for; who does not know it gets 100 cycles.
-TEST(TextureRtlUnit, SizesTheLatencyFifo) {
+// Set to 0, the FIFO is as deep as the memory needs; with an unknown latency it is sized for 100
+// cycles.
+TEST(TextureRtlUnit, DefaultLatencyFifoFitsTheMemory) {
   ClockDomain clock("clock", period());
   spec::texture::Parameters ordered;
   ordered.cache_fifo_depth = 33;
@@ -380,7 +381,7 @@ TEST(TextureRtlUnit, SizesTheLatencyFifo) {
   EXPECT_EQ(depth(as_ordered), 33u);
 }
 
-TEST(TextureRtlUnit, RejectsImpossibleParameters) {
+TEST(TextureRtlUnit, RejectsInvalidParameters) {
   ClockDomain clock("clock", period());
   const auto error = [&](const char* name, auto change) -> std::string {
     spec::texture::Parameters p;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tokens and tags are for some builds; and the figures of units that have units.
+// Tokens and tags of some builds; and the figures of composite units.
 #include "rtl_model/texture/tokens.h"
 
 #include "tb/unit/rtl/figure.h"
@@ -8,9 +8,8 @@
 namespace deburr::rtl::texture::tokens_test {
 namespace {
 
-// Of the units that have units, in both builds: an AxisUnit stands in the place of the
-// FootprintUnit.
-TEST(TextureFigures, OfAUnitAreItsModuleTree) {
+// Composite units in both builds: an AxisUnit replaces the FootprintUnit.
+TEST(TextureFigures, MatchTheModuleTree) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   const std::string address = "rtl_model/texture/address_unit.h",
                     cache = "rtl_model/texture/texture_cache.h";
@@ -25,8 +24,8 @@ TEST(TextureFigures, OfAUnitAreItsModuleTree) {
   }
 }
 
-// Without an order of the ways a set is its tags and two bits a way.
-TEST(TextureRtlTokens, RandomReplacementKeepsNoOrder) {
+// Without an order of the ways, a set is its tags and two bits per way.
+TEST(TextureRtlTokens, RandomReplacementStoresNoOrder) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   spec::texture::Parameters p;
   p.cache_fifo_depth = 16;
@@ -41,15 +40,15 @@ TEST(TextureRtlTokens, RandomReplacementKeepsNoOrder) {
   EXPECT_GT(stores, 0);
 }
 
-// By half a tile of 64 bytes, or half of a line that is shorter.
-TEST(TextureRtlTokens, LinesTurnByHalfATile) {
+// By half a tile of 64 bytes, or half a line if that is shorter.
+TEST(TextureRtlTokens, LinesTurnByHalfTile) {
   EXPECT_EQ(turn_bytes(32), 16U);
   EXPECT_EQ(turn_bytes(64), 32U);
   EXPECT_EQ(turn_bytes(128), 32U);
 }
 
-// As many bits of a tag as the entries of the fill buffer need, and no more.
-TEST(TextureRtlTokens, TagsNumberTheEntries) {
+// A tag has just the bits that the entries of the fill buffer need.
+TEST(TextureRtlTokens, TagWidthFollowsFillBufferEntries) {
   ClockDomain clock("clock", tb::texture_rtl::period());
   for (const auto& [outstanding, bits] :
        {std::array<std::uint32_t, 2>{4, 2}, {5, 3}, {8, 3}, {9, 4}, {64, 6}, {65, 7}, {256, 8}}) {
@@ -67,8 +66,8 @@ TEST(TextureRtlTokens, TagsNumberTheEntries) {
   }
 }
 
-// What the largest caches need is what the tokens list.
-TEST(TextureRtlTokens, ListNoMoreThanTheLargestCacheNeeds) {
+// By default, tokens have the widths that the largest caches need.
+TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   spec::texture::Build large, many;
   large.cache_line_bytes = 128;
   large.cache_bytes = 512 * 128;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frames that the vectors of docs/reference/geometric/vectors.md are about: of random edges,
-// and of special cases.
+// The frames of the vectors in docs/reference/geometric/vectors.md: random edges, and special
+// cases.
 #pragma once
 
 #include <algorithm>
@@ -71,8 +71,8 @@ inline constexpr std::array<std::uint32_t, 4> kIgnoredOfEdge = {0xFF000000, 0xFF
                                                                 0xFF000000};
 inline constexpr std::uint32_t kIgnoredOfDepth = 0xFF000000;
 
-// Ignored bits are 1 where a packet holds them; the others, of the indices and of `usable`, whoever
-// writes the records has to set.
+// Ignored bits are 1 where a packet holds them; for the others, in indices and `usable`, the writer
+// of the records must set them.
 inline VectorFrame special_frame() {
   stimuli::Sequence sequence;
   const auto r = [&sequence] { return sequence.next(); };
@@ -87,8 +87,8 @@ inline VectorFrame special_frame() {
     frame.colours.push_back({static_cast<std::uint8_t>(v >> 24), static_cast<std::uint8_t>(v >> 16),
                              static_cast<std::uint8_t>(v >> 8), static_cast<std::uint8_t>(v)});
   }
-  // 8000000 is 8015655 and 16000000 less their share by a depth_bias of 9 and 1; 12000000 is
-  // 12800000 and 16000000 less theirs by a crease_depth of 4 and 2.
+  // 8000000 is 8015655 and 16000000 minus their fractions by a depth_bias of 9 and 1; 12000000 is
+  // 12800000 and 16000000 minus theirs by a crease_depth of 4 and 2.
   constexpr std::array<std::uint32_t, 8> kDepths = {0,        4000000,  8000000,  8015655,
                                                     12000000, 12800000, 16000000, 16777215};
   for (int i = 0; i < pixels; ++i) frame.depths.push_back(kDepths[r() >> 29] | kIgnoredOfDepth);
@@ -111,7 +111,7 @@ inline VectorFrame special_frame() {
         a.y = b.y = i % 2 == 0 ? 0 : 256 * frame.height;
       else
         a.x = b.x = i % 2 == 0 ? 0 : 256 * frame.width;
-    } else if (i >= 50 && i < 65) {  // level, through centres
+    } else if (i >= 50 && i < 65) {  // horizontal, through centres
       a.y = b.y = (a.y & ~255) + 128;
     } else if (i >= 65 && i < 80) {  // diagonal
       beside(b.y - a.y, b.y - a.y);
@@ -120,7 +120,7 @@ inline VectorFrame special_frame() {
     } else if (i >= 90 && i < 95) {  // from one end of the guard band to the other
       (i % 2 == 0 ? a.x : a.y) = -kBand;
       (i % 2 == 0 ? b.x : b.y) = kBand - 1;
-    } else if (i >= 95) {  // of slope 1/2 and a little
+    } else if (i >= 95) {  // of slope slightly above 1/2
       a.x &= ~127;
       a.y &= ~127;
       beside(1 << 21, (1 << 20) + 1);
@@ -146,7 +146,7 @@ inline VectorFrame special_frame() {
   return frame;
 }
 
-// Depths that the pixels of a tile have in common, but for a little.
+// Nearly equal depths for the pixels of a tile.
 inline VectorFrame tiles_frame() {
   VectorFrame frame = vector_frame();
   const std::vector<std::uint32_t> depths = frame.depths;
@@ -172,7 +172,7 @@ inline VectorFrame vector_frame(spec::geometric::DrawnFrame frame) {
   }
 }
 
-// Those of both frames.
+// The vectors of both frames.
 inline std::vector<spec::geometric::FrameVector> all_frame_vectors() {
   std::vector<spec::geometric::FrameVector> all(spec::geometric::kFrameVectors.begin(),
                                                 spec::geometric::kFrameVectors.end());

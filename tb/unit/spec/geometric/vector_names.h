@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How GoogleTest names the vectors of the geometric engine.
+// Names of the geometric engine's vectors for GoogleTest.
 #pragma once
 
 #include <ostream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/reference/geometric/vectors.md and algorithm.md are
-// made from spec/geometric/vectors.h.
+// The tables of docs/reference/geometric/vectors.md and algorithm.md are generated from
+// spec/geometric/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using spec::geometric::kLineVectors;
 using spec::geometric::kSpecialFrameVectors;
 using spec::geometric::LineVector;
 
-constexpr std::size_t kHashes = 3;  // values of a result, before its counts
+constexpr std::size_t kHashes = 3;  // values of a result before its counters
 
 std::string frames(std::span<const FrameVector> vectors) {
   std::vector<std::string> hash_titles = {"", "preset", "beside it"}, count_titles = {""};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The images that the vectors of spec/morphological/vectors.h are about.
+// The images of the vectors in spec/morphological/vectors.h.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ inline Image vector_image(const spec::morphological::GuardVector& v) {
   });
 }
 
-// A Z of its length in row 2 from column 1 on.
+// A Z of the given length in row 2, starting at column 1.
 inline Image vector_image(const spec::morphological::LimitVector& limit) {
   return stimuli::draw(limit.length + 2, 4, [&](int x, int y) {
     const bool white = y == 3 || (y == 2 && x > 0) || (y == 1 && x > limit.length);
@@ -70,7 +70,6 @@ inline Image vector_image(const spec::morphological::LimitVector& limit) {
   });
 }
 
-// All.
 inline std::vector<spec::morphological::FrameVector> frame_vectors() {
   std::vector<spec::morphological::FrameVector> all(spec::morphological::kFrameVectors.begin(),
                                                     spec::morphological::kFrameVectors.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The tables of docs/reference/morphological/vectors.md, and of runs in algorithm.md, are made from
-// spec/morphological/vectors.h.
+// The tables of docs/reference/morphological/vectors.md, and of runs in algorithm.md, are generated
+// from spec/morphological/vectors.h.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace deburr::tb::morphological::vectors_page_test {
 namespace {
 
-using namespace spec::morphological;  // NOLINT: a test of these
+using namespace spec::morphological;  // NOLINT: the tested names
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
@@ -66,7 +66,7 @@ std::string runs(std::span<const RunVector> vectors) {
   return table.text();
 }
 
-// Rows of a drawing, each by itself.
+// The rows of a drawing, one per line.
 std::string in_rows(std::string_view drawing) {
   std::string rows;
   for (const char c : drawing) rows += c == ' ' ? std::string("` `") : std::string(1, c);
@@ -167,7 +167,7 @@ TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
   expect_table_has_each_value(kTableVectors, weights);
 }
 
-TEST(MorphologicalVectors, HaveNamesOfTheirOwn) {
+TEST(MorphologicalVectors, NamesAreUnique) {
   std::set<std::string_view> names;
   for (const FrameVector& v : frame_vectors()) EXPECT_TRUE(names.insert(v.name).second) << v.name;
   EXPECT_EQ(names.size(), 70u);
