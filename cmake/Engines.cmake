@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
-# tb/engines/engines.txt is the one list of engines. What the build makes of it is here.
+# tb/engines/engines.txt is the only list of engines. This file derives what the build needs from it.
 
-# DEBURR_ENGINES: their names, in order.
+# DEBURR_ENGINES: names of the engines, in order.
 set(DEBURR_ENGINE_LIST "${PROJECT_SOURCE_DIR}/tb/engines/engines.txt")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${DEBURR_ENGINE_LIST}")
 file(STRINGS "${DEBURR_ENGINE_LIST}" DEBURR_ENGINES REGEX "^[^#]")
 
-# deburr_add_subdirectories_of(<folder> <name>...): of the folder's subfolders those that have these
-# names and a CMakeLists.txt.
+# deburr_add_subdirectories_of(<folder> <name>...): adds the subfolders with these names that have a CMakeLists.txt.
 function(deburr_add_subdirectories_of folder)
   foreach(name ${ARGN})
     if(EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/${name}/CMakeLists.txt")
@@ -16,9 +15,9 @@ function(deburr_add_subdirectories_of folder)
   endforeach()
 endfunction()
 
-# deburr_engines(<library> <name>...): a library that defines engines() (tool/run/engine.h) with these
-# engines in this order; a program links one such library. It is made of objects, since parts of
-# deburr::app need engines() wherever they stand on a linker's command line.
+# deburr_engines(<library> <name>...): a library that defines engines() (tool/run/engine.h) with these engines in this
+# order; a program links one such library. It is an object library, since parts of deburr::app need engines() at any
+# position of the linker's command line.
 function(deburr_engines library)
   set(declarations "")
   set(calls "")

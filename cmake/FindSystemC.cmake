@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: MIT
-# FindSystemC: finds Accellera SystemC and gives the target SystemC::systemc.
+# FindSystemC: finds Accellera SystemC and defines the target SystemC::systemc.
 #
-# SystemC bakes the C++ baseline that it was built for into a symbol name
-# (sc_api_version_2_3_4_cxx201703L), and a program compiled for another baseline does not link unless
-# SC_CPLUSPLUS is set to the library's. Which baseline that is differs between packages, so it is
-# probed by linking, and the definition is put on the target.
+# SystemC encodes the C++ standard it was built for in a symbol name (sc_api_version_2_3_4_cxx201703L). A program
+# compiled for another standard links only if SC_CPLUSPLUS is set to the library's value. The value differs between
+# packages, so it is probed by linking, and the definition is set on the target.
 #
-# SystemC 3.0 and later install a CMake package of their own (SystemCLanguage); it is preferred.
+# SystemC 3.0 and later install their own CMake package (SystemCLanguage), which is preferred.
 #
-# It is installed with Deburr's CMake package, whose user needs the same SC_CPLUSPLUS. Why nothing was found
-# is in SystemC_NOT_FOUND_MESSAGE.
+# This module is installed with Deburr's CMake package, whose users need the same SC_CPLUSPLUS. If nothing was found,
+# SystemC_NOT_FOUND_MESSAGE holds the reason.
 
-# The policies of who asks are in force here: below 3.8 the probe would be compiled for another standard than the
-# program. find_package gives them back.
+# The caller's policies apply here: below 3.8 the probe would be compiled for another standard than the program.
+# find_package restores them.
 cmake_policy(VERSION 3.16...3.25)
 
 unset(SystemC_NOT_FOUND_MESSAGE)
@@ -61,7 +60,7 @@ if(_systemc_libraries AND NOT CMAKE_CXX_COMPILER_LOADED)
   set(SystemC_NOT_FOUND_MESSAGE "SystemC needs the language C++, which this project has not: project(... LANGUAGES CXX).")
 endif()
 
-# A function, so that nothing of it stays in the project that asks.
+# A function, so that its variables do not leak into the calling project.
 function(_systemc_probe)
   set(baselines native 201703L 201402L 201103L 202002L)
   set(probed "${_systemc_libraries} ${_systemc_place}")
@@ -77,7 +76,7 @@ function(_systemc_probe)
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_INCLUDES "${_systemc_includes}")
   set(CMAKE_REQUIRED_LIBRARIES "${_systemc_libraries}")
-  # Not a flag: with CMAKE_CXX_EXTENSIONS off, CMake would put its own -std= behind it.
+  # Not a compile option: with CMAKE_CXX_EXTENSIONS off, CMake would append its own -std=.
   set(CMAKE_CXX_STANDARD 20)
   set(CMAKE_REQUIRED_QUIET TRUE)
   foreach(baseline IN LISTS baselines)

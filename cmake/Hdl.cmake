@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-# The units of hdl/ and the tools that read them (option DEBURR_HDL). Where a tool is absent its tests are
-# skipped and say so.
+# Units of hdl/ and the tools that read them (option DEBURR_HDL). If a tool is absent, its tests are skipped with a
+# message.
 find_program(DEBURR_VERILATOR verilator)
 find_program(DEBURR_MAKE make)
 set(DEBURR_HDL_ROOT "${PROJECT_SOURCE_DIR}/hdl")
 file(GLOB_RECURSE DEBURR_HDL_SOURCES CONFIGURE_DEPENDS "${DEBURR_HDL_ROOT}/*.sv" "${DEBURR_HDL_ROOT}/*.vlt")
 
-# deburr_hdl_headers(<variable> <setting>...): the folder of the headers of a configuration, printed by the
-# build (tb/hdl/print_headers.cpp). Never committed: hdl/generated below the build.
+# deburr_hdl_headers(<variable> <setting>...): the folder with the headers of a configuration, printed by the build
+# (tb/hdl/print_headers.cpp) into hdl/generated of the build folder. They are never committed.
 function(deburr_hdl_headers variable)
   string(JOIN "_" name defaults ${ARGN})
   string(REGEX REPLACE "[^a-z0-9_]" "_" name "${name}")
@@ -22,10 +22,10 @@ function(deburr_hdl_headers variable)
   endif()
 endfunction()
 
-# deburr_hdl_model(<class> TOP <module> [SETTINGS <setting>...] [FAULT <file> <from> <to>]):
-# a library with the module verilated as C++ class <class>, with these parameters of the texture unit. A
-# FAULT is planted in a copy of one source: the text <from>, which stands there once, becomes <to>. Models
-# without a fault may do the work of SystemC units in a run (deburr_hdl_counterparts).
+# deburr_hdl_model(<class> TOP <module> [SETTINGS <setting>...] [FAULT <file> <from> <to>]): a library with the module
+# verilated as C++ class <class>, with these parameters of the texture unit. FAULT injects a fault into a copy of one
+# source: it replaces <from>, which must occur exactly once, with <to>. Models without a fault can replace SystemC
+# units in a run (deburr_hdl_counterparts).
 function(deburr_hdl_model class)
   cmake_parse_arguments(ARG "" "TOP" "SETTINGS;FAULT" ${ARGN})
   deburr_hdl_headers(headers ${ARG_SETTINGS})
@@ -66,7 +66,7 @@ function(deburr_hdl_model class)
   endif()
 endfunction()
 
-# What every verilated model needs.
+# Sources that every verilated model needs.
 function(deburr_hdl_runtime)
   get_filename_component(root "${DEBURR_VERILATOR}" REALPATH)
   cmake_path(GET root PARENT_PATH root)
@@ -82,7 +82,7 @@ function(deburr_hdl_runtime)
   target_link_libraries(deburr_verilated PUBLIC Threads::Threads)
 endfunction()
 
-# The settings of all models as a header, and the models as libraries, for what is linked with them.
+# A header with the settings of all models, and a target that links the model libraries.
 function(deburr_hdl_finish target)
   get_property(models GLOBAL PROPERTY DEBURR_HDL_MODELS)
   file(CONFIGURE OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/models.h" @ONLY CONTENT
@@ -94,8 +94,8 @@ function(deburr_hdl_finish target)
   target_link_libraries(${target} INTERFACE ${libraries})
 endfunction()
 
-# deburr_hdl_counterparts(<name> LINK <library> CLASSES <class>...): an object that adds these models to those that a run of
-# the library's engine may take. A program that links deburr_<name> has them.
+# deburr_hdl_counterparts(<name> LINK <library> CLASSES <class>...): an object that registers these models as RTL
+# counterparts in the library's engine, for every program that links deburr_<name>.
 function(deburr_hdl_counterparts name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "LINK" "CLASSES")
   set(includes "")

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-# What others link: libdeburr-golden and libdeburr-models, one archive each (or shared, BUILD_SHARED_LIBS) of
-# all libraries of golden/ and of rtl_model/, their headers, the CMake package `deburr` and pkg-config files.
-# Before tb/, whose tests have libraries of these layers too.
+# Libraries for other projects: libdeburr-golden and libdeburr-models, one archive each (or shared, BUILD_SHARED_LIBS)
+# of all libraries of golden/ and of rtl_model/, their headers, the CMake package `deburr` and pkg-config files.
+# Included before tb/, whose tests also have libraries of these layers.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(DEBURR_PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/deburr")
-# Sources include "spec/...", "golden/..." and "rtl_model/...": so do those of others.
+# Sources include "spec/...", "golden/..." and "rtl_model/..."; user code does the same.
 set(DEBURR_INCLUDE_FOLDER "${CMAKE_INSTALL_INCLUDEDIR}/deburr")
 
-# deburr_installed_library(<component> <layer> [PUBLIC ...] [PRIVATE ...]): deburr::<component>, of all
-# libraries of the layer, and what it links.
+# deburr_installed_library(<component> <layer> [PUBLIC ...] [PRIVATE ...]): deburr::<component>, made of all libraries
+# of the layer, and its link dependencies.
 function(deburr_installed_library component layer)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   set(target deburr_${component})
@@ -36,8 +36,8 @@ foreach(layer spec golden rtl_model)
     COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "golden/c" EXCLUDE)
 endforeach()
 
-# The C interface is of libdeburr-golden: its header, and what SystemVerilog needs of it. Shared, it has a
-# library of its own too, which exports nothing else and keeps its number as long as no function changes.
+# The C interface belongs to libdeburr-golden: its header and the files that SystemVerilog needs. In a shared build it
+# is also a separate library, which exports only this interface and keeps its version as long as no function changes.
 get_target_property(header deburr_golden_c DEBURR_HEADER)
 install(FILES "${header}" DESTINATION "${DEBURR_INCLUDE_FOLDER}"
   COMPONENT development)
@@ -63,7 +63,7 @@ if(BUILD_SHARED_LIBS)
   install(TARGETS deburr_c_library EXPORT deburr_golden
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 endif()
-# What a program in C has to link beside an archive of C++.
+# Libraries that a C program must link in addition to a C++ archive.
 set(DEBURR_CXX_RUNTIME ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
 list(FILTER DEBURR_CXX_RUNTIME INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+|c\\+\\+abi|m)$")
 list(REMOVE_DUPLICATES DEBURR_CXX_RUNTIME)
@@ -121,7 +121,7 @@ install(FILES "${package}/deburr-config.cmake" "${package}/deburr-config-version
   "${package}/deburr-version.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindSystemC.cmake"
   DESTINATION "${DEBURR_PACKAGE_FOLDER}" COMPONENT development)
 
-# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...] [LIBRARIES ...]): paths of ours are
+# deburr_pkg_config(<component> <description> [REQUIRES ...] [FLAGS ...] [LIBRARIES ...]): Deburr's own paths are
 # relative to the file.
 function(deburr_pkg_config component description)
   cmake_parse_arguments(ARG "" "" "REQUIRES;FLAGS;LIBRARIES" ${ARGN})
@@ -152,7 +152,7 @@ else()
 endif()
 deburr_pkg_config(golden-c "Bit-exact golden models of anti-aliasing hardware, for C and SystemVerilog"
   LIBRARIES ${libraries})
-# SystemC's own CMake package, and a SYSTEMC_HOME, need have no systemc.pc.
+# SystemC's own CMake package, or a SYSTEMC_HOME, may have no systemc.pc.
 set(requires systemc)
 set(libraries "")
 if(NOT PC_SystemC_FOUND)
@@ -163,11 +163,11 @@ if(NOT PC_SystemC_FOUND)
   get_target_property(library SystemC::systemc LOCATION)
   set(libraries deburr-models "${library}" pthread)
 endif()
-# fmt: a static library does not say what it links.
+# fmt: a static library does not record its dependencies.
 deburr_pkg_config(models "Cycle-accurate SystemC models of anti-aliasing hardware"
   REQUIRES ${requires} fmt FLAGS -std=c++20 ${flags} LIBRARIES ${libraries})
 
-# All that `cmake --install` copies.
+# Everything that `cmake --install` copies.
 add_custom_target(deburr_installed DEPENDS deburr_golden deburr_models deburr_registers_header)
 if(TARGET deburr_c_library)
   add_dependencies(deburr_installed deburr_c_library)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The program, installed as it is built: what it starts and loads stands beside it, in a folder of its own that
-# bin/deburr leads to. Below share/deburr what it reads has the paths of the repository: ready sweeps, testplans
-# and the pages that they name (tb/base/ready_file.h).
+# Installs the program with the programs and modules that it starts and loads in one folder; bin/deburr is a link into
+# that folder. Files that it reads (ready sweeps, testplans and the pages they name) keep their repository paths below
+# share/deburr (tb/base/ready_file.h).
 set(DEBURR_PROGRAM_FOLDER "${CMAKE_INSTALL_LIBEXECDIR}/deburr")
 set(DEBURR_DATA_FOLDER "${CMAKE_INSTALL_DATADIR}/deburr")
 add_dependencies(deburr_installed deburr_complete)
@@ -24,7 +24,7 @@ set(link "${PROJECT_BINARY_DIR}/installed/deburr")
 file(CREATE_LINK "${path}" "${link}" SYMBOLIC)
 install(FILES "${link}" DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 
-# deburr_printed(<file> <folder> <word>...): what the program prints of itself; without a folder it is not installed.
+# deburr_printed(<file> <folder> <word>...): output of the program itself; not installed if no folder is given.
 set(printed "")
 function(deburr_printed file folder)
   set(output "${PROJECT_BINARY_DIR}/installed/${file}")
@@ -38,7 +38,7 @@ file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/installed/bash")
 deburr_printed(bash/deburr "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" completion bash)
 deburr_printed(_deburr "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" completion zsh)
 deburr_printed(deburr.fish "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" completion fish)
-deburr_printed(deburr.1 "" help --man)  # which Package.cmake compresses
+deburr_printed(deburr.1 "" help --man)  # Package.cmake compresses it
 add_custom_target(deburr_printed ALL DEPENDS ${printed})
 add_dependencies(deburr_installed deburr_printed)
 

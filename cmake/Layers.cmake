@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-# The dependency rule of the house, enforced by include paths.
+# The dependency rule between layers, enforced by include paths.
 #
-# Every layer folder (spec, golden, rtl_model, tb) is visible to a compiler only through a private
-# include root that holds a link to that one folder. A target that does not link deburr::golden has
-# no include path on which "golden/..." could be found, so the rule cannot be broken by accident.
+# The compiler sees each layer folder (spec, golden, rtl_model, tb) only through a private include root that holds a
+# link to that folder. A target that does not link deburr::golden has no include path for "golden/...", so the rule
+# cannot be broken by accident.
 
-# deburr_layer_root(<variable> <layer>): the include root that shows <layer> and nothing else.
+# deburr_layer_root(<variable> <layer>): the include root that shows only <layer>.
 function(deburr_layer_root variable layer)
   set(root "${PROJECT_BINARY_DIR}/layers/${layer}")
   file(MAKE_DIRECTORY "${root}")
@@ -15,11 +15,10 @@ function(deburr_layer_root variable layer)
   set(${variable} "${root}" PARENT_SCOPE)
 endfunction()
 
-# deburr_batches(<target> [<source>...]): compiles the sources of a target in batches of at most forty of
-# about the same size, one translation unit each (option DEBURR_UNITY); those that are named with
-# deburr_light_options, and apart from the others. Sources that are generated and those with options of their
-# own, which are set before, stay as they are. Not UNITY_BUILD: its files name sources by absolute paths, so
-# that a compiler cache finds nothing that another checkout has left.
+# deburr_batches(<target> [<source>...]): compiles the sources of a target in batches of at most forty files of
+# similar total size, one translation unit each (option DEBURR_UNITY). The named sources form their own batches with
+# deburr_light_options. Generated sources and sources that already have their own options are not batched. UNITY_BUILD
+# is not used: its files name sources by absolute paths, so a compiler cache would find nothing from another checkout.
 function(deburr_batches target)
   get_target_property(sources ${target} SOURCES)
   set(main "")
@@ -76,9 +75,9 @@ function(deburr_batches target)
   target_include_directories(${target} PRIVATE "${root}")
 endfunction()
 
-# deburr_library(<name> LAYER <layer> [SOURCES ...] [NOT_SIMULATED ...] LINK ...): a static library of one
-# layer; linking it makes its layer's headers visible, and those of what it links publicly. Sources that run
-# beside a simulation, or cost little in it, are NOT_SIMULATED: they are compiled faster.
+# deburr_library(<name> LAYER <layer> [SOURCES ...] [NOT_SIMULATED ...] LINK ...): a static library of one layer.
+# Linking it makes the headers of its layer and of its public dependencies visible. NOT_SIMULATED sources are not
+# critical for simulation speed and are compiled with less optimisation.
 function(deburr_library name)
   cmake_parse_arguments(ARG "" "LAYER" "SOURCES;NOT_SIMULATED;LINK;PRIVATE_LINK" ${ARGN})
   deburr_layer_root(root ${ARG_LAYER})
@@ -94,7 +93,7 @@ function(deburr_library name)
       target_link_libraries(deburr_${name} PRIVATE deburr_light_options)
     endif()
     if(ARG_LAYER STREQUAL "rtl_model")
-      # GCC inlines less in units that it takes for large: models would be 8 to 15 % slower.
+      # GCC inlines less in large translation units: models would be 8 to 15 % slower.
       target_compile_options(deburr_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:--param=large-unit-insns=200000>)
     endif()
     deburr_batches(deburr_${name} ${light})

@@ -20,13 +20,13 @@ target_compile_features(deburr_options INTERFACE cxx_std_20)
 # -ffp-contract=off: the same source gives the same double on every machine.
 target_compile_options(deburr_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
-  # Of clang -Wconversion has this too, of GCC it does not.
+  # Clang's -Wconversion includes this warning, GCC's does not.
   $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>
   $<$<BOOL:${DEBURR_WERROR}>:-Werror>)
 if(DEBURR_SANITIZE)
   target_compile_options(deburr_options INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  # Addresses that the linker fixes: a test program starts in two thirds of the time. LLD links in a third of it.
+  # Addresses fixed by the linker: a test program starts in two thirds of the time. LLD links in a third of the time.
   target_link_options(deburr_options INTERFACE -fsanitize=address,undefined
     $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-no-pie> $<$<CXX_COMPILER_ID:Clang>:-fuse-ld=lld>)
   # ctest reads this before it starts a test.
@@ -41,26 +41,26 @@ if(DEBURR_FUZZ)
 endif()
 if(DEBURR_COVERAGE)
   target_compile_options(deburr_options INTERFACE --coverage)
-  # tb/base/forked.h calls it where it is there.
+  # tb/base/forked.h calls it if it exists.
   target_link_options(deburr_options INTERFACE --coverage -Wl,--undefined=__gcov_dump)
 endif()
 
-# Unit tests are compiled to be run once, and what only starts simulations and shows their results is
-# a small part of a run: -O1 takes two thirds of the time of -O3, -Og four fifths of that.
+# Unit tests run once per build, and code that only starts simulations and shows results takes a small part of a run:
+# -O1 compiles in two thirds of the time of -O3, -Og in four fifths of that.
 add_library(deburr_light_options INTERFACE)
 set(DEBURR_LIGHT_OPTIONS $<$<CONFIG:Release>:-Og>)
 target_compile_options(deburr_light_options INTERFACE ${DEBURR_LIGHT_OPTIONS})
 
-# What hands its work to models and environments. Under sanitizers -O0 takes less than half of the time of -O1 to
-# compile; a model would run four times as long, and so would the random configurations of tool/run.
+# Code that delegates its work to models and environments. With sanitizers -O0 compiles in less than half the time of
+# -O1; for a model, and for the random configurations of tool/run, -O0 would quadruple the run time.
 add_library(deburr_lightest_options INTERFACE)
 target_link_libraries(deburr_lightest_options INTERFACE deburr_light_options)
 if(DEBURR_SANITIZE)
   target_compile_options(deburr_lightest_options INTERFACE -O0)
 endif()
 
-# GCC collects garbage whenever its heap has doubled, from 128 MiB on: a tenth of its time for a batch of tb/, which
-# from 512 MiB on takes up to 0.25 GB more. Objects are the same.
+# GCC collects garbage whenever its heap has doubled, from 128 MiB on. This takes a tenth of its time for a batch of
+# tb/; starting at 512 MiB costs up to 0.25 GB more memory. Objects are identical.
 target_compile_options(deburr_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 
 find_program(CCACHE_PROGRAM ccache)

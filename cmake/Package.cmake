@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# `cpack -G DEB`: the packages deburr (the program), libdeburr-dev (libraries and headers) and python3-deburr. Of the preset
-# `package`, so that no path of the machine that built them stands in them.
+# `cpack -G DEB`: the packages deburr (the program), libdeburr-dev (libraries and headers) and python3-deburr. They
+# are built with the preset `package`, so that they contain no path of the build machine.
 file(READ "${PROJECT_SOURCE_DIR}/LICENSE" license)
 string(REGEX REPLACE "^MIT License\n\nCopyright \\(c\\) ([^\n]*)\n\n" "" text "${license}")
 set(holder "${CMAKE_MATCH_1}")
@@ -25,7 +25,7 @@ file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/installed/changelog.Debian" @ONLY C
 
  -- @contact@  @today@
 ")
-# deburr_compressed(<variable> <file> <source>): as Debian wants what lies below share/doc and share/man.
+# deburr_compressed(<variable> <file> <source>): compressed as Debian requires below share/doc and share/man.
 function(deburr_compressed variable file source)
   set(output "${PROJECT_BINARY_DIR}/installed/${file}.gz")
   add_custom_command(OUTPUT "${output}" COMMAND gzip -9nc "${source}" > "${output}" DEPENDS "${source}" VERBATIM)
@@ -43,7 +43,7 @@ endif()
 add_custom_target(deburr_documents ALL DEPENDS ${documents} ${manual})
 add_dependencies(deburr_installed deburr_documents)
 
-# deburr_package(<component> <package>): what every package has beside its files.
+# deburr_package(<component> <package>): files that every package has in addition to its own.
 set(CPACK_COMPONENTS_ALL "")
 macro(deburr_package component package)
   install(FILES ${documents} DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" COMPONENT ${component})
@@ -98,7 +98,7 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Models of anti-aliasing hardware, Python
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 if(TARGET deburr_python)
-  # It is of the Python that it was compiled for.
+  # Depends on the Python version it was compiled for.
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "deburr (= ${PROJECT_VERSION}-${release}), python3-numpy, \
 python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${next})")

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# What the build needs from elsewhere. A package that is missing is an error that names the section of
-# scripts/packages.txt which brings it.
+# External packages that the build needs. A missing package is an error that names the section of scripts/packages.txt
+# to install.
 
 set(DEBURR_PACKAGES_LIST "${CMAKE_CURRENT_LIST_DIR}/../scripts/packages.txt")
 
-# deburr_missing(<what> <Debian package> [<more to do>...]): the configuration ends here.
+# deburr_missing(<what> <Debian package> [<more to do>...]): stops the configuration with an error.
 function(deburr_missing what package)
   set(section "")
   file(STRINGS "${DEBURR_PACKAGES_LIST}" lines)
@@ -19,7 +19,7 @@ function(deburr_missing what package)
   message(FATAL_ERROR "${what} was not found: `scripts/install ${section}` installs Debian's package ${package}.${more}")
 endfunction()
 
-# deburr_find_package(<name> <Debian package> [<argument of find_package>...]): it has to be there.
+# deburr_find_package(<name> <Debian package> [<argument of find_package>...]): a required package.
 macro(deburr_find_package name package)
   find_package(${name} QUIET ${ARGN})
   if(NOT ${name}_FOUND)
@@ -27,7 +27,7 @@ macro(deburr_find_package name package)
   endif()
 endmacro()
 
-# deburr_find(<program|path|file|library> <variable> <Debian package> <argument of find_program and its like>...)
+# deburr_find(<program|path|file|library> <variable> <Debian package> <arguments of find_program and similar>...)
 macro(deburr_find kind variable package)
   cmake_language(CALL find_${kind} ${variable} ${ARGN})
   if(NOT ${variable})
@@ -35,7 +35,7 @@ macro(deburr_find kind variable package)
   endif()
 endmacro()
 
-# deburr_find_compiler(): before project(), whose own words do not say what brings the compiler.
+# deburr_find_compiler(): runs before project(), whose own message does not say which package has the compiler.
 function(deburr_find_compiler)
   set(names c++ g++ clang++)
   if(CMAKE_CXX_COMPILER)
@@ -52,8 +52,8 @@ function(deburr_find_compiler)
   endif()
 endfunction()
 
-# deburr_missing_module(<what> <Debian package> <consequence>): what a module of the command is made of. The command
-# says so when it needs the module; tests need all.
+# deburr_missing_module(<what> <Debian package> <consequence>): a missing dependency of an optional module of the
+# command. The command reports it when it needs the module; the tests need all modules.
 function(deburr_missing_module what package consequence)
   if(BUILD_TESTING)
     deburr_missing(${what} ${package} "Or configure with -DBUILD_TESTING=OFF: then ${consequence}.")

@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: MIT
-# Test programs: one a folder and kind, compiled in batches.
+# Test programs: one per folder and kind, compiled in batches.
 
 # deburr_test(<name> SOURCE <file> LABELS ... LINK ... [PROGRAM <program>]
 #             [TIMING regex ...] [LONG regex ...] [TIMEOUT s]):
-# a source with GoogleTests. Without sanitizers every TEST is an entry of ctest, `<name>.Suite.Case`, and so a
-# process of its own: SystemC elaborates once a process. With them, where a process takes longer to start than
-# most tests, a suite is one entry, `<name>.Suite` (tb/harness/own_simulation.cpp). Tests whose name matches a
-# regex of TIMING or LONG have the label `timing` or `long` too; a regex that matches none is an error of the
-# build.
+# a source with GoogleTests. Without sanitizers every TEST is an entry of ctest, `<name>.Suite.Case`, with its own
+# process, since SystemC elaborates once per process. With sanitizers a process takes longer to start than most tests,
+# so a suite is one entry, `<name>.Suite` (tb/harness/own_simulation.cpp). Tests whose name matches a regex of TIMING
+# or LONG also get the label `timing` or `long`; a regex without a match is a build error.
 #
-# The sources of a folder are one program, named after it: rtl_texture_tests of tb/unit/rtl/texture,
-# tool_pages_tests of tool/tests/pages; there what is no unit test has a program of its own, by its first
-# label: harness_negative_tests. PROGRAM names another one, as for what loads a library that the others do
-# not. Each source has a namespace of its own (tb/unit/house/names_test.py).
+# The sources of a folder form one program named after it: rtl_texture_tests for tb/unit/rtl/texture, tool_pages_tests
+# for tool/tests/pages. Tests that are not unit tests form a separate program named after their first label:
+# harness_negative_tests. PROGRAM sets another name, for example for a source that loads a library the others must not
+# load. Each source has its own namespace (tb/unit/house/names_test.py).
 function(deburr_test name)
   cmake_parse_arguments(ARG "" "SOURCE;PROGRAM;TIMEOUT" "LABELS;LINK;TIMING;LONG" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -33,7 +32,7 @@ function(deburr_test name)
   endif()
   set(program ${ARG_PROGRAM})
   if(NOT TARGET ${program})
-    # The main() comes first: SystemC's library has one as well.
+    # Our main() must be linked before SystemC, whose library has one as well.
     add_executable(${program} $<TARGET_OBJECTS:deburr_test_support>)
     target_link_libraries(${program} PRIVATE GTest::gmock_main)
     cmake_language(EVAL CODE "cmake_language(DEFER CALL deburr_finish_tests ${program})")
@@ -60,7 +59,7 @@ function(deburr_test name)
   set_property(TARGET ${program} APPEND_STRING PROPERTY DEBURR_TESTS
     "{\"name\": \"${name}\", \"source\": \"${source}\", \"labels\": [${json_LABELS}], \
 \"timing\": [${json_TIMING}], \"long\": [${json_LONG}], \"timeout\": ${ARG_TIMEOUT}},\n")
-  # What is not built fails, under its labels.
+  # A program that is not built counts as a failure, under its labels.
   set_property(TARGET ${program} APPEND_STRING PROPERTY DEBURR_NOT_BUILT
     "  add_test(${name}_NOT_BUILT [=[${CMAKE_CURRENT_BINARY_DIR}/${program}]=])
   set_tests_properties(${name}_NOT_BUILT PROPERTIES LABELS \"${labels}\")\n")
@@ -69,7 +68,7 @@ function(deburr_test name)
   set_property(GLOBAL APPEND_STRING PROPERTY DEBURR_TEST_PROGRAMS "${name} ${source} ${folder}/${program}\n")
 endfunction()
 
-# At the end of a folder, when all its sources are known.
+# Runs at the end of a folder, when all its sources are known.
 function(deburr_finish_tests program)
   target_link_libraries(${program} PRIVATE deburr_options)
   get_target_property(kinds ${program} DEBURR_KINDS)
@@ -94,16 +93,16 @@ function(deburr_finish_tests program)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${stem}_include.cmake")
 endfunction()
 
-# deburr_list_tests(): writes test_programs.txt, `<name> <source> <program>` a line, for scripts that build or
-# run tests by name. At the end of all lists.
+# deburr_list_tests(): writes test_programs.txt, one line `<name> <source> <program>` per test, for scripts that build
+# or run tests by name. Call it after all lists of tests.
 function(deburr_list_tests)
   get_property(lines GLOBAL PROPERTY DEBURR_TEST_PROGRAMS)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_programs.txt" CONTENT "${lines}" @ONLY)
 endfunction()
 
 # deburr_script_test(<name> [FILE <stem>] [LABELS ...] [TIMEOUT s] [CLASSES ...] [ENVIRONMENT ...] [ARGUMENTS ...]):
-# <name>_test.py (or <stem>_test.py) of this folder, label system, 300 s. With classes an entry of ctest each,
-# <name>.Class, so that they run side by side.
+# <name>_test.py (or <stem>_test.py) of this folder; default label system, 300 s. Each class in CLASSES becomes an
+# entry of ctest, <name>.Class, so that classes run in parallel.
 function(deburr_script_test name)
   cmake_parse_arguments(ARG "" "FILE;TIMEOUT" "LABELS;CLASSES;ENVIRONMENT;ARGUMENTS" ${ARGN})
   foreach(default "FILE ${name}" "TIMEOUT 300" "LABELS system" "CLASSES ,")
@@ -127,7 +126,7 @@ function(deburr_script_test name)
   endforeach()
 endfunction()
 
-# deburr_noise_for_minutes(<engine>): its register noise with new seeds for two minutes, label fuzz.
+# deburr_noise_for_minutes(<engine>): register noise with new seeds for two minutes, label fuzz.
 function(deburr_noise_for_minutes engine)
   add_test(NAME fuzz_registers_${engine} COMMAND rtl_${engine}_tests --gtest_filter=RegisterNoise.*)
   set_tests_properties(fuzz_registers_${engine} PROPERTIES LABELS fuzz TIMEOUT 600

@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Writes the ctest entries of a test program, of a TEST or, with --suites, a suite each, named after the
-source that it stands in (deburr_test in Tests.cmake). With --suites those of a suite that have the label
-`timing` or `long` are an entry of their own. An error is a source without tests, a test of no source,
-two tests of one name, a test that is disabled, and a regular expression of TIMING or LONG that matches
-no test.
+"""Writes the ctest entries of a test program, one per TEST or, with --suites, one per suite, named after the source
+that contains it (deburr_test in Tests.cmake). With --suites, tests labelled `timing` or `long` get their own
+entry. Errors: a source without tests, a test without a source, two tests with one name, a disabled test, and a
+regular expression of TIMING or LONG that matches no test.
 usage: discover_tests.py LIST PROGRAM OUTPUT [--suites]"""
 import collections
 import json
@@ -63,7 +62,7 @@ def entries_of_tests(found):
 
 
 def entries_of_suites(found):
-    """What has labels beside those of its source is an entry of its own."""
+    """Tests with labels in addition to those of their source get their own entry."""
     together = {}
     for entry, name, source, labels in found:
         more = [label for label in labels if label not in source["labels"]]

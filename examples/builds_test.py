@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Other builds than the one that installed_test.py installs: the libraries by the other compiler and as shared ones,
-SystemC by a CMake package of its own, Debian packages. Builds stay in BUILD/examples, so that the next time compiles
-what has changed.
+"""Builds other than the one that installed_test.py installs: libraries from the other compiler, shared libraries,
+SystemC with its own CMake package, Debian packages. Builds stay in BUILD/examples, so the next run compiles only
+changes.
 
 usage: builds_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import os
@@ -20,7 +20,7 @@ OTHER = "g++" if "clang" in CXX else "clang++"
 
 
 def built(name, *options):
-    """The preset `libraries` with these options, installed: the prefix."""
+    """Installs the preset `libraries` with these options and returns the prefix."""
     build, prefix = BUILD / "examples" / name, BUILD / "examples" / f"{name}-prefix"
     env = dict(os.environ)
     call(CMAKE, "--preset", "libraries", "-B", build, "-DDEBURR_WERROR=ON", *options, cwd=SOURCE, env=env)
@@ -32,9 +32,9 @@ def built(name, *options):
 
 @unittest.skipUnless(shutil.which(OTHER), f"{OTHER} is not installed: scripts/install examples")
 class Compiler(Scratch):
-    """A release build by the compiler that this tree is not built with."""
+    """A release build by the compiler that did not build this tree."""
 
-    def test_the_platform_draws_the_same_picture(self):
+    def test_platform_draws_the_same_picture(self):
         prefix = built("other-compiler", f"-DCMAKE_CXX_COMPILER={OTHER}")
         for library in prefix.glob("lib*/**/libdeburr-*.a"):
             made_by = call("readelf", "-p", ".comment", library)
@@ -53,7 +53,7 @@ class Compiler(Scratch):
 
 
 class Shared(Scratch):
-    """Shared libraries, compiled without much of an optimiser."""
+    """Shared libraries, compiled with little optimisation."""
 
     @classmethod
     def setUpClass(cls):
@@ -64,7 +64,7 @@ class Shared(Scratch):
     def flags(self, name):
         return call("pkg-config", "--cflags", "--libs", name, env=self.env).split()
 
-    def test_programs_link_them(self):
+    def test_programs_link_shared_libraries(self):
         self.project("deburr REQUIRED", "deburr::golden deburr::models", MODELS_MAIN)
         call(CMAKE, "-S", self.folder, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
              f"-DCMAKE_CXX_COMPILER={CXX}")
@@ -76,7 +76,7 @@ class Shared(Scratch):
             call(self.folder / name, env=self.env)
             self.assertIn(f"[libdeburr-{name}.so.{number}]", call("readelf", "-d", self.folder / name))
 
-    def test_the_c_interface_exports_nothing_else(self):
+    def test_c_library_exports_only_its_interface(self):
         library = self.libraries / "libdeburr-golden-c.so"
         declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
         self.assertGreater(len(declared), 30)
@@ -86,7 +86,7 @@ class Shared(Scratch):
         self.assertIn("PASS picture", call(self.folder / "draw", "picture.ppm", cwd=self.folder, env=self.env))
 
     @unittest.skipUnless(shutil.which("verilator"), "verilator is not installed: scripts/install examples")
-    def test_the_page_makes_an_object_that_simulators_load(self):
+    def test_simulators_load_the_object_of_the_page(self):
         installs, commands = block_of("howto/testbench", "-shared").split("\n", 1)
         self.assertRegex(installs, r"^cmake --preset libraries -DBUILD_SHARED_LIBS=ON && .* --prefix ~/deburr$")
         header = next(pathlib.Path(call("verilator", "--getenv", "VERILATOR_ROOT").strip()).rglob("svdpi.h"))
@@ -131,7 +131,7 @@ DEBIAN = "-DCMAKE_DISABLE_FIND_PACKAGE_SystemCLanguage=ON"
 @unittest.skipUnless(pathlib.Path("/usr/include/systemc").exists(),
                      "Debian's SystemC is not installed: scripts/install libraries")
 class SystemC(Scratch):
-    """FindSystemC.cmake, as installed, on made-up packages as SystemC 3.0 has one, around the library of this machine."""
+    """The installed FindSystemC.cmake with fake packages in the form of SystemC 3.0, around this machine's library."""
 
     def setUp(self):
         super().setUp()
@@ -151,8 +151,8 @@ class SystemC(Scratch):
         self.write(f"{folder}/SystemCLanguageConfigVersion.cmake", VERSION.format(version=version))
         return [f"-DSystemCLanguage_DIR={self.folder / folder}", DEBIAN.replace("ON", "OFF")]
 
-    def test_its_baseline_is_probed_and_a_program_links(self):
-        # In the build that has probed Debian's, too.
+    def test_cxx_standard_is_probed_and_program_links(self):
+        # In the build folder that has probed Debian's package before.
         for fresh in (False, True):
             if fresh:
                 shutil.rmtree(self.folder / "build")
@@ -167,16 +167,16 @@ class SystemC(Scratch):
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
-    def test_the_libraries_are_configured_with_it_and_say_so(self):
+    def test_libraries_configure_with_systemc_3_package(self):
         build = self.folder / "libraries"
         call(CMAKE, "--preset", "libraries", "-B", build, *self.package(self.library), cwd=SOURCE)
         self.assertIn('set(_deburr_systemc "3.0.1")', (build / "installed/cmake/deburr-config.cmake").read_text(encoding="utf-8"))
-        # There need be no systemc.pc.
+        # A systemc.pc is not required.
         models = (build / "installed/deburr-models.pc").read_text(encoding="utf-8")
         self.assertRegex(models, rf"(?m)^Libs: .* {re.escape(self.library)} ")
         self.assertNotRegex(models, r"(?m)^Requires: .*systemc")
 
-    def test_what_cannot_be_used_is_said(self):
+    def test_unusable_package_is_reported(self):
         stub = self.folder / "libsystemc.a"
         call("ar", "rcs", stub)
         for options, words in (
@@ -185,7 +185,7 @@ class SystemC(Scratch):
                 (self.package(self.library, "2.3.1"), "is too old. Install Debian's package libsystemc-dev"),
                 (self.package(stub), "a C++20 program links with it under no baseline"),
                 ([DEBIAN, "-DSystemC_LIBRARY=", "-DSystemC_INCLUDE_DIR="], "SystemC was not found. Install Debian's package")):
-            # The folder holds the last of them.
+            # The folder still holds the last of them.
             if not options[0].endswith("=ON"):
                 library = {"defines": "", "a C++20": stub}.get(words[:7], self.library)
                 self.package(library, "2.3.1" if "2.3.1" in words or "old" in words else "3.0.1")
@@ -194,14 +194,14 @@ class SystemC(Scratch):
                 self.asks(how)
                 said = self.configure(*options, code=code)
                 self.assertIn("standard of the project: 23" if code == 0 else words, said)
-                self.assertNotRegex(said, r"SystemC [\d.]*, ")  # what is said when it was found
+                self.assertNotRegex(said, r"SystemC [\d.]*, ")  # message when it was found
 
-    def test_another_one_than_the_libraries_were_built_with(self):
+    def test_systemc_other_than_the_build_is_reported(self):
         self.project("deburr REQUIRED COMPONENTS models")
         said = self.configure(*self.package(self.library, "3.9.9"), code=1)
         self.assertRegex(said, r"built with SystemC \S+, and SystemC 3\.9\.9 was found: install that version, or build Deburr")
 
-    def test_without_any_the_libraries_say_what_to_install(self):
+    def test_missing_systemc_names_the_package_to_install(self):
         said = " ".join(call(CMAKE, "--preset", "libraries", "-B", self.folder / "libraries", DEBIAN, "-DSystemC_LIBRARY=",
                              "-DSystemC_INCLUDE_DIR=", cwd=SOURCE, code=1).split())
         for words in ("`scripts/install libraries` installs Debian's package libsystemc-dev", "SYSTEMC_HOME",
@@ -210,8 +210,8 @@ class SystemC(Scratch):
 
 
 class Debian(Scratch):
-    """`cpack -G DEB`, of this build, which has the Python module or has not. The preset `package`, which compiles all of
-    it once more, is only configured."""
+    """`cpack -G DEB` for this build, with or without the Python module. The preset `package` is only configured,
+    since it would compile everything again."""
 
     @classmethod
     def setUpClass(cls):
@@ -224,7 +224,7 @@ class Debian(Scratch):
         cls.packages = {re.match(r"[a-z0-9-]+", file.name)[0]: file for file in folder.glob("*.deb")}
 
     def extract(self, depends):
-        """The packages in a root of their own, each of our version and with what it depends on."""
+        """Unpacks the packages into a separate root and checks version and dependencies of each."""
         version = pkg_config("--modversion", "deburr-golden")[0]
         for name, others in depends.items():
             fields = call("dpkg-deb", "--field", self.packages[name])
@@ -234,10 +234,10 @@ class Debian(Scratch):
             call("dpkg-deb", "--extract", self.packages[name], self.folder / "root")
         return version
 
-    def test_there_is_one_for_each_that_was_built(self):
+    def test_every_built_component_has_a_package(self):
         self.assertEqual(set(self.packages), {"deburr", "libdeburr-dev"} | ({"python3-deburr"} if PYTHON_BUILT else set()))
 
-    def test_the_preset_of_the_page_makes_the_same(self):
+    def test_documented_preset_makes_the_same_packages(self):
         line = block_of("howto/use_in_my_platform", "cpack").splitlines()[0]
         self.assertEqual(line, "cmake --preset package && cmake --build --preset package && cpack --preset package")
         build, env = self.folder / "build", dict(os.environ)
@@ -255,7 +255,7 @@ class Debian(Scratch):
         self.assertEqual(set(re.search(r'CPACK_COMPONENTS_ALL "(.*)"', packing)[1].split(";")), components)
         self.assertIn(f'CPACK_PACKAGE_DIRECTORY "{build}/packages"', packing)
 
-    def test_they_stand_alone(self):
+    def test_packages_are_self_contained(self):
         version = self.extract({"deburr": ("libsystemc", "libc6"), "libdeburr-dev": ("libsystemc-dev", "libfmt-dev")})
         self.assertIn(version, call(self.folder / "root/usr/bin/deburr", "--version"))
         self.project("deburr REQUIRED", "deburr::golden", GOLDEN_MAIN)
@@ -265,7 +265,7 @@ class Debian(Scratch):
         call(self.folder / "build/user")
 
     @unittest.skipUnless(PYTHON_BUILT, "the Python module was not built: scripts/install python")
-    def test_the_python_module_finds_the_command_of_its_package(self):
+    def test_python_module_finds_the_command_of_its_package(self):
         version = pkg_config("--modversion", "deburr-golden")[0]
         self.extract({"deburr": (), "python3-deburr": (f"deburr (= {version}-1)", "python3-numpy")})
         root = self.folder / "root/usr"
@@ -279,7 +279,7 @@ print(deburr.__file__, deburr.__version__, smooth.shape, run.cycles > 1024, debu
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed: scripts/install examples")
     def test_lintian_accepts_them(self):
-        # The preset `package` has the libraries where Debian has them, since its prefix is /usr.
+        # In the preset `package` libraries are in Debian's location, since its prefix is /usr.
         said = call("lintian", "--tag-display-limit", "0", "--fail-on", "error", "--suppress-tags",
                     "pkg-config-unavailable-for-cross-compilation", *self.packages.values(), env=dict(os.environ))
         self.assertNotRegex(said, r"(?m)^[EW]: ")

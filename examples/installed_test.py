@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What `cmake --install` leaves, and the examples, built from the installed files in an environment that has
-nothing else of the repository. Install puts it all into BUILD/examples/prefix, which the other classes use.
+"""What `cmake --install` installs, and the examples, built from the installed files in an environment that sees
+nothing else of the repository. Class Install writes BUILD/examples/prefix, which the other classes use.
 
 usage: installed_test.py CMAKE BUILD SOURCE CXX [unittest options]"""
 import concurrent.futures
@@ -23,9 +23,9 @@ PREFIX = BUILD / "examples/prefix"
 INCLUDE = PREFIX / "include/deburr"
 EXAMPLES = PREFIX / "share/deburr/examples"
 PYTHON = PREFIX / "lib/python3/dist-packages"
-# Not whether it is installed, which is what is tested.
+# Paths only: whether a file is installed is what the tests check.
 PYTHON_BUILT = any((BUILD / "python").rglob("_golden*.so"))
-# What a user's shell has at least; nothing of ours.
+# The minimum that a user's shell has; nothing of Deburr.
 EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
 
 INCLUDED = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
@@ -37,7 +37,7 @@ DECLARED = re.compile(r"^[a-z].*?\b(deburr_\w+)\(", re.M)
 
 
 def call(*command, code=0, cwd=None, env=None, timeout=600):
-    """What a command says."""
+    """Standard output of a command."""
     done = subprocess.run([str(word) for word in command], cwd=cwd, env=env or EMPTY, text=True, timeout=timeout,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     wanted = (code,) if isinstance(code, int) else code
@@ -47,7 +47,7 @@ def call(*command, code=0, cwd=None, env=None, timeout=600):
 
 
 def beside(prefix):
-    """Folders of the source and of the build that do not lead to a prefix: other builds and prefixes, too."""
+    """Folders of the source and of the build that do not lead to a prefix, including other builds and prefixes."""
     ways = {SOURCE, BUILD} | {folder for folder in prefix.parents if {SOURCE, BUILD} & set(folder.parents)}
     return [folder for way in sorted(ways) for folder in sorted(way.iterdir())
             if folder.is_dir() and not folder.is_symlink() and not prefix.is_relative_to(folder)]
@@ -55,9 +55,8 @@ def beside(prefix):
 
 @functools.lru_cache
 def hiding(prefix=PREFIX):
-    """What has to stand before a command so that it sees nothing of the source and of the build but a prefix; None
-    where this user may not mount. Files beside the way to it stay: nothing is installed with a path to one of them
-    (Files)."""
+    """The command prefix that hides the source and the build except for one prefix; None where this user may not
+    mount. Files next to the path to the prefix stay visible: no installed file holds a path to them (Files)."""
     folders = beside(prefix)
     script = ('for folder in "${@:1:$FOLDERS}"; do [ ! -d "$folder" ] || mount -t tmpfs none "$folder" || exit 99; done; '
               'exec "${@:FOLDERS+1}"')
@@ -71,7 +70,7 @@ def hiding(prefix=PREFIX):
 
 
 def alone(*command, prefix=PREFIX, **how):
-    """What a command says that has a prefix and no more of us, where this user may hide the rest."""
+    """Output of a command that sees only the prefix, where this user may hide the rest."""
     return call(*(hiding(prefix) or []), *command, **how)
 
 
@@ -88,13 +87,13 @@ def pkg_config(*arguments, code=0):
 
 
 def blocks_of(page):
-    """What stands in the blocks without a language of an installed page, one text each."""
+    """Contents of the blocks without a language on an installed page, one text each."""
     text = (PREFIX / f"share/deburr/docs/{page}.md").read_text(encoding="utf-8")
     return [block for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S) if not language]
 
 
 def block_of(page, word):
-    """The only one of them with this word."""
+    """The only block that contains this word."""
     found = [block for block in blocks_of(page) if word in block]
     if len(found) != 1:
         raise AssertionError(f"{page}: {len(found)} blocks with {word}")
@@ -102,7 +101,7 @@ def block_of(page, word):
 
 
 def not_printed(block, said):
-    """The lines of a page that a program has not printed; ... stands for anything."""
+    """Lines of a page that a program has not printed; ... stands for any text."""
     lines = [" ".join(line.split()) for line in said.splitlines()]
     wanted = [" ".join(line.split()) for line in block.splitlines()]
     return [line for line in wanted
@@ -110,7 +109,7 @@ def not_printed(block, said):
 
 
 class Scratch(unittest.TestCase):
-    prefix = PREFIX  # that is installed
+    prefix = PREFIX  # of the installation
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="deburr_installed_")
@@ -118,7 +117,7 @@ class Scratch(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def as_on_the_page(self, commands, code=0):
-        """What a reader of a page sees who has installed into ~/deburr and has nothing else of us."""
+        """Output for a reader of a page who has installed into ~/deburr and has nothing else of Deburr."""
         home = self.folder / "home"
         home.mkdir(exist_ok=True)
         if not (home / "deburr").exists():
@@ -128,7 +127,7 @@ class Scratch(unittest.TestCase):
             "PYTHONDONTWRITEBYTECODE": "1"})
 
     def after_installing(self, page):
-        """What is printed by the first block of a page that begins with how to install, and the page's next block."""
+        """Output of the first block of a page that begins with the installation, and the page's next block."""
         first, shown = blocks_of(page)[:2]
         installs, commands = first.split("\n", 1)
         self.assertRegex(installs, r"^cmake --preset libraries && .* --prefix ~/deburr$")
@@ -141,7 +140,7 @@ class Scratch(unittest.TestCase):
         return file
 
     def project(self, find, link="", main="int main() {}", version="3.25", more=""):
-        """A project of a user's."""
+        """A user's project."""
         self.write("main.cpp", main)
         self.write("CMakeLists.txt", f"cmake_minimum_required(VERSION {version})\nproject(user LANGUAGES CXX)\n"
                    f"find_package({find})\nadd_executable(user main.cpp)\ntarget_link_libraries(user PRIVATE {link})\n{more}\n")
@@ -152,7 +151,7 @@ class Scratch(unittest.TestCase):
 
 
 class Install(unittest.TestCase):
-    def test_it_installs_and_may_be_moved(self):
+    def test_installs_and_can_be_moved(self):
         place = BUILD / "installed_here"
         for folder in (place, PREFIX):
             shutil.rmtree(folder, ignore_errors=True)
@@ -161,9 +160,9 @@ class Install(unittest.TestCase):
 
 
 class Files(Scratch):
-    """What there is, and that it stands alone."""
+    """Which files are installed, and that they do not refer to the trees."""
 
-    def test_everything_is_there(self):
+    def test_every_file_is_installed(self):
         for pattern in ("bin/deburr", "libexec/deburr/deburr", "libexec/deburr/deburr_papers", "libexec/deburr/deburr_train",
                         "libexec/deburr/libdeburr_images.so", "libexec/deburr/libdeburr_evolution.so",
                         "lib*/**/libdeburr-golden.*[ao]", "lib*/**/libdeburr-models.*[ao]",
@@ -176,13 +175,13 @@ class Files(Scratch):
                         "share/doc/deburr/copyright", "share/doc/libdeburr-dev/changelog.gz"):
             one_file(pattern)
         headers = {file.relative_to(SOURCE) for layer in OURS for file in (SOURCE / layer).rglob("*.h")}
-        # Of the C interface there is its header alone.
+        # Only the header of the C interface is installed.
         headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
         folders = ("c", "platform", "systemverilog", *(["python"] if PYTHON_BUILT else []))
         examples = {file.relative_to(SOURCE / "examples") for folder in folders
                     for file in (SOURCE / "examples" / folder).rglob("*")}
-        examples = {file for file in examples if "build" not in file.parts}  # a reader's who has tried it in the source
+        examples = {file for file in examples if "build" not in file.parts}  # left by a reader who has tried it in the source
         self.assertGreater(len(examples), 20)
         self.assertEqual(examples, {file.relative_to(EXAMPLES) for file in EXAMPLES.rglob("*")} - {pathlib.Path(f) for f in folders})
         self.assertEqual(headers | {pathlib.Path("deburr_registers.h"), pathlib.Path("deburr_golden.h")}, installed)
@@ -194,7 +193,7 @@ class Files(Scratch):
             found = []
             for file in folder.rglob("*"):
                 content = file.read_bytes() if file.is_file() and not file.is_symlink() else b""
-                if content[:4] == b"\x7fELF":  # messages of checks may say where they stand
+                if content[:4] == b"\x7fELF":  # messages of checks may contain source paths
                     content = call("readelf", "-d", file).encode()
                 elif content[:7] == b"!<arch>":
                     continue
@@ -209,7 +208,7 @@ class Files(Scratch):
 
 
 def foreign_includes(root):
-    """file: header, of what others would have to install."""
+    """file: include of a header that other projects would have to install."""
     found = []
     for file in sorted(root.rglob("*.h")):
         for header in INCLUDED.findall(file.read_text(encoding="utf-8")):
@@ -224,7 +223,7 @@ def foreign_includes(root):
 
 
 def compiles(header, flags):
-    """The compiler's words on a program that includes this header alone, twice."""
+    """Compiler output for a program that includes only this header, twice."""
     text = f'#include "{header}"\n#include "{header}"\n'
     done = subprocess.run([CXX, "-fsyntax-only", "-x", "c++", "-Wall", "-Wextra", "-Werror", *flags, "-"], input=text,
                           env=EMPTY, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
@@ -232,13 +231,13 @@ def compiles(header, flags):
 
 
 class Alone(Scratch):
-    """That the tests of the examples see nothing but the prefix."""
+    """The tests of the examples see only the prefix."""
 
-    def test_the_trees_are_hidden_and_the_prefix_is_not(self):
+    def test_trees_are_hidden_and_the_prefix_is_visible(self):
         if not hiding():
             self.skipTest("this user may not mount")
         self.assertEqual(alone("find", SOURCE / "spec", "-name", "*.h"), "")
-        # Neither another build of this tree nor a prefix that another test has left.
+        # Neither another build of this tree nor a prefix from another test is visible.
         with tempfile.TemporaryDirectory(dir=BUILD.parent) as build, tempfile.TemporaryDirectory(dir=PREFIX.parent) as prefix:
             for folder in (build, prefix):
                 (pathlib.Path(folder) / "left").write_text("seen")
@@ -252,14 +251,14 @@ class Alone(Scratch):
 
 
 class Headers(Scratch):
-    def test_they_need_systemc_fmt_and_the_standard_library(self):
+    def test_headers_need_only_systemc_fmt_and_standard_library(self):
         self.assertEqual(foreign_includes(INCLUDE), [])
         self.write("spec/a.h", "#include <vector>\n#include <systemc>\n")
         self.write("rtl_model/a.h", '#include <tlm>\n#include <nlohmann/json.hpp>\n#include "tb/base/file.h"\n')
         self.assertEqual(foreign_includes(self.folder), ["rtl_model/a.h: nlohmann/json.hpp", "rtl_model/a.h: tb/base/file.h",
                                                          "spec/a.h: systemc"])
 
-    def test_each_stands_alone(self):
+    def test_each_header_compiles_alone(self):
         golden, models = pkg_config("--cflags", "deburr-golden"), pkg_config("--cflags", "deburr-models")
         headers = sorted(file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h"))
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -303,12 +302,12 @@ int sc_main(int, char**) {
 """
 
 
-# As on a machine that has no SystemC at all: neither a library nor a CMake package.
+# As on a machine without SystemC: neither a library nor a CMake package.
 NO_SYSTEMC = ("-DSystemC_LIBRARY=", "-DCMAKE_DISABLE_FIND_PACKAGE_SystemCLanguage=ON")
 
 
 class Packages(Scratch):
-    """find_package and pkg-config, as a user calls them."""
+    """find_package and pkg-config, called as a user would."""
 
     def test_golden_needs_no_systemc(self):
         here = pkg_config("--modversion", "deburr-golden")[0].rsplit(".", 1)[0]
@@ -317,15 +316,15 @@ class Packages(Scratch):
         alone(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
-    def test_models(self):
-        for version in ("3.25", "3.5"):  # whose policies are those of find_package's caller
+    def test_models_link_with_systemc(self):
+        for version in ("3.25", "3.5"):  # sets the policies, as a caller of find_package does
             shutil.rmtree(self.folder / "build", ignore_errors=True)
             self.project("deburr REQUIRED COMPONENTS models", "deburr::models", MODELS_MAIN, version)
             self.configure()
             alone(CMAKE, "--build", self.folder / "build")
             call(self.folder / "build/user")
 
-    def test_pkg_config(self):
+    def test_pkg_config_links_both_components(self):
         file = self.write("golden.cpp", GOLDEN_MAIN)
         call(CXX, file, "-o", self.folder / "golden", *pkg_config("--cflags", "--libs", "deburr-golden"))
         call(self.folder / "golden")
@@ -334,7 +333,7 @@ class Packages(Scratch):
         call(self.folder / "a.out")
         self.assertEqual(pkg_config("--modversion", "deburr-golden"), pkg_config("--modversion", "deburr-models"))
 
-    def test_what_is_missing_is_said(self):
+    def test_missing_component_is_reported(self):
         here = pkg_config("--modversion", "deburr-golden")[0]
         for find, options, words in (
                 ("deburr 9.9 REQUIRED", [], ("libdeburr-dev", "9.9", here)),
@@ -348,7 +347,7 @@ class Packages(Scratch):
             said = self.configure(*options, code=1)
             for word in words:
                 self.assertIn(word, said, find)
-        # A project in C has the golden models alone.
+        # A C project can use only the golden models.
         shutil.rmtree(self.folder / "build")
         self.write("main.c", "int main(void) { return 0; }")
         self.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.25)\nproject(user LANGUAGES C)\n"
@@ -357,7 +356,7 @@ class Packages(Scratch):
         self.assertIn("COMPONENTS golden", said)
         self.assertIn("needs the language C++, which this project has not", said)
 
-    def test_what_is_optional_may_be_absent(self):
+    def test_optional_packages_may_be_absent(self):
         self.project("deburr REQUIRED COMPONENTS golden OPTIONAL_COMPONENTS models", "deburr::golden", GOLDEN_MAIN,
                      more='message("models: ${deburr_models_FOUND}")')
         for options, found in ((NO_SYSTEMC, "FALSE"), ((), "TRUE")):
@@ -369,26 +368,26 @@ class Program(Scratch):
     def deburr(self, *arguments, code=0):
         return alone(PREFIX / "bin/deburr", *arguments, code=code, cwd=self.folder)
 
-    def test_it_runs_from_its_prefix_alone(self):
+    def test_command_runs_from_its_prefix(self):
         self.assertIn("PASS texture", self.deburr("run", "texture", "--scene", "plane", "--size", "32x32", "--out", "out"))
         self.assertTrue((self.folder / "out/report.html").exists())
 
-    def test_it_finds_what_stands_beside_it(self):
+    def test_command_finds_files_next_to_it(self):
         self.deburr("run", "morphological", "--in", PREFIX / "share/deburr/docs/images/comparison.png", "--out", "out")
         said = self.deburr("papers", "nothing", "--out", "papers", code=2)
         self.assertNotIn("cannot be started", said)
         self.assertIn("nothing", said)
 
-    def test_it_finds_ready_sweeps_and_testplans(self):
+    def test_command_finds_ready_sweeps_and_testplans(self):
         self.assertIn("PASS sweep texture_cache", self.deburr("sweep", "sweeps/texture_cache.yaml", "plan"))
         self.assertIn("PASS", self.deburr("regress", "plan"))
         self.assertIn("PASS", self.deburr("regress", "tb/testplan/nightly.yaml", "plan", "--divide", "1000"))
-        # One's own comes first, and what is nowhere is said as it was named.
+        # The user's own file wins; a file that is nowhere is reported with the given name.
         self.write("sweeps/texture_cache.yaml", "title: mine\nengine: none\n")
         self.deburr("sweep", "sweeps/texture_cache.yaml", "plan", code=2)
         self.assertIn("sweeps/none.yaml", self.deburr("sweep", "sweeps/none.yaml", "plan", code=5))
 
-    def test_the_manual_and_the_completion_are_the_programs(self):
+    def test_manual_and_completion_match_the_program(self):
         manual = gzip.decompress((PREFIX / "share/man/man1/deburr.1.gz").read_bytes()).decode()
         self.assertEqual(manual, self.deburr("help", "--man"))
         commands = re.findall(r"^  ([a-z]+) ", self.deburr("--help").split("Subcommands:")[1].split("\n\n")[0], re.M)
@@ -404,19 +403,19 @@ class Program(Scratch):
 
 
 class Platform(Scratch):
-    def test_the_page_builds_the_example_which_draws_its_picture_and_finds_violations(self):
+    def test_page_builds_platform_which_finds_violations(self):
         self.assertRegex(self.after_installing("howto/use_in_my_platform")[0], r"(?m)^PASS picture ")
         program = self.folder / "build/platform"
         said = alone(program, "--out", "picture.ppm", cwd=self.folder)
         self.assertIn("PASS picture", said)
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
-        # Of each port more than nothing went by.
+        # Every port transferred more than zero transactions.
         ports = re.findall(r"^(\w+) +(\d+) +(\d+) +(\d+) +(\d+)$", said, re.M)
         self.assertEqual(len(ports), 7, said)
         for name, blocking, non_blocking, length, _ in ports:
             self.assertGreater(int(blocking) + int(non_blocking), 0, name)
             self.assertGreater(int(length), 0, name)
-        # A quantum changes when software speaks to memory, and no register access.
+        # A quantum changes the times of memory accesses by software, not those of register accesses.
         for quantum in (0, 50, 100_000):
             self.assertEqual(alone(program, "--quantum", quantum), said, quantum)
         violations = re.findall(r"^([\w-]+): (.*)$", alone(program, "--violations"), re.M)
@@ -425,7 +424,7 @@ class Platform(Scratch):
             found = alone(program, "--plant", name, code=1)
             self.assertRegex(found, rf"FAIL .*(software|texture)_bus: {rule}: ", name)
 
-    def test_a_wrong_register_is_a_wrong_picture(self):
+    def test_wrong_register_gives_wrong_picture(self):
         shutil.copytree(EXAMPLES / "platform", self.folder, dirs_exist_ok=True)
         software = (self.folder / "software.cpp").read_text(encoding="utf-8")
         self.assertIn("MAX_COUNT_LOG2, 3)", software)
@@ -436,7 +435,7 @@ class Platform(Scratch):
 
 
 def exported(*command):
-    """The functions and objects that a library offers, of those the linker can see by their plain names."""
+    """Functions and objects that a library exports with plain (unmangled) names."""
     return {line.split()[-1] for line in call(*command).splitlines() if re.search(r" [TDBRVWi] ", line)}
 
 
@@ -451,16 +450,16 @@ class C(Scratch):
         self.assertIn("PASS picture", alone(program, "picture.ppm", cwd=self.folder, **how))
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
 
-    def test_the_page_builds_it_with_no_other_language(self):
+    def test_page_builds_example_without_cxx(self):
         self.assertIn("PASS picture", self.as_on_the_page(block_of("reference/c_interface", "examples/c")))
         self.assertTrue((self.folder / "picture.ppm").read_bytes().startswith(b"P6"))
         self.assertNotIn("CMAKE_CXX_COMPILER", (self.folder / "build/CMakeCache.txt").read_text(encoding="utf-8"))
 
-    def test_with_one_line_and_what_it_must_find(self):
+    def test_one_line_build_detects_faults(self):
         flags = pkg_config("--cflags", "--libs", "deburr-golden-c")
         alone("cc", "-std=c99", self.folder / "draw.c", "-o", self.folder / "draw", *flags)
         self.drawn(self.folder / "draw")
-        # A wrong picture and a call that fails.
+        # A wrong picture and a failing call.
         draw = (self.folder / "draw.c").read_text(encoding="utf-8")
         for old, new, code, words in (('"axes", "eight"', '"axes", "two"', 1, "FAIL picture"),
                                       ('"preset", "deburr"', '"preset", "deblur"', 2, "draw: deburr_set: 'preset' = 'deblur'")):
@@ -468,7 +467,7 @@ class C(Scratch):
             alone("cc", "-std=c99", self.write("wrong.c", draw.replace(old, new)), "-o", self.folder / "wrong", *flags)
             self.assertIn(words, alone(self.folder / "wrong", code=code))
 
-    def test_every_function_is_there(self):
+    def test_every_function_is_exported(self):
         declared = set(DECLARED.findall((INCLUDE / "deburr_golden.h").read_text(encoding="utf-8")))
         self.assertGreater(len(declared), 30)
         found = exported("nm", "--defined-only", one_file("lib*/**/libdeburr-golden.*[ao]"))
@@ -513,9 +512,9 @@ int main() {
 
 @unittest.skipUnless(shutil.which("verilator"), "verilator is not installed: scripts/install examples")
 class SystemVerilog(Scratch):
-    """The example in SystemVerilog, under Verilator."""
+    """The SystemVerilog example, with Verilator."""
 
-    def test_the_page_builds_the_testbench_which_agrees_and_finds_planted_faults(self):
+    def test_page_builds_testbench_which_finds_injected_faults(self):
         said, shown = self.after_installing("howto/testbench")
         self.assertEqual(not_printed(shown, said), [])
         self.assertRegex(said, r"(?m)^PASS$")
@@ -523,7 +522,7 @@ class SystemVerilog(Scratch):
         self.assertRegex(injected, r"^make .* RUN=\+bug=\d$")
         self.assertEqual(not_printed(shown, self.as_on_the_page(injected, code=2)), [])
         self.assertRegex(said, r"edge detector: 20 frames, \d{4,} pixels with edges, 0 differ")
-        # 10^6 calls: what C++ computes of the same quads.
+        # 10^6 calls, compared with what C++ computes for the same quads.
         alone(CXX, "-O2", self.write("quads.cpp", QUADS_MAIN), "-o", self.folder / "quads",
              *pkg_config("--cflags", "--libs", "deburr-golden"))
         self.assertIn("sampler: 1000000 quads, 4000000 colours, 0 differ, checksum " + call(self.folder / "quads"), said)
@@ -539,14 +538,14 @@ class SystemVerilog(Scratch):
             self.assertIn(words, said)
 
     @unittest.skipUnless(shutil.which("iverilog"), "iverilog is not installed: scripts/install examples")
-    def test_another_simulator_takes_the_devices(self):
+    def test_another_simulator_compiles_the_devices(self):
         for name in ("bilinear_sampler", "edge_detector"):
             source = EXAMPLES / f"systemverilog/{name}.sv"
             call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", source)
             self.write("wrong.sv", source.read_text(encoding="utf-8").replace("always_ff", "always_fff", 1))
             call("iverilog", "-g2012", "-s", name, "-o", self.folder / "out", self.folder / "wrong.sv", code=range(1, 256))
 
-    def test_a_prefix_without_deburr_is_said(self):
+    def test_prefix_without_deburr_is_reported(self):
         shutil.copytree(EXAMPLES / "systemverilog", self.folder, dirs_exist_ok=True)
         self.assertIn(f"no deburr-golden-c below {self.folder}", alone("make", f"PREFIX={self.folder}", cwd=self.folder, code=2))
 
@@ -560,13 +559,13 @@ nbformat.write(notebook, "executed.ipynb")
 
 @unittest.skipUnless(PYTHON_BUILT, "the Python module was not built: scripts/install python")
 class Python(Scratch):
-    """The Python module, its page and its notebook, with Debian's python3 and the prefix alone."""
+    """The Python module, its page and its notebook, with Debian's python3 and only the prefix."""
 
     def python(self, program, code=0):
         home = {"HOME": str(self.folder / "home"), "PYTHONPATH": str(PYTHON), "PYTHONDONTWRITEBYTECODE": "1"}
         return alone("/usr/bin/python3", "-c", program, code=code, cwd=self.folder, env=EMPTY | home)
 
-    def test_it_is_the_installed_one_and_finds_its_command(self):
+    def test_installed_module_finds_its_command(self):
         said = self.python("import deburr, deburr._program as p; print(deburr.__file__, deburr._golden.__file__, p.program(), "
                            "deburr.__version__)").split()
         self.assertTrue(all(pathlib.Path(file).is_relative_to(PREFIX) for file in said[:3]), said)
@@ -577,13 +576,13 @@ class Python(Scratch):
                             <= {str(file.relative_to(PYTHON / "deburr")) for file in PYTHON.rglob("*.pyi")})
         self.assertEqual(sorted(file.name for file in PYTHON.rglob("*.py*") if file.is_symlink()), [])
 
-    def test_the_page_says_where_it_is_installed(self):
+    def test_page_names_the_installed_folder(self):
         calls = [line for block in blocks_of("reference/python") for line in block.splitlines()
                  if line.startswith("PYTHONPATH=~/deburr") and " -c " in line]
         self.assertEqual([self.as_on_the_page(line).split() for line in calls],
                          [pkg_config("--modversion", "deburr-golden")])
 
-    def test_the_page_does_what_it_says(self):
+    def test_page_examples_print_what_it_shows(self):
         page = (PREFIX / "share/deburr/docs/reference/python.md").read_text(encoding="utf-8")
         programs = re.findall(r"```python\n(.*?)```", page, re.S)
         self.assertEqual(len(programs), 1)
@@ -599,8 +598,8 @@ class Python(Scratch):
         self.assertIn("texture.cache.bytes", said[2])
         self.assertEqual(said[-1], str(["done"] * 4), said)
 
-    def test_golden_is_what_c_computes(self):
-        """A frame of noise, by the module and by a program in C."""
+    def test_python_golden_matches_c(self):
+        """A frame of noise, through the module and through a C program."""
         c = self.write("noise.c", """#include <deburr_golden.h>
 #include <stdio.h>
 int main(void) {
@@ -638,7 +637,7 @@ print(f"{value:016x}")
         found = work["tag_stage_hits"] + work["tag_stage_merged"]
         return found / (found + work["tag_stage_misses"])
 
-    def test_the_notebook_answers(self):
+    def test_notebook_runs(self):
         try:
             self.python("import nbclient, ipykernel, pandas, matplotlib")
         except AssertionError:
@@ -652,7 +651,7 @@ print(f"{value:016x}")
         text = "".join("".join(output.get("text", [])) for output in outputs)
         answer = re.search(r"ANSWER: (\d+) KiB, (\d) ways?: ([\d.]+) % hits", text)
         self.assertIsNotNone(answer, text)
-        # The command is asked: that is enough, and half of it is not, however many ways it has.
+        # The command confirms the answer: this cache reaches 97 %, half its size does not, with any number of ways.
         frame = ["--in", "hills.obj", "--size", "160x160", "--aniso", "8", "--texture", "brick", "--no-images",
                  "--set", "scene.texture_size=512", "--set", "memory.latency=200", "--set", "scene.eye=0.1,0.35,1.3",
                  "--set", "scene.target=0,-0.1,0"]
@@ -663,7 +662,7 @@ print(f"{value:016x}")
         for less in ("1", "2", "4"):
             half = self.hits(*frame, "--set", f"texture.cache.bytes={512 * kib}", "--set", f"texture.cache.ways={less}")
             self.assertLess(half, 0.97)
-        # A wrong name in it ends it, with the command's words; as the page starts it.
+        # Started as on the page, a wrong name ends it with the command's message.
         notebook = (self.folder / "notebook.ipynb").read_text(encoding="utf-8")
         self.assertIn("memory_latency=LATENCY", notebook)
         self.write("notebook.ipynb", notebook.replace("memory_latency=LATENCY", "memory_latncy=LATENCY"))
@@ -671,8 +670,8 @@ print(f"{value:016x}")
 
 
 class Libraries(Scratch):
-    def test_they_configure_with_their_packages_alone(self):
-        """The preset `libraries`, where nothing is found but what scripts/packages.txt lists for it."""
+    def test_libraries_configure_with_only_their_packages(self):
+        """The preset `libraries`, where only the packages that scripts/packages.txt lists for it can be found."""
         sections = (SOURCE / "scripts/packages.txt").read_text(encoding="utf-8").split("\n\n")
         listed = next(section for section in sections if "[libraries build]" in section)
         self.assertIn("libsystemc-dev", listed)
@@ -686,7 +685,7 @@ class Libraries(Scratch):
 
 
 def main():
-    """Ends with 77, which ctest counts as skipped, if nothing has run; a failure is one whatever else was skipped."""
+    """Exits with 77, which ctest counts as skipped, if no test ran; a failure wins over skipped tests."""
     result = unittest.main(exit=False).result
     if result.wasSuccessful() and result.skipped and result.testsRun <= len(result.skipped):
         print(f"skipped: {result.skipped[0][1]}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What differs from the branch that a clone is made of, or from the upstream branch."""
+"""Files that differ from the branch that a clone is made of, or from the upstream branch."""
 import os
 import pathlib
 import subprocess
@@ -17,8 +17,8 @@ def git(*words):
 
 
 def changed():
-    """Files that differ; None without history. In the branch itself nothing does, unless DEBURR_CHANGED_HOURS says of
-    how many hours, before the last commit, commits count."""
+    """Files that differ; None without history. In the branch itself the list is empty, unless DEBURR_CHANGED_HOURS
+    gives the number of hours before the last commit whose commits count."""
     base = git("merge-base", "HEAD", "origin/HEAD") or git("merge-base", "HEAD", "@{upstream}")
     hours = os.environ.get("DEBURR_CHANGED_HOURS")
     if hours and base in (None, git("rev-parse", "HEAD")):

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* Deburr's golden models from plain C: a checkerboard in perspective under a slanted horizon is
- * drawn with the texture unit, quad by quad, smoothed with the morphological engine, and compared
- * with the picture that is known.
+ * drawn quad by quad with the texture unit, smoothed with the morphological engine, and compared
+ * with the expected picture.
  *
  *   cc -std=c99 draw.c $(pkg-config --cflags --libs deburr-golden-c) -o draw && ./draw [FILE.ppm]
  *
- * Exit code: 0 passed, 1 another picture, 2 a call failed or the file cannot be written. */
+ * Exit code: 0 passed, 1 unexpected picture, 2 a call failed or the file cannot be written. */
 #include <deburr_golden.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -14,7 +14,7 @@
 enum { WIDTH = 192, HEIGHT = 128, SIDE = 64, LEVELS = 7 };
 static const uint64_t known_picture = UINT64_C(0xc807d6205d1665b6);
 
-/* Ends the program when a call has failed, with the reason. */
+/* Ends the program with the reason if a call has failed. */
 static void check(deburr_golden* golden, int status) {
   char text[1000];
   if (status == DEBURR_OK) return;
@@ -57,7 +57,7 @@ static void load_checkerboard(deburr_golden* unit) {
   for (uint32_t level = 0; level < LEVELS; ++level) {
     const int side = SIDE >> level;
     check(unit, deburr_texture_level(unit, 0, level, texels, 4 * (size_t)(side * side), 0));
-    /* The next level: means of two by two, in place. */
+    /* The next level: averages of 2 x 2 texels, in place. */
     for (int y = 0; y < side / 2; ++y)
       for (int x = 0; x < side / 2; ++x)
         for (int c = 0; c < 4; ++c)

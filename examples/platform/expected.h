@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture as the golden models compute it, which know nothing of buses, cycles and registers.
+// The picture that the golden models compute, without buses, cycles and registers.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace platform {
 
-// `memory` begins at kMemory and holds the texture. Parameters are those of the engines.
+// `memory` begins at kMemory and holds the texture. The parameters are those of the engines.
 Frame expected(const deburr::spec::texture::Parameters& texture,
                const deburr::spec::morphological::Parameters& smoother,
                std::span<const std::uint8_t> memory);

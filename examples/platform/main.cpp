@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A platform of one's own around two engines of Deburr:
+// A user platform around two engines of Deburr:
 //
 //   Software --------- b_transport ---------+                +--- memory
 //                                           |                +--- registers of the texture unit
@@ -7,12 +7,12 @@
 //                                           |                +--- register of the painter
 //   MorphologicalEngine.memory -- nb_t. ----+
 //
-//   Painter -> TextureUnit -> Painter -> MorphologicalEngine -> Display        (links, a beat a
-//   clock)
+//   Painter -> TextureUnit -> Painter -> MorphologicalEngine -> Display    (links, one beat per
+//   cycle)
 //
-// Between every initiator and every target stands a checker of the base protocol. Software draws a
-// frame, waits for the smoother's interrupt, and the picture is compared with the one that the
-// golden models compute.
+// A checker of the base protocol sits between every initiator and every target. Software draws a
+// frame, waits for the smoother's interrupt, and compares the picture with the result of the golden
+// models.
 //
 //   platform [--out FILE.ppm] [--quantum NS] [--plant VIOLATION] [--violations]
 //
@@ -67,7 +67,8 @@ deburr::platform::MemoryModelParameters memory_parameters() {
   return parameters;
 }
 
-// A checker between an initiator and a target; where a violation is injected, that on its side.
+// A checker between an initiator and a target. An injected violation is placed on the violating
+// side.
 struct Hop {
   ProtocolChecker checker;
   std::unique_ptr<Violator> violator;
@@ -115,7 +116,7 @@ class Platform {
     software_.texture_interrupt(texture_.interrupt);
     software_.smoother_interrupt(smoother_.interrupt);
     software_.on_end = [this] { ended_ = true; };
-    // One engine ends its responses by a call, the other one in the return.
+    // One engine ends its responses with a call, the other in the return value.
     texture_.end_responses(deburr::rtl::ResponseEnd::kCall);
 
     painter_.quads_out(quads_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where everything is on the bus.
+// The address map of the bus.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ inline constexpr std::uint64_t kSmoother = 0x1001'0000;
 inline constexpr std::uint64_t kPainter = 0x1002'0000;
 inline constexpr std::uint64_t kRegisterBytes = 0x1000;
 
-// In memory: the mip chain of the texture, then the rows of a frame that the smoother keeps there.
+// In memory: the mip chain of the texture, then frame rows that the smoother stores.
 inline constexpr std::uint64_t kTexture = kMemory, kFrame = kMemory + 0x8'0000;
 
 inline constexpr unsigned kSide = 64, kLevels = 7;  // of the texture

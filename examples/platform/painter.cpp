@@ -12,16 +12,16 @@ using deburr::rtl::Cycle;
 namespace {
 
 constexpr Rgba8 kSky = {148, 184, 220, 255}, kBoard = {214, 62, 40, 255};
-constexpr int kHorizon = 24;  // the row at which the floor begins
+constexpr int kHorizon = 24;  // first row of the floor
 
-// A board of slanted edges, in halves of a pixel.
+// A board of slanted edges, in half pixels.
 bool on_board(int x, int y) {
   const int u = 2 * x + 1, v = 2 * y + 1;
   return 7 * u + 2 * v > 840 && 7 * u + 2 * v < 1540 && 9 * v - 2 * u > 10 && 9 * v - 2 * u < 900;
 }
 bool on_floor(int x, int y) { return y >= kHorizon && !on_board(x, y); }
 
-// Of the floor, S7.24: the depth is as one over the row's distance to the horizon.
+// Floor coordinates, S7.24. Depth is inversely proportional to the row's distance from the horizon.
 std::int32_t along(int y) { return (16 << 24) / (2 * (y - kHorizon) + 5); }
 std::int32_t across(int x, int y) { return (2 * x + 1 - kWidth) * (along(y) / 64); }
 
@@ -43,8 +43,8 @@ bool Frame::write_ppm(const char* file) const {
   return std::fclose(out) == 0 && written;
 }
 
-// Four pixels, of which the floor's want a colour. All four have coordinates, which tell the
-// texture unit how large a pixel is in the texture.
+// Four pixels; only those of the floor need a colour. All four have coordinates, from which the
+// texture unit computes the size of a pixel in the texture.
 Quad quad_of(int number) {
   Quad quad;
   quad.tag = static_cast<std::uint32_t>(number);

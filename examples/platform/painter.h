@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The two ends of the pipe. A painter that asks the texture unit for the colours of a floor, puts a
-// plain board before it and a sky behind, and sends the frame to the smoother; a display that takes
-// what the smoother gives.
+// The two ends of the pipe. The painter requests the colours of a floor from the texture unit, adds
+// a plain board in the foreground and a sky in the background, and sends the frame to the smoother.
+// The display receives the smoother's output.
 //
 //   Painter -> TextureUnit -> Painter -> MorphologicalEngine -> Display
 //
-// Both are units of the clock domain, as the engines' own blocks are; the painter has a register of
-// its own, with which software starts a frame.
+// Both are units of the clock domain, like the blocks of the engines. The painter has one register,
+// with which software starts a frame.
 #pragma once
 
 #include <array>
@@ -39,11 +39,13 @@ inline constexpr std::array kPainterStartFields =
 inline constexpr std::array<deburr::spec::RegisterInfo, 1> kPainterRegisters = {
     {{kPainterStart, "START", "Any write starts a frame.", kPainterStartFields}}};
 
-// What is painted, apart from when.
+// The painted content, independent of timing.
 inline constexpr int kQuadsAcross = kWidth / 2, kQuads = kQuadsAcross * (kHeight / 2);
-Quad quad_of(int number);                      // covers the pixels of the floor
-Rgba8 plain_colour(int x, int y);              // of board and sky
-void put(Frame& frame, const Colour& colour);  // of the floor, where its tag and lane say
+Quad quad_of(int number);          // covers the pixels of the floor
+Rgba8 plain_colour(int x, int y);  // colour of board and sky
+void put(
+    Frame& frame,
+    const Colour& colour);  // writes a colour of the floor to the pixel given by its tag and lane
 
 class Painter final : public deburr::rtl::Unit {
  public:
@@ -65,9 +67,9 @@ class Painter final : public deburr::rtl::Unit {
 
   Frame frame_;
   bool painting_ = false;
-  int quad_ = 0;     // the next one of the frame
-  int awaited_ = 0;  // colours that were asked for and have not come
-  int pixel_ = 0;    // the next one to go out, once all have come
+  int quad_ = 0;     // next quad of the frame
+  int awaited_ = 0;  // requested colours that have not arrived
+  int pixel_ = 0;    // next pixel to send, once all colours have arrived
 };
 
 class Display final : public deburr::rtl::Unit {

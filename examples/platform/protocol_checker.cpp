@@ -50,7 +50,7 @@ void ProtocolChecker::check_finished() const {
     require(false, "unfinished", *payload, "the transaction was never ended");
 }
 
-// ---- what every transaction must bring, and what must come back ----
+// ---- attributes of every transaction, of its request and of its response ----
 
 void ProtocolChecker::check_request(const Payload& payload) {
   require(payload.get_data_ptr() && payload.get_data_length() > 0, "attributes", payload,
@@ -84,7 +84,7 @@ void ProtocolChecker::b_transport(Payload& payload, sc_time& delay) {
 
 // ---- non-blocking ----
 
-// A phase, whoever sends it, by a call or in a return.
+// A phase in either direction, by call or by return value.
 void ProtocolChecker::take(Payload& payload, const tlm_phase& phase, const sc_time& delay) {
   const sc_time when = sc_time_stamp() + delay;
   const auto found = transactions_.find(&payload);
@@ -138,7 +138,7 @@ void ProtocolChecker::finish(Payload& payload) {
   bytes_ += payload.get_data_length();
 }
 
-// What a call of nb_transport came back with.
+// The return value of an nb_transport call.
 void ProtocolChecker::returned(Payload& payload, tlm_sync_enum status, const tlm_phase& sent,
                                const tlm_phase& phase, const sc_time& sent_delay,
                                const sc_time& delay) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stands between an initiator and a target, passes everything on, and holds both to the base
-// protocol of TLM-2.0 (IEEE 1666-2011, 11 to 16). What breaks a rule ends the simulation:
-// deburr::spec::SimulationError, with the name of the checker and of the rule.
+// Sits between an initiator and a target, forwards everything, and checks both against the base
+// protocol of TLM-2.0 (IEEE 1666-2011, 11 to 16). A violation ends the simulation with
+// deburr::spec::SimulationError, which names the checker and the rule.
 //
-// It counts what went by.
+// It counts the transactions that it forwards.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -24,7 +24,7 @@ class ProtocolChecker final : public sc_core::sc_module {
 
   explicit ProtocolChecker(const sc_core::sc_module_name& name);
 
-  // Everything that was begun has ended.
+  // True when every transaction that began has ended.
   void check_finished() const;
   std::uint64_t blocking() const { return blocking_; }
   std::uint64_t non_blocking() const { return non_blocking_; }
@@ -33,8 +33,8 @@ class ProtocolChecker final : public sc_core::sc_module {
 
  private:
   using Payload = tlm::tlm_generic_payload;
-  // What a target must leave as it is. An interconnect may change the address, below it that is
-  // another hop's.
+  // Attributes that a target must not change. An interconnect may change the address, which then
+  // belongs to the next hop.
   struct Attributes {
     explicit Attributes(const Payload& payload);
     friend bool operator==(const Attributes&, const Attributes&) = default;
@@ -46,7 +46,7 @@ class ProtocolChecker final : public sc_core::sc_module {
   struct Transaction {
     Attributes attributes;
     Stage stage = Stage::kRequest;
-    sc_core::sc_time last;  // of its phases, in effective local time
+    sc_core::sc_time last;  // of its last phase, in effective local time
   };
 
   tlm::tlm_sync_enum forward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);

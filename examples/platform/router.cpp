@@ -23,7 +23,7 @@ int Router::target_of(const Payload& payload) const {
   return -1;
 }
 
-// ---- loosely timed, debug, direct memory: the target's own business, at its own addresses ----
+// ---- loosely timed, debug, direct memory: forwarded to the target with its local address ----
 
 void Router::b_transport(int, Payload& payload, sc_time& delay) {
   const int target = target_of(payload);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A bus: any number of initiators and targets, loosely and approximately timed. One request at a
-// time to each target and one response at a time to each initiator, in the order in which they
-// come.
+// A bus for any number of initiators and targets, loosely and approximately timed. It keeps one
+// request at a time per target and one response at a time per initiator, in order of arrival.
 #pragma once
 
 #include <tlm_utils/multi_passthrough_initiator_socket.h>
@@ -23,7 +22,7 @@ class Router final : public sc_core::sc_module {
   tlm_utils::multi_passthrough_initiator_socket<Router> targets{"targets"};
 
   explicit Router(const sc_core::sc_module_name& name);
-  // The addresses of the next target that is bound. It sees them from 0 on.
+  // The address range of the next target that is bound. The target sees addresses from 0.
   void map(std::uint64_t base, std::uint64_t bytes) { map_.push_back({base, bytes}); }
 
  private:
@@ -33,7 +32,7 @@ class Router final : public sc_core::sc_module {
   };
   struct Route {
     int initiator, target;
-    bool completed = false;  // by the target, which wants no END_RESP
+    bool completed = false;  // by the target, which expects no END_RESP
   };
   struct Port {
     Payload* busy =

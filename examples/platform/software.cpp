@@ -15,9 +15,9 @@ namespace platform {
 
 namespace {
 
-const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // that software takes for each access
-// Behind a clock's edge, where the order of SystemC's processes, and so the quantum, would decide
-// in which clock the engines see an access.
+const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // time per access
+// After a clock edge. At the edge, the order of SystemC's processes, and so the quantum, would
+// decide in which cycle the engines see an access.
 const sc_core::sc_time kPhase(1, sc_core::SC_NS);
 
 using Level = std::vector<std::array<std::uint8_t, 4>>;
@@ -65,12 +65,13 @@ void Software::program() {
   frame_cycles_ = read(kSmoother + DEBURR_MORPHOLOGICAL_FRAME_CYCLES);
   blended_pixels_ = read(kSmoother + DEBURR_MORPHOLOGICAL_BLENDED_PIXELS);
   bilinears_ = read(kTextureUnit + DEBURR_TEXTURE_BILINEARS);
-  texture_failed_ = texture_interrupt.read();  // it tells of errors alone
+  texture_failed_ = texture_interrupt.read();  // prints only errors
   time_.sync();
   on_end();
 }
 
-// The mip chain into memory, then descriptor 0. Rows of a level begin at multiples of 64 bytes.
+// Writes the mip chain into memory, then descriptor 0. Rows of a level begin at multiples of 64
+// bytes.
 void Software::set_up_texture() {
   std::uint64_t address = kTexture;
   Level level = level_0();
@@ -99,7 +100,7 @@ void Software::set_up_texture() {
             DEBURR_IN(DEBURR_TEXTURE_TEXTURE0_MODE_MAX_COUNT_LOG2, 3));
 }
 
-// Its rules are those that it was built with.
+// The engine runs with its reset configuration.
 void Software::set_up_smoother() {
   write(kSmoother + DEBURR_MORPHOLOGICAL_PIXEL_BASE, static_cast<std::uint32_t>(kFrame));
   write(kSmoother + DEBURR_MORPHOLOGICAL_SIZE,
@@ -107,8 +108,8 @@ void Software::set_up_smoother() {
             DEBURR_IN(DEBURR_MORPHOLOGICAL_SIZE_HEIGHT, kHeight));
 }
 
-// As a debugger would, without time; and whether memory may be read past the bus, which this memory
-// does not offer.
+// Reads as a debugger would, without time; also checks that this memory offers no direct memory
+// interface.
 void Software::look_at_memory() {
   Level row(kSide);
   tlm::tlm_generic_payload payload;
@@ -126,7 +127,7 @@ void Software::look_at_memory() {
     throw deburr::spec::SimulationError(std::string(name()) + ": memory offers direct access");
 }
 
-// An interrupt comes at its time: software waits until that time is its own.
+// An interrupt comes in simulated time: software waits until its local time is reached.
 void Software::wait_for_frame() {
   time_.sync();
   while (!smoother_interrupt.read()) wait(smoother_interrupt.posedge_event());

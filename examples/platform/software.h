@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program of the platform's processor, a loosely timed thread: it runs ahead of simulated time
-// by up to a quantum, and reaches memory and registers by b_transport. Names of registers and
-// fields are those of the C header that is installed.
+// by up to a quantum and accesses memory and registers by b_transport. Register and field names are
+// those of the installed C header.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>

@@ -50,7 +50,7 @@ Violator::Violator(const sc_core::sc_module_name& name, Violation violation)
 }
 
 bool Violator::now(Violation violation) {
-  // The third chance: the protocol is well under way.
+  // The third opportunity, when transactions are already in progress.
   if (violation != violation_ || ++seen_ != 3) return false;
   violation_ = Violation::kNone;
   return true;
@@ -103,7 +103,7 @@ tlm_sync_enum Violator::backward(Payload& payload, tlm_phase& phase, sc_time& de
     if (another(payload) && now(V::kTwoResponses)) second = another(payload);
     if (now(V::kBackwardRequest)) phase = tlm::BEGIN_REQ;
   } else if (now(V::kPast)) {
-    delay += sc_time(1, sc_core::SC_US);  // END_REQ, to which the response will come too early
+    delay += sc_time(1, sc_core::SC_US);  // END_REQ, before which the response will come
   }
   const tlm_sync_enum status = from_initiator->nb_transport_bw(payload, phase, delay);
   if (second) {

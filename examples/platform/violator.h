@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Breaks one rule of the base protocol, once, between an initiator and its checker (or a checker
-// and its target), so that the checker can be seen to notice.
+// Breaks one rule of the base protocol once, between an initiator and its checker (or a checker and
+// its target), to show that the checker detects it.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -18,7 +18,7 @@ enum class Violation {
   kNone,
   // By the initiator.
   kTwoRequests,     // BEGIN_REQ before END_REQ
-  kSameRequest,     // BEGIN_REQ of a transaction that is under way
+  kSameRequest,     // BEGIN_REQ of a transaction in progress
   kWrongPhase,      // END_REQ from an initiator
   kNoManager,       // a payload without memory manager
   kStatusSet,       // a request with a response status
@@ -28,12 +28,12 @@ enum class Violation {
   // By the target.
   kBackwardRequest,  // BEGIN_REQ from a target
   kTwoResponses,     // BEGIN_RESP before END_RESP
-  kSameResponse,     // BEGIN_RESP of a transaction that is over
+  kSameResponse,     // BEGIN_RESP of a finished transaction
   kIncomplete,       // a response without status
-  kChangedLength,    // an attribute that is the initiator's
+  kChangedLength,    // an attribute that only the initiator may set
   kAcceptedUpdate,   // TLM_ACCEPTED with another phase
   kWrongReturn,      // BEGIN_REQ answered with END_RESP
-  kPast,             // a phase before the one before it
+  kPast,             // a phase earlier than the previous one
   kBlockingIncomplete,
   kBlockingPast,
   kDebugTooMuch,
@@ -43,9 +43,9 @@ enum class Violation {
 struct ViolationInfo {
   Violation violation;
   const char* name;
-  const char* rule;  // by which the checker names it
+  const char* rule;  // name in the checker's messages
   bool by_target;
-  bool by_software;  // a call of software's, else of an engine's
+  bool by_software;  // in a call of the software, else of an engine
 };
 std::span<const ViolationInfo> violations();
 
@@ -66,14 +66,14 @@ class Violator final : public sc_core::sc_module {
   void b_transport(Payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(Payload& payload);
   bool get_direct_mem_ptr(Payload& payload, tlm::tlm_dmi& dmi);
-  // Of those that wait for their response.
+  // Of the transactions that wait for their response.
   Payload* another(const Payload& payload) const;
   void send(Payload& payload, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
-  // Whether it is the turn of this violation, which then is over.
+  // True if this violation is due now; it is then done.
   bool now(Violation violation);
 
   Violation violation_;
-  int seen_ = 0;  // chances to break the rule
+  int seen_ = 0;  // opportunities to break the rule
   std::set<Payload*> in_flight_;
   Manager manager_;
   unsigned char data_[64] = {};

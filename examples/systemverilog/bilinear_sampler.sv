@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A small device under test: samples a texture of 16 x 16 RGBA8 texels bilinearly, level 0,
-// wrapped by repeat, a fragment in each clock. The colour leaves three cycles behind its fragment.
-// Formats and rounding: docs/reference/texture/formats.md. `bug` plants a fault; 0 is the device as it should
-// be.
+// A small device under test: samples a texture of 16 x 16 RGBA8 texels bilinearly at level 0, with
+// repeat addressing, one fragment per cycle. Latency: three cycles. Formats and rounding:
+// docs/reference/texture/formats.md. `bug` injects a fault; 0 is the correct device.
 module bilinear_sampler (
     input  logic               clock,
     input  int unsigned        bug,
-    // One texel each clock, while `load` is up.
+    // One texel per cycle while `load` is high.
     input  logic               load,
     input  logic        [ 7:0] load_at,    // 16 y + x
     input  logic        [31:0] load_rgba,  // R in bits 7..0
-    // A fragment's coordinates, S7.24.
+    // Coordinates of a fragment, S7.24.
     input  logic               valid,
     input  logic signed [31:0] s,
     input  logic signed [31:0] t,
@@ -20,8 +19,8 @@ module bilinear_sampler (
   logic [31:0] texels[256];
   always_ff @(posedge clock) if (load) texels[load_at] <= load_rgba;
 
-  // ---- clock 1: the texel to the left and above, and the shares of its neighbours
-  // 16 p - 1/2 in S.8 texels, rounded; p is the fraction of the coordinate.
+  // ---- cycle 1: the texel to the left and above, and the weights of its neighbours 16 p - 1/2 in
+  // S.8 texels, rounded; p is the fraction of the coordinate.
   function automatic logic [12:0] position(input logic [23:0] p);
     logic signed [29:0] texel;
     texel = $signed({2'b0, p, 4'b0}) - 30'sd8388608 + 30'sd32768;
@@ -35,7 +34,7 @@ module bilinear_sampler (
     v_1 <= position(t[23:0]);
   end
 
-  // ---- clock 2: four texels, and both rows mixed, U8.12
+  // ---- cycle 2: four texels, blended in each of the two rows, U8.12
   function automatic logic [3:0] next(input logic [3:0] i, input logic clamps);
     return clamps && i == 15 ? i : i + 1;
   endfunction
@@ -53,7 +52,7 @@ module bilinear_sampler (
     y0 = v_1[11:8];
     x1 = next(x0, bug == 1);  // clamps at the right border
     y1 = next(y0, 1'b0);
-    f_u = bug == 2 ? {u_1[7:1], 1'b0} : u_1[7:0];  // a bit of the share is lost
+    f_u = bug == 2 ? {u_1[7:1], 1'b0} : u_1[7:0];  // one bit of the weight is lost
   end
   always_ff @(posedge clock) begin
     valid_2 <= valid_1;
@@ -64,7 +63,7 @@ module bilinear_sampler (
     end
   end
 
-  // ---- clock 3: the rows mixed, U8.12 rounded, then rounded to a code
+  // ---- cycle 3: both rows blended, U8.12 rounded, then rounded to a code
   function automatic logic [7:0] down(input logic [20:0] a, input logic [20:0] b,
                                       input logic [7:0] f, input logic rounds);
     logic [29:0] mixed;
@@ -74,6 +73,6 @@ module bilinear_sampler (
   always_ff @(posedge clock) begin
     colour_valid <= valid_2;
     for (int c = 0; c < 4; ++c)
-      colour[8*c+:8] <= down(above_2[c], below_2[c], f_2, bug != 3);  // 3: the mix is not rounded
+      colour[8*c+:8] <= down(above_2[c], below_2[c], f_2, bug != 3);  // 3: the blend is not rounded
   end
 endmodule

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A small device under test: the first block of a morphological engine, edges by colour. A pixel in
-// each clock, row by row; its edges leave a clock behind it. `bug` plants a fault; 0 is the device
-// as it should be.
+// A small device under test: the first block of a morphological engine, colour edges. It takes one
+// pixel per cycle, row by row, and outputs its edges one cycle later. `bug` injects a fault; 0 is
+// the correct device.
 module edge_detector #(
     parameter int WIDTH = 64
 ) (
     input  logic        clock,
     input  int unsigned bug,
-    input  logic [ 7:0] least,  // codes; a larger or equal step of R, G or B is an edge
+    input  logic [ 7:0] least,  // in codes; an equal or larger step of R, G or B is an edge
     input  logic        valid,
-    input  logic        first,  // of the frame
+    input  logic        first,  // first pixel of the frame
     input  logic [31:0] rgba,   // R in bits 7..0
     output logic        edges_valid,
     output logic [ 1:0] edges   // bit 0: to the left neighbour, bit 1: to the upper one
@@ -25,16 +25,16 @@ module edge_detector #(
       p = a[8*c+:8];
       q = b[8*c+:8];
       d = p > q ? p - q : q - p;
-      // 5: looks at two channels
+      // 5: compares only two channels
       if (d > step && !(bug == 5 && c == 2)) step = d;
     end
-    return bug == 4 ? step > least : step >= least;  // 4: the threshold itself is none
+    return bug == 4 ? step > least : step >= least;  // 4: a step equal to the threshold is no edge
   endfunction
 
   int unsigned at, line;  // of this pixel
   assign at = first ? 0 : x;
   assign line = first ? 0 : y;
-  // 6: the row above one pixel too far
+  // 6: reads the row above one pixel too far
   logic [31:0] above;
   assign above = row[bug == 6 ? (at + 1) % WIDTH : at];
 

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 // A self-checking testbench: two small devices under test against Deburr's golden models by DPI-C.
 //
-//   +quads=N   quads that the sampler is given; each is a call of the golden model (1000000)
-//   +frames=N  frames that the edge detector is given (20)
-//   +bug=N     plants a fault: 1 to 3 in the sampler, 4 to 6 in the edge detector (0: none)
-//   +rejected  shows what the golden model says to a call that is wrong
+//   +quads=N   quads for the sampler; each is one call of the golden model (1000000)
+//   +frames=N  frames for the edge detector (20)
+//   +bug=N     injects a fault: 1 to 3 in the sampler, 4 to 6 in the edge detector (0: none)
+//   +rejected  shows the message of the golden model for an invalid call
 //
-// Prints what was compared and PASS, or the first difference and FAIL, which ends it with an error.
+// Prints what was compared and PASS, or the first difference and FAIL; FAIL exits with an error.
 module testbench;
   import deburr_golden_pkg::*;
 
   localparam int SIDE = 16;
   localparam int WIDTH = 64, HEIGHT = 48;
-  localparam int LATENCY = 3;  // cycles, of the sampler
+  localparam int LATENCY = 3;  // latency of the sampler in cycles
 
   logic clock = 0;
   always #1 clock = !clock;
   int unsigned bug = 0, quads = 1_000_000, frames = 20;
 
-  // The same numbers in every simulator.
+  // The same random numbers in every simulator.
   int unsigned state = 1;
   function automatic int unsigned random();
     state = state * 1664525 + 1013904223;
@@ -92,7 +92,7 @@ module testbench;
 
     checksum = 64'd14695981039346656037;
     for (int unsigned quad = 0; quad < quads + LATENCY; ++quad) begin
-      // Predict, as the monitor of a quad does.
+      // Predicts, as the monitor of a quad does.
       for (int stage = LATENCY; stage > 0; --stage) begin
         expected[stage] = expected[stage-1];
         waiting[stage] = waiting[stage-1];
@@ -113,7 +113,7 @@ module testbench;
           checksum = (checksum ^ longint'(rgba[i])) * 64'd1099511628211;
       end
       @(negedge clock);
-      // Compare what left with what was predicted as many cycles ago.
+      // Compares the output with the prediction made LATENCY cycles ago.
       if (quad + 1 >= LATENCY && quad + 1 < quads + LATENCY) begin
         for (int lane = 0; lane < 4; ++lane) begin
           automatic byte unsigned e[16] = expected[LATENCY-1];
@@ -160,7 +160,7 @@ module testbench;
     check(golden, deburr_set(golden, "edges.source", "colour"));
     check(golden, deburr_set(golden, "edges.local_contrast", "off"));
     for (int unsigned frame = 0; frame < frames; ++frame) begin
-      // Rectangles of colours that are near each other, so that many steps are at the threshold.
+      // Rectangles of similar colours, so that many steps are at the threshold.
       automatic int unsigned codes = 8 + below(24), threshold = codes * 65536;
       check(golden, deburr_set(golden, "edges.threshold", $sformatf("%0d", threshold)));
       least = 8'(codes);
@@ -171,7 +171,7 @@ module testbench;
         for (int unsigned y = y0; y < y0 + h && y < HEIGHT; ++y)
           for (int unsigned x = x0; x < x0 + w && x < WIDTH; ++x) picture[WIDTH*y+x] = value;
       end
-      // The golden model is given the pixels as the monitor of a stream sees them.
+      // The golden model gets the pixels as the monitor of a stream sees them.
       check(golden, deburr_frame_begin(golden, WIDTH, HEIGHT));
       for (int unsigned i = 0; i < WIDTH * HEIGHT; ++i) begin
         pixel_valid = 1;
@@ -197,7 +197,7 @@ module testbench;
     check(golden, deburr_close(golden));
   endtask
 
-  // ---- a call that is wrong ---------------------------------------------------------------------
+  // ---- an invalid call -------------------------------------------------------------------------
 
   task automatic show_rejections();
     chandle golden = deburr_geometric_new();

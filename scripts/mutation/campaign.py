@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Many mutants of many files: which are drawn, what became of each, and the table of both."""
+"""Campaigns over many files: sampling of mutants, their verdicts, and the table of both."""
 import collections
 import hashlib
 import json
@@ -10,14 +10,13 @@ from mutation.check import threads
 from mutation.mutants import shown
 from mutation.tree import digest
 
-Z = 1.959964  # of a confidence of 95 %
+Z = 1.959964  # for a confidence of 95 %
 
 
 def drawn(mutants, count, each, seed, left=frozenset()):
-    """(file, place) of `count` of all mutants (0: all) that are not `left` out, drawn at random over all
-    files, in the order of the draw, and then of as many more as every file needs to have `each`. The
-    number by which a mutant stands in the draw depends on nothing but the mutant and the seed, so that a
-    larger sample begins with a smaller one."""
+    """(file, place) of `count` mutants (0: all), without those in `left`, drawn at random over all files, in the
+    order of the draw, followed by the extra mutants that bring every file to `each`. The random number of a mutant
+    depends only on the mutant and the seed, so a larger sample begins with the smaller one."""
     def number(file, mutant):
         text = f"{seed} {file} {mutant.begin} {mutant.kind} {mutant.text}"
         return hashlib.sha256(text.encode()).digest()
@@ -35,7 +34,7 @@ def drawn(mutants, count, each, seed, left=frozenset()):
 
 
 def entry_of(tree, file, place):
-    """What is recorded of a mutant, but for its verdict."""
+    """The record of a mutant without its verdict."""
     mutant = tree.mutants[file][place]
     line, before, after = shown(tree.sources[file], mutant)
     return {"file": str(file), "hash": digest(tree.sources[file]), "begin": mutant.begin, "kind": mutant.kind,
@@ -47,7 +46,7 @@ def key_of(entry):
 
 
 def read_results(work):
-    """The entries of work/results.jsonl; the last line may be half of one, of a process that was killed."""
+    """The entries of work/results.jsonl; the last line may be truncated if a process was killed."""
     path, found = work / "results.jsonl", {}
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
         try:
@@ -59,8 +58,8 @@ def read_results(work):
 
 
 def check(checker, chosen, jobs, say):
-    """The entries of the chosen mutants, each of which has a switch. What has a verdict on the same contents
-    of its file in work/results.jsonl is not run again."""
+    """The entries of the chosen mutants, all of which have a switch. Mutants with a verdict in work/results.jsonl for
+    the same contents of their file are not run again."""
     tree, lock = checker.tree, threading.Lock()
     known = read_results(tree.work)
     entries = [entry_of(tree, *item) for item in chosen]
@@ -83,8 +82,8 @@ def check(checker, chosen, jobs, say):
 
 
 def still_standing(tree, entries):
-    """(file, place) of the mutants of other trees, where the changed line and the change are the same; of
-    several alike the one of the nearest line, each once."""
+    """(file, place) of the mutants of another tree whose changed line and change are the same; if several match, the
+    one on the nearest line, each once."""
     places = collections.defaultdict(list)
     for file, all_of in tree.mutants.items():
         for place in range(len(all_of)):
@@ -102,9 +101,9 @@ def still_standing(tree, entries):
 
 
 def estimate(strata):
-    """Of (mutants, killed, checked) of each file: the rate of all mutants of these files in tenths of a
-    percent, and its interval, rounded away from it. Files count by their mutants, not by how many of
-    them were checked. None if nothing was."""
+    """From (mutants, killed, checked) of each file: the kill rate of all mutants of these files in tenths of a
+    percent, and its interval, rounded outwards. Files are weighted by their mutants, not by the number checked.
+    None if none was checked."""
     strata = [(of, killed, judged) for of, killed, judged in strata if judged]
     if not strata:
         return None
@@ -112,18 +111,18 @@ def estimate(strata):
     rate = sum(of * killed / judged for of, killed, judged in strata) / whole
 
     def variance(of, killed, judged):
-        # One more of each kind, so that a file of which all were killed has one too; none where all were checked.
+        # One more of each kind, so that a file with all mutants killed also has an interval; not if all were checked.
         likely = (killed + 1) / (judged + 2)
         return likely * (1 - likely) / judged * max(0, 1 - judged / of)
 
     reach = Z * math.sqrt(sum((of / whole) ** 2 * variance(of, killed, judged) for of, killed, judged in strata))
-    # What is whole stays so, whatever the arithmetic leaves behind the point.
+    # Exact results stay exact despite rounding errors.
     return (math.floor(rate * 1000 + 1e-9), max(0, math.floor((rate - reach) * 1000 + 1e-9)),
             min(1000, math.ceil((rate + reach) * 1000 - 1e-9)))
 
 
 def table(tree, entries, left):
-    """A row per folder; the rate is that of all mutants that have a switch and a test."""
+    """One row per folder; the rate is for all mutants that have a switch and a test."""
     counts = {file: collections.Counter() for file in tree.mutants}
     by_name = {str(file): file for file in counts}
     for entry in entries:

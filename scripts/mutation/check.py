@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which test finds which mutant."""
+"""Finds the test that kills each mutant."""
 import collections
 import concurrent.futures
 import contextlib
@@ -15,7 +15,7 @@ Verdict = collections.namedtuple("Verdict", "verdict by")
 
 @contextlib.contextmanager
 def threads(jobs):
-    """A pool in which nothing more is begun once its user gives up (Ctrl-C, a Problem)."""
+    """A pool that starts no more jobs after its user gives up (Ctrl-C, a Problem)."""
     pool = concurrent.futures.ThreadPoolExecutor(jobs)
     try:
         yield pool
@@ -24,7 +24,7 @@ def threads(jobs):
 
 
 class Checker:
-    """Runs the tests of a tree once without any mutant, and then those that can find one."""
+    """Runs the tests of a tree once without any mutant, then for each mutant the tests that reach it."""
 
     def __init__(self, tree, budget):
         self.tree, self.budget = tree, budget
@@ -32,7 +32,7 @@ class Checker:
         self.last = collections.defaultdict(list)
 
     def baseline(self, say=None):
-        """What each test takes and reaches; tests that were asked before are not asked again."""
+        """Duration and reached mutants of each test; tests that were measured before are not run again."""
         known, kept = self.tree.work / "baseline.jsonl", {}
         tests = self.tree.tests_here()
         if known.exists():
@@ -87,8 +87,8 @@ class Checker:
                           + ", ".join(failed[:8]))
 
     def ordered(self, file, names, kind):
-        """First tests of resets for a reset, then what found the last mutants of the file, then the file's own
-        tests, then by what a test takes for what it finds."""
+        """Order of tests: for a reset first the tests of resets, then the tests that killed the last mutants of the
+        file, then the file's own tests, then by duration per kill."""
         stem = file.stem
         kills, last = self.kills[file], self.last[file]
 
@@ -104,7 +104,7 @@ class Checker:
         spent = 0
         for name in self.ordered(file, names, self.tree.mutants[file][place].kind):
             seconds = self.seconds[name]
-            if spent and spent + seconds > self.budget:  # the first is asked whatever it takes
+            if spent and spent + seconds > self.budget:  # the first test runs whatever it takes
                 continue
             spent += seconds
             passed, took, _ = passes(self.tests[name], 1 + 10 * seconds, **environment)
@@ -115,25 +115,25 @@ class Checker:
         return Verdict("survived", "")
 
     def needs_a_build(self, file, place):
-        """Whether a mutant must be compiled alone: no switch can be there, or no test meets it."""
+        """Must the mutant be compiled by itself? True if it cannot have a switch, or no test reaches it."""
         number = self.tree.first[file] + place
         return place in self.tree.dropped[file] or number not in self.impossible and number not in self.reach
 
     def by_switch(self, file, place):
-        """The verdict on a mutant that is behind a switch."""
+        """The verdict on a mutant behind a switch."""
         number = self.tree.first[file] + place
         if number in self.impossible:
             return Verdict("invalid", "")
         return self.checked_by(file, place, self.reach[number], DEBURR_MUTANT=str(number))
 
     def alone(self, file, place):
-        """The verdict on a mutant that is compiled as it stands."""
+        """The verdict on a mutant compiled without a switch."""
         tree = self.tree
         numbers = range(tree.first[file], tree.first[file] + len(tree.mutants[file]))
         names = {name for number in numbers for name in self.reach.get(number, ())} or set(self.tests)
         tree.put(file, plain=place)
         try:
-            # The programs of the file's own tests first: most mutants need no other.
+            # The programs of the file's own tests first: most mutants need no others.
             own = {self.tests[n].program for n in names
                    if self.tests[n].source.endswith(f"_{file.stem}_test")} & set(tree.targets)
             groups = [own] if own else []
@@ -153,7 +153,7 @@ class Checker:
 
 
 def spans(numbers):
-    """Ascending numbers as [begin, end) of what follows one upon the other."""
+    """Ascending numbers as [begin, end) ranges of consecutive numbers."""
     found = []
     for number in numbers:
         if found and found[-1][1] == number:

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Which mutants a source text has, and the text that holds each of them under a switch."""
+"""The mutants of a source text, and the text that holds each of them behind a switch."""
 import bisect
 import collections
 import re
 
 from mutation import statements
 
-# Code whose text may look like an operator or a number: comments, texts, characters, directives.
+# Text that may look like an operator or a number but is not code: comments, string and character literals,
+# directives.
 NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\''
                      r'|^[ \t]*#[^\n]*|\bstatic_assert\b[^;]*;|\bvirtual\b[^;{}]* = 0;', re.S | re.M)
-# Of several lines, which NO_CODE takes for code from the second one on: directives, and texts as they are.
+# Constructs over several lines, which NO_CODE takes for code from the second line on: directives, raw strings.
 LONG = re.compile(r'^[ \t]*#(?:[^\n]*\\\n)+[^\n]*|\bR"(\w*)\(.*?\)\1"', re.S | re.M)
 COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "=="}
 OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&",
@@ -18,15 +19,15 @@ OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&",
 
 
 def masks(text):
-    """A hexadecimal constant with its lowest bit flipped, and without its highest one."""
+    """A hexadecimal constant with its lowest bit flipped, and without its highest bit."""
     digits, suffix = re.fullmatch(r"0[xX]([\da-fA-F']+)([uUlLzZ]*)", text).groups()
     value = int(digits.replace("'", ""), 16)
     found = [value ^ 1] + ([value ^ 1 << value.bit_length() - 1] if value > 1 else [])
     return [f"0x{changed:X}{suffix}" for changed in dict.fromkeys(found)]
 
 
-# Kind, what it looks for, and what that may become. clang-format puts blanks around binary
-# operators, and none around the brackets of templates and the signs of numbers.
+# Kind, search pattern, and replacements. clang-format puts blanks around binary operators, and none around template
+# brackets and signs of numbers.
 RULES = [
     ("comparison", re.compile(r"(?<= )(<=|>=|==|!=|<|>)(?=\s)"), lambda text: [COMPARISONS[text]]),
     ("operator", re.compile(r"(?<= )(\+=|-=|\+|-|&&|\|\|)(?=\s)"), lambda text: [OTHER[text]]),
@@ -34,7 +35,7 @@ RULES = [
      lambda text: [str(int(text) + 1)] + ([str(int(text) - 1)] if int(text) else [])),
     ("stall", re.compile(r"!?(?<![\w.>)\]])(?:\w+(?:\[[^][]*\])?(?:\.|->))+can_(?:push|pop)\(\w+\)"),
      lambda text: ["false" if text[0] == "!" else "true"]),
-    # Texts are written with <<, and nothing else can be done with them.
+    # Strings are written with <<, which has no valid replacement.
     ("shift", re.compile(r"(?<= )(?<!\" )(<<=|>>=|<<|>>)(?=\s+[^\s\"])"), lambda text: [OTHER[text]]),
     ("bits", re.compile(r"(?<= )(&=|\|=|\^=|&|\||\^)(?=\s)"), lambda text: [OTHER[text]]),
     ("literal", re.compile(r"\b(?:true|false)\b"),
@@ -43,7 +44,7 @@ RULES = [
     ("min_max", re.compile(r"\bstd::(?:min|max)(?=[(<])"),
      lambda text: ["std::max" if text == "std::min" else "std::min"]),
 ]
-# What is left out, by statements.py; in a function that resets, each is a reset.
+# Removed statements, found by statements.py; in a function that resets, each is of kind reset.
 LEFT_OUT = {"assignment": "statement", "target": "statement", "call": "call", "exit": "exit"}
 KINDS = [kind for kind, _, _ in RULES] + [*dict.fromkeys(LEFT_OUT.values()), "reset"]
 NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "==": "Equal",
@@ -53,9 +54,9 @@ NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "
          "^=": "BitXorWith"}
 INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "==", ">>": "<<"}
 
-# Values that members have before they are given others: nobody reads most of them, so that their
-# mutants are no faults. What a reset leaves is written where it is done. `constant` goes by the look
-# of a line, since its mutants are those of old records; the other kinds go by statements.scan().
+# Initial values of members are skipped: most are overwritten before they are read, so their mutants are no faults.
+# Reset values are mutated in the reset function. `constant` is matched line by line to keep the mutants of old
+# records; the other kinds use statements.scan().
 DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"
                       r"(?:,\s+\w+(?: = \d+)?)*;", re.M)
 HEADER = re.compile(r"^#(?:ifndef \w+_H|pragma once)", re.M)
@@ -64,13 +65,13 @@ Mutant = collections.namedtuple("Mutant", "kind begin end text")
 
 
 def code_of(source):
-    """The source with blanks for what is no code, and quotes for texts and characters."""
+    """The source with blanks for everything that is not code, and quotes for string and character literals."""
     return NO_CODE.sub(lambda m: re.sub(r"[^\n]", '"' if m.group()[0] in "\"'" else " ", m.group()),
                        source)
 
 
 def for_statements(source, code):
-    """The code with blanks for the rest of what is no code."""
+    """The code with blanks for the remaining parts that are not code."""
     pieces, at = [], 0
     for match in LONG.finditer(source):
         pieces += [code[at:match.start()], re.sub(r"[^\n]", " ", match.group())]
@@ -91,13 +92,13 @@ def mutants_of(source):
              for text in variants(m.group())]
     found += [Mutant("reset" if part.reset else LEFT_OUT[part.kind], part.begin, part.end, "")
               for part in parts]
-    # A constant's mutants stand one after the other, one more first: switch.h counts on it.
+    # The two mutants of a constant are consecutive, plus one first: switch.h relies on this.
     return sorted(found, key=lambda m: (m.begin, m.kind, -int(m.text) if m.text.isdigit() else 0))
 
 
 def operands(code, begin, end):
-    """The extents of what `&&` or `||` between two positions joins. It joins the same when it has
-    become the other: the first of `a && b && c` gives `(a || b) && c`."""
+    """The extents of the operands of `&&` or `||` between two positions. They stay the operands after the operator is
+    exchanged: the first one of `a && b && c` gives `(a || b) && c`."""
     ends = {"||", "?", ",", ";", "="} | ({"&&"} if code[begin:end] == "&&" else set())
 
     def token(at):
@@ -114,7 +115,7 @@ def operands(code, begin, end):
         depth += (code[at] in "([{") - (code[at] in ")]}")
         at += 1
     right = end + len(code[end:at]) - len(code[end:at].lstrip()), end + len(code[end:at].rstrip())
-    # Towards the left `&&` binds what another `&&` joined.
+    # To the left, `&&` includes operands already joined by another `&&`.
     ends.discard("&&")
     if code[begin:end] == "||":
         ends.discard("||")
@@ -129,11 +130,11 @@ def operands(code, begin, end):
 
 
 def schema_of(source, first, dropped=frozenset(), plain=None):
-    """The source with its mutants behind the switches `first`, `first` + 1, ... but for those whose
-    places in the list of mutants are `dropped`; `plain` stands in it as it is. Lines stay lines."""
+    """The source with its mutants behind the switches `first`, `first` + 1, ... except those whose indices in the
+    list of mutants are in `dropped`. The mutant `plain` is inserted without a switch. Line numbers do not change."""
     code = code_of(source)
     mutants = mutants_of(source)
-    # (position, what ends there before what begins there, outer before inner or reverse, text)
+    # (position, closing before opening text at the same position, outer before inner or reverse, text)
     inserts, replaced = [], {}
 
     def enclose(begin, end, level, before, after):
@@ -143,12 +144,12 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
     for place, mutant in enumerate(mutants):
         if plain is not None and place != plain and (
                 mutants[plain].begin <= mutant.begin < mutants[plain].end):
-            continue  # it goes with what stands there no more, or has the other's place
+            continue  # it is inside removed text, or overlaps another mutant
         number, was = first + place, source[mutant.begin:mutant.end]
         switch = f"::deburr_mutant::on<{number}>()"
         if plain == place:
             replaced[mutant.begin] = (mutant.end, mutant.text)
-            if was in ("&", "|", "^"):  # which bind unlike each other
+            if was in ("&", "|", "^"):  # which have different precedence
                 replaced[mutant.begin] = (mutant.end, f"{was} ::deburr_mutant::{NAMES[was]}"
                                           f"<::deburr_mutant::kAlone>{{}} {was}")
             if was in ("&&", "||"):
@@ -173,7 +174,7 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
             enclose(mutant.begin, mutant.begin + len(was.rstrip()[:-1].rstrip()), 0,
                     f"::deburr_mutant::kept<{number}>(", ")")
         elif not mutant.text:
-            # It has an else of its own, so that it takes none from an if around it.
+            # With its own else, so that it does not capture the else of an enclosing if.
             inserts.append((mutant.begin, 1, -mutant.end, -1, f"if ({switch}) {{}} else "))
         elif mutant.kind == "stall":
             if plain is None or not mutant.begin <= mutants[plain].begin < mutant.end:
@@ -197,7 +198,7 @@ def schema_of(source, first, dropped=frozenset(), plain=None):
 
 
 def lines_of(source):
-    """The numbers of the lines on which each mutant's schema stands, in the order of mutants_of."""
+    """The line numbers of each mutant's switch code, in the order of mutants_of."""
     code = code_of(source)
     starts = [0] + [m.end() for m in re.finditer("\n", source)]
     number = lambda position: bisect.bisect_right(starts, position)
@@ -211,10 +212,10 @@ def lines_of(source):
 
 
 def shown(source, mutant):
-    """Number of the changed line, and the line before and after."""
+    """Number of the changed line, and its text before and after."""
     begin = source.rfind("\n", 0, mutant.begin) + 1
     end = source.find("\n", mutant.end)
     line = source[begin:end if end >= 0 else None]
     after = source[begin:mutant.begin] + mutant.text + source[mutant.end:begin + len(line)]
-    # Of a statement over several lines the first one is shown.
+    # For a statement over several lines, the first line is shown.
     return source.count("\n", 0, begin) + 1, line.strip(), after.strip() or ";"

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Where the statements of a C++ text stand, as far as mutants need it: text formatted by clang-format,
-with comments and texts blanked."""
+"""Positions of the statements in C++ text, as far as mutants need them. The text must be formatted by clang-format
+and have comments and string literals blanked."""
 import collections
 import re
 
-# `begin` to `end`, without the semicolon. `kind`: assignment, call, exit (break, continue, return; with
-# a value, and throw, in an if alone, behind which the function goes on), or target: one of those of
-# `a = b = 0`, with its `=`. `reset`: in a function that resets.
+# `begin` to `end`, without the semicolon. `kind`: assignment, call, exit (break, continue, return; return of a value
+# and throw only as the body of an if after which the function continues), or target: one target of `a = b = 0`, with
+# its `=`. `reset`: in a function that resets.
 Statement = collections.namedtuple("Statement", "kind begin end reset")
 
 CONTROL = re.compile(r"\b(if|for|while|switch)(?: constexpr)?\s*$")
@@ -43,7 +43,7 @@ class Frame:
 
 
 def without_template(header):
-    """`template <class T> struct A` without what may be mistaken for a class."""
+    """`template <class T> struct A` without the part that could be mistaken for a class."""
     while match := re.match(r"\s*template\s*<", header):
         depth, at = 1, match.end()
         while at < len(header) and depth:
@@ -54,7 +54,7 @@ def without_template(header):
 
 
 def brace(code, at, parent):
-    """What the brace at a position opens."""
+    """The kind of scope that the brace at a position opens."""
     before = code[:at].rstrip()
     last, gap = before[-1:], len(before) != at
     if parent.kind in ("namespace", "class", "code"):
@@ -73,7 +73,7 @@ def brace(code, at, parent):
 
 
 def flat(code, begin, end):
-    """The text without what stands in brackets, and the position of each of its characters."""
+    """The text outside brackets, and the position of each of its characters."""
     text, places, depth = [], [], 0
     for at in range(begin, end):
         closes = code[at] in ")]}"
@@ -86,7 +86,7 @@ def flat(code, begin, end):
 
 
 def checked(code, begin, end, frame):
-    """The statements that a text is, which a semicolon ends: none, one, or the targets of one."""
+    """The statements in a text that ends with a semicolon: none, one, or the targets of a chained assignment."""
     of_if = frame.of_if or frame.after_if
     while match := LABEL.match(code, begin, end) or ATTRIBUTE.match(code, begin, end):
         begin = match.end()
@@ -109,7 +109,7 @@ def checked(code, begin, end, frame):
 
 
 def scan(code):
-    """The statements of functions, and the extents of what members are before they are set."""
+    """The statements of functions, and the extents of member initialisers."""
     statements, defaults = [], []
     frames = [Frame("namespace", 0)]
     for match in re.finditer(r"[(){};]", code):
@@ -137,7 +137,7 @@ def scan(code):
             if closed.control and frame.kind == "code":
                 frame.begin(at + 1, closed.control == "if")
             elif closed.kind == frame.kind == "code" and code[at + 1:at + 2] in ("(", ")", ",", ".", ";"):
-                pass  # of a lambda in the midst of a statement
+                pass  # of a lambda inside a statement
             elif closed.kind not in ("(", "init") and frame.kind in ("code", "class", "namespace"):
                 frame.begin(at + 1)
     return statements, defaults

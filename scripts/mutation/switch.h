@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The switches of mutants: a program that is compiled with schemata (schemata.py) holds every
-// mutant, each off until the environment names it. Included before everything else, so that the
-// switches are read before any other initialisation.
+// The switches of mutants. A program compiled with schemata (mutants.py) holds every mutant, each
+// disabled until the environment names it. Included before everything else, so that the switches
+// are read before any other initialisation.
 #ifndef DEBURR_SCRIPTS_MUTATION_SWITCH_H
 #define DEBURR_SCRIPTS_MUTATION_SWITCH_H
 
@@ -17,13 +17,13 @@
 namespace deburr_mutant {
 
 inline constexpr unsigned kMost = 1U << 16;
-// The number of what is compiled alone, and is always on.
+// The number of a mutant compiled by itself, which is always enabled.
 inline constexpr unsigned kAlone = kMost;
 enum State : unsigned char { kOff, kOn, kAsked };
 enum Answer : unsigned char { kReached = 1, kNoSuchOperator = 2 };
 
-// DEBURR_MUTANT=n switches one on; with DEBURR_MUTANTS_REACHED=file all are off, and the file (of
-// kMost bytes) learns which of them ran.
+// DEBURR_MUTANT=n enables one mutant. With DEBURR_MUTANTS_REACHED=file all are disabled, and the
+// file (kMost bytes) records which of them ran.
 struct Switches {
   unsigned char state[kMost];
   unsigned char* reached;
@@ -50,7 +50,7 @@ inline Switches switches;
   return false;
 }
 
-// Off where a constant is computed: such a mutant is compiled alone.
+// Disabled in constant expressions: such a mutant is compiled by itself.
 template <unsigned n>
 [[gnu::always_inline]] constexpr bool on() {
   if constexpr (n == kAlone) {
@@ -68,7 +68,7 @@ template <unsigned n>
   if (switches.state[n] != kOff) answer(n, kNoSuchOperator);
 }
 
-// n adds one, n + 1 takes one away.
+// n adds one, n + 1 subtracts one.
 template <unsigned n, class T>
 [[gnu::always_inline]] constexpr T constant(T value) {
   if (on<n>()) return value + 1;
@@ -76,7 +76,7 @@ template <unsigned n, class T>
   return value;
 }
 
-// std::min and std::max, one of which is the other.
+// Exchanges std::min and std::max.
 template <unsigned n>
 struct Extreme {
   template <class T>
@@ -101,7 +101,7 @@ struct Extreme {
   }
 };
 
-// `kept(a) = kept(b) = 0` is `a = b = 0`, or leaves one of them as it was.
+// `kept(a) = kept(b) = 0` is `a = b = 0`, or keeps the old value of one of them.
 template <unsigned n, class T>
 struct Kept {
   T& target;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A copy of the tree in which files hold all of their mutants, its build and its tests."""
+"""A copy of the tree in which files hold all their mutants, its build and its tests."""
 import collections
 import hashlib
 import json
@@ -18,19 +18,19 @@ from mutation import mutants
 
 LEFT_OUT = {".git", "build", "out", "__pycache__"}
 MOST_SWITCHES = 1 << 16  # as in switch.h
-# The numbers of a file begin at a multiple of it, with room for what the file may grow by, so that
-# a file that changes does not renumber, and so rebuild, all that come behind it.
+# The numbers of a file begin at a multiple of this, with room for growth, so that a changed file does not renumber,
+# and so rebuild, all files after it.
 STEP, ROOM = 64, 16
 HEADER = pathlib.Path("scripts/mutation/switch.h")
-# As much optimisation as makes the switches cheap; the tests are built once and run often.
+# Enough optimisation to make the switches cheap; the tests are built once and run often.
 FLAGS = "-std=c++20 -w -Wno-narrowing -O1 -finline-small-functions -findirect-inlining -DNDEBUG"
 
-# `source` is what the name begins with: the test source, in `program`, or the script.
+# `source` is the prefix of the test's name: the test source, in `program`, or the script.
 Test = collections.namedtuple("Test", "name source program command folder environment limit")
 
 
 class Problem(Exception):
-    """Something that ends the work; the text says what."""
+    """An error that ends the work; the text is the reason."""
 
 
 def digest(text):
@@ -43,15 +43,15 @@ def files_of(root):
 
 
 def write(path, data):
-    """What is equal keeps its time, and so is not built again."""
+    """Copies; equal files keep their time stamp, so that they are not rebuilt."""
     if not path.exists() or path.read_bytes() != data:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
 
 
 class Tree:
-    """`files` are those whose mutants are of interest; the programs of the tests are built that `tests`
-    (a regular expression) chooses."""
+    """`files` are those whose mutants are of interest. Only the programs of the tests that match the regular
+    expression `tests` are built."""
 
     def __init__(self, root, work, files, tests, jobs):
         self.root, self.copy, self.work, self.jobs = root, work / "tree", work, jobs
@@ -81,16 +81,16 @@ class Tree:
         return done
 
     def numbered(self, file):
-        """What the places of a file's mutants depend on: its text, and the kinds that there are."""
+        """Hash of everything that the indices of a file's mutants depend on: its text, and the list of kinds."""
         return digest(mutants.schema_of(self.sources[file], 0))
 
     def put(self, file, plain=None):
-        """Writes a file with its schema, and the mutant `plain` as it is."""
+        """Writes a file with its switches, and the mutant `plain` without a switch."""
         text = mutants.schema_of(self.sources[file], self.first[file], self.dropped[file], plain)
         write(self.copy / file, text.encode())
 
     def prepare(self):
-        """Copies the tree, and builds it without the schemata that do not compile."""
+        """Copies the tree, and builds it without the mutants that do not compile behind a switch."""
         wanted = files_of(self.root)
         for name in wanted - set(self.sources):
             write(self.copy / name, (self.root / name).read_bytes())
@@ -119,7 +119,7 @@ class Tree:
             for file, places in self.dropped.items() if places}))
 
     def drop(self, errors):
-        """Takes schemata away from the lines that the compiler complains of."""
+        """Removes the switches from lines with compiler errors."""
         # A compiler may name a file by any path that ends in the name.
         ends = {}
         for file in self.sources:
@@ -153,10 +153,10 @@ class Tree:
         return dropped
 
     def choose(self):
-        """Which programs are built, and which tests they hold."""
+        """The programs to build, and the tests they hold."""
         listed = self.run("ninja", "-C", self.build, "-t", "targets", "all", needed=True).stdout
         programs = set(re.findall(r"^(?:\S*/)?(\w+): CXX_EXECUTABLE_LINKER", listed, re.M))
-        # A program is a test of its own name, or holds several (cmake/Tests.cmake).
+        # A program is one test with its own name, or holds several (cmake/Tests.cmake).
         self.program_of = {name: name for name in programs}
         held = self.build / "test_programs.txt"
         if held.exists():
@@ -169,11 +169,11 @@ class Tree:
                    and test["name"].partition(".")[0] not in self.program_of]
         if not chosen and not scripts:
             raise Problem(f"no test matches {self.tests}: choose with --tests")
-        # A script is given the path of what it runs, as a word or in its environment.
+        # A script gets the path of the program it runs as an argument or in its environment.
         runs = {path.rpartition("/")[2] for path in
                 re.findall(rf"{re.escape(str(self.build))}/[\w/.-]+", json.dumps(scripts))}
         self.targets = sorted({self.program_of[name] for name in chosen} | runs & programs)
-        # PROGRAM_complete is the program with what it starts and loads.
+        # PROGRAM_complete is the program with the files that it starts and loads.
         self.targets += [name for name in (f"{target}_complete" for target in self.targets)
                          if re.search(rf"^{name}: phony", listed, re.M)]
         self.scripts = {test["name"] for test in scripts}
@@ -200,8 +200,8 @@ class Tree:
 
 
 def limits(seconds):
-    """The beginning of a command that may take no more, whatever a mutant makes of it. Not a function in the
-    child: for that all of this process would be copied, a fifth of a campaign's time."""
+    """The beginning of a command that limits its resources, whatever a mutant does. Not a preexec function: that
+    would copy this whole process, a fifth of a campaign's time."""
     return ["prlimit", f"--cpu={int(seconds) + 1}:{int(seconds) + 2}", f"--as={6 << 30}", f"--fsize={1 << 28}",
             "--core=0"]
 
@@ -214,14 +214,14 @@ def ended(group):
 
 
 def passes(test, cpu, **environment):
-    """Whether a test passes within `cpu` seconds of a processor, and how many it took."""
+    """(passes within `cpu` seconds of processor time, seconds taken)."""
     with tempfile.TemporaryDirectory(prefix="deburr_mutant_") as scratch:
         began = time.monotonic()
         process = subprocess.Popen(
             limits(cpu) + test.command, cwd=test.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, start_new_session=True,
             env=dict(os.environ, TMPDIR=scratch, **test.environment, **environment))
-        # On a busy machine a second of a processor may take many; asleep it takes none.
+        # On a busy machine a second of processor time may take many seconds; a sleeping process takes none.
         late = threading.Timer(20 + 10 * cpu, ended, [process.pid])
         late.start()
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where figures come from: runs of the command, the tables of `deburr papers`, other programs."""
+"""Sources of figures: runs of the command, the tables of `deburr papers`, other programs."""
 import json
 import os
 import pathlib
@@ -14,18 +14,18 @@ RECIPES = {}
 
 
 class Problem(Exception):
-    """A figure that cannot be had; the text says why."""
+    """A figure that cannot be obtained; the text is the reason."""
 
 
 def recipe(name):
-    """The function below yields the rows of a table, each as a list of cells."""
+    """The decorated function yields the rows of a table, each as a list of cells."""
     def add(function):
         RECIPES[name] = function
         return function
     return add
 
 
-# ---- how figures are written --------------------------------------------------------------------
+# ---- format of figures --------------------------------------------------------------------------
 
 
 def spaced(number):
@@ -50,7 +50,7 @@ def write_png(path, width, height, grey):
 
 
 class Sources:
-    """Each command runs once, however many tables ask for it."""
+    """Runs each command once, however many tables need it."""
 
     def __init__(self, root, build):
         self.root, self.build = root, build
@@ -79,7 +79,7 @@ class Sources:
         return done.stdout
 
     def run(self, line):
-        """result.json of `deburr run LINE`; FILE in it is a file of self.scratch."""
+        """result.json of `deburr run LINE`; FILE in the line is a file of self.scratch."""
         def make():
             out = self.scratch / "run"
             self._call(f"deburr run {line}",
@@ -100,14 +100,14 @@ class Sources:
         return self._once(f"deburr papers {number}", make)
 
     def paper_table(self, number, title):
-        """The table of a paper whose title begins so."""
+        """The table of a paper whose title begins with this text."""
         found = [rows for name, rows in self.papers(number).items() if name.startswith(title)]
         if len(found) != 1:
             raise Problem(f"{len(found)} tables of paper {number} begin with {title!r}")
         return found[0]
 
     def program(self, program, *words):
-        """What a program below tb/ of the build says."""
+        """Output of a program below tb/ of the build."""
         def make():
             return self._call(" ".join([program, *words]), [self.build / "tb" / program, *words])
         return self._once(" ".join([program, *words]), make)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""How Sphinx makes the site of the pages that scripts/docs lays out."""
+"""Sphinx configuration for the pages that scripts/docs lays out."""
 # pylint: disable=invalid-name
 project = "Deburr"
 html_title = "Deburr"
 author = "The Deburr developers"
 project_copyright = author
 extensions = ["myst_parser"]
-# Anchors as GitHub gives them, which the links of the pages use.
+# Anchors as on GitHub, which the links of the pages use.
 myst_heading_anchors = 6
 html_theme = "furo"
-# Debian builds the theme's style without its dark colours; those of the figures.
+# Debian builds the theme's style without its dark colours; these are the colours of the figures.
 html_theme_options = {"top_of_page_button": None, "dark_css_variables": {
     "color-foreground-primary": "#e6edf3", "color-foreground-secondary": "#a5afba", "color-foreground-muted": "#8b95a1",
     "color-foreground-border": "#5b6570", "color-background-primary": "#14181f", "color-background-secondary": "#1b212a",
@@ -22,5 +22,5 @@ html_css_files = ["tables.css"]
 html_show_sourcelink = False
 html_copy_source = False
 highlight_language = "none"
-# Made pages have headings of two levels that do not follow each other.
+# Generated pages skip levels of headings.
 suppress_warnings = ["myst.header"]

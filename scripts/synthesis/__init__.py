@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What scripts/synthesise does: which units there are (designs), how they are mapped (flows), the page (page)."""
+"""Parts of scripts/synthesise: the list of units (designs), their mapping (flows), the page (page)."""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The units of hdl/ in the configurations of tb/hdl/configurations.txt: which there are, with which parameters, and
-what each is made of."""
+"""The units of hdl/ in the configurations of tb/hdl/configurations.txt: the list, their parameters, and the sources
+of each."""
 import dataclasses
 import hashlib
 import json
@@ -9,12 +9,12 @@ import re
 import subprocess
 
 FOLDERS = ("fabric", "texture")
-# The header calls a parameter of the texture unit by another name.
+# The header has another name for this parameter of the texture unit.
 RENAMED = {"cap": "count_cap"}
 
 
 class Problem(Exception):
-    """What the user can mend; its text says how."""
+    """An error that the user can fix; its text says how."""
 
 
 @dataclasses.dataclass
@@ -23,7 +23,7 @@ class Configuration:
     top: str
     settings: list
     headers: pathlib.Path = None
-    inputs: str = ""  # a hash of all that the tools read
+    inputs: str = ""  # a hash of everything that the tools read
 
 
 @dataclasses.dataclass
@@ -31,10 +31,10 @@ class Unit:
     """A module with its parameters."""
     module: str
     parameters: dict          # as the page shows them
-    key: str                  # a hash of what it is made of
-    design: pathlib.Path      # the elaborated design that has it, and its name there
+    key: str                  # a hash of its sources
+    design: pathlib.Path      # the elaborated design that contains it, and its name there
     name: str
-    parts: list               # of a unit without registers of its own: (key, how many)
+    parts: list               # for a unit without registers of its own: (key, count)
     configurations: list
     ports: dict               # bits of each
     rank: int = 0             # the first configurations of a module come first
@@ -48,13 +48,13 @@ def sha(*texts):
 
 
 def bare(text):
-    """Verilog without comments, without what only its layout says, and without what is proved of it."""
+    """Verilog without comments, layout and proof code."""
     text = re.sub(r"^\s*`ifdef FORMAL\b.*?^\s*`endif\b", "", text, flags=re.S | re.M)
     return re.sub(r"\s+", " ", re.sub(r"//[^\n]*|/\*.*?\*/", " ", text, flags=re.S)).strip()
 
 
 class Sources:
-    """The modules of hdl/, each in the file of its name."""
+    """The modules of hdl/, each in a file of its name."""
 
     def __init__(self, root):
         self.files = {file.stem: file for folder in FOLDERS for file in sorted((root / folder).glob("*.sv"))}
@@ -63,7 +63,7 @@ class Sources:
         self.text = {name: bare(file.read_text(encoding="utf-8")) for name, file in self.files.items()}
 
     def below(self, top):
-        """The names of a module and of all that it builds."""
+        """The names of a module and of all modules that it instantiates."""
         if top not in self.text:
             raise Problem(f"there is no module {top} in hdl/")
         names, found = [top], []
@@ -90,7 +90,7 @@ class Sources:
 
 
 def configurations(file):
-    """NAME TOP SETTING... a line; tb/hdl/CMakeLists.txt builds the same ones."""
+    """One line NAME TOP SETTING... each; tb/hdl/CMakeLists.txt builds the same configurations."""
     found = []
     try:
         lines = file.read_text(encoding="utf-8").splitlines()
@@ -108,7 +108,7 @@ def configurations(file):
 
 
 def print_headers(found, program, folder, sources):
-    """The headers of each configuration (tb/hdl/print_headers.cpp), and the hash of what the tools read."""
+    """The headers of each configuration (tb/hdl/print_headers.cpp), and the hash of all inputs of the tools."""
     if not program.exists():
         raise Problem(f"{program} is not there: cmake --preset hdl && cmake --build --preset hdl --target "
                       "deburr_hdl_headers")
@@ -135,7 +135,7 @@ def value_of(bits):
 
 
 def code_name(defined, prefix, value):
-    """The name of a rule's code (`FOOTPRINT_HALF 0), or the number itself."""
+    """The macro name of a code of the configuration (`FOOTPRINT_HALF 0), or the number itself."""
     for name, code in defined.items():
         if name == f"{prefix}_LAST":
             return value
@@ -145,7 +145,7 @@ def code_name(defined, prefix, value):
 
 
 def shown_parameters(sources, module, parameters, defined):
-    """What the page says of a unit's parameters: those of the texture unit by their names, others by their own."""
+    """The parameters of a unit as the page shows them: those of the texture unit by their names, others by their own."""
     shown = {}
     for name, default in sources.defaults(module).items():
         value = value_of(parameters.get(name))
@@ -167,13 +167,13 @@ def plain(name):
 
 
 def elaborate(configuration, sources, folder, run, note):
-    """Writes the design of a configuration for the flows, once, and gives its modules as yosys names them."""
+    """Writes the design of a configuration for the flows, once, and returns its modules with their yosys names."""
     design = folder / f"{sha(configuration.top, configuration.inputs)[:16]}.il"
     listed = design.with_suffix(".json")
     if not (design.exists() and listed.exists()):
         note(f"reads {configuration.name}")
         files = " ".join(str(sources.files[name]) for name in sources.below(configuration.top))
-        # Memories of these cells stay memories, and are not mapped to flip-flops.
+        # Memories built from these cells stay memories, and are not mapped to flip-flops.
         script = (f"read_verilog -sv -I{configuration.headers} {files}\nhierarchy -check -top {configuration.top}\n"
                   f"proc\nsetattr -set deburr_memory 1 *fifo*/m:* *sram_1r1w*/m:* *rom*/m:*\n"
                   f"write_ilang {design}.part\nwrite_json {listed}.part\n")
@@ -225,7 +225,7 @@ def all_units(found, sources, folder, run, note):
             else:
                 units[key] = unit
                 unit.rank = rank
-    # What the shown parameters do not tell apart: other settings make a port wider.
+    # Units with the same shown parameters can still differ: other settings make a port wider.
     alike = {}
     for unit in units.values():
         alike.setdefault((unit.module, unit.shown()), []).append(unit)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Maps a unit to a technology with yosys, in a limited time, and remembers what came out."""
+"""Maps a unit to a technology with yosys, within a time limit, and caches the result."""
 import json
 import os
 import pathlib
@@ -16,7 +16,7 @@ from .designs import Problem, sha
 
 LIBERTY = pathlib.Path("/usr/share/qflow/tech/osu018/osu018_stdcells.lib")
 TECHNOLOGIES = ("osu018", "xc7", "ecp5")
-# What stands in the place of a row: it took too long, or nobody has mapped it yet.
+# Stand-ins for a row: it took too long, or it has not been mapped yet.
 NOT_MAPPED, NOT_RUN = "not mapped", "not run"
 TOOLS = ("yosys", "yosys-abc")
 YARDSTICK = "24 x 24 multiply"
@@ -24,7 +24,7 @@ YARDSTICK_TEXT = """module yardstick(input [23:0] a, input [23:0] b, output [47:
   assign p = a * b;
 endmodule
 """
-# Inputs come from a buffer and every output drives one XOR2X1 (fF).
+# A buffer drives each input, and each output drives one XOR2X1 (fF).
 CONSTRAINTS = "set_driving_cell BUFX4\nset_load 32 [all_outputs]\n"
 
 KEEP = "select -set kept t:$mem_v2 a:deburr_memory=1 %i"
@@ -50,7 +50,7 @@ tee -q -o OUT.stat stat
 tee -q -o OUT.stat stat
 """,
 }
-# Look-up tables that a cell takes; a half block RAM counts half.
+# Lookup tables per cell; a half block RAM counts as half.
 LUTS = {"xc7": {"LUT1": 1, "LUT2": 1, "LUT3": 1, "LUT4": 1, "LUT5": 1, "LUT6": 1, "INV": 1, "SRL16E": 1, "SRLC32E": 1,
                 "RAM32M": 4, "RAM64M": 4, "RAM32X1D": 2, "RAM64X1D": 2, "RAM128X1D": 4, "RAM32X1S": 1,
                 "RAM64X1S": 1, "RAM128X1S": 2, "RAM256X1S": 4, "RAM32M16": 8, "RAM64M8": 8},
@@ -73,7 +73,7 @@ def package_version(package):
 
 
 def tool_versions():
-    """Of every tool; a Problem says which package a missing one is in."""
+    """Versions of all tools; a Problem names the package of a missing tool."""
     for tool in TOOLS:
         if shutil.which(tool) is None:
             raise Problem(f"{tool} is not installed: scripts/install synthesis (package yosys)")
@@ -88,7 +88,7 @@ class Limit(Exception):
 
 
 class Yosys:
-    """Runs yosys, with the processor time of a run limited; what runs is ended with the program."""
+    """Runs yosys with limited processor time; running processes are ended with the program."""
 
     def __init__(self):
         self._running, self._lock, self._stopped = set(), threading.Lock(), False
@@ -103,7 +103,7 @@ class Yosys:
                     pass
 
     def __call__(self, script, failed, seconds=None):
-        """What it printed. Limit: more processor time than these seconds; Problem: it failed."""
+        """Its output. Raises Limit above this processor time in seconds, Problem if it failed."""
         def limited():
             if seconds is not None:
                 whole = max(1, int(seconds + 0.999))
@@ -126,7 +126,7 @@ class Yosys:
                 finally:
                     with self._lock:
                         self._running.discard(process)
-                    # An abc that outlives its yosys.
+                    # An abc process that outlives its yosys.
                     try:
                         os.killpg(process.pid, signal.SIGKILL)
                     except ProcessLookupError:
@@ -134,7 +134,7 @@ class Yosys:
             if self._stopped:
                 raise KeyboardInterrupt
             said = log.read_text(encoding="utf-8", errors="replace")
-            # The kernel may end it a little before its own count reaches the limit.
+            # The kernel may end it shortly before its own count reaches the limit.
             if seconds is not None and (used.ru_utime + used.ru_stime >= seconds or
                                         process.returncode == -signal.SIGXCPU):
                 raise Limit
@@ -145,7 +145,7 @@ class Yosys:
 
 
 def counted(text):
-    """{cell: how many} of the last design that `stat` printed."""
+    """{cell: count} of the last design that `stat` printed."""
     part = text[text.rfind("Number of cells:"):]
     return {name: int(count) for name, count in re.findall(r"^ +([\w$]+) +(\d+)$", part, re.M)}
 
@@ -160,11 +160,11 @@ def memory_bits(before):
 
 
 class Names:
-    """Names of registers for the ends of a path, which the tools call by nets of their own."""
+    """Register names for the ends of a path, which the tools name by nets."""
 
     def __init__(self, module):
         self._bits, self._shown = {}, {}
-        # Of the names of a register that which no cell inside has given it, and of those the longest: `high_y_1`, not `d_y`.
+        # Prefers a register's name that was not given inside a cell, and of those the longest: `high_y_1`, not `d_y`.
         for name, net in sorted(module["netnames"].items(),
                                 key=lambda item: (item[1]["hide_name"], item[0].count("."), -len(item[0]))):
             for at, bit in enumerate(net["bits"]):
@@ -185,7 +185,7 @@ class Names:
                          for bit in port["bits"]}
 
     def of(self, text, end):
-        """`text` as abc prints it: NAME or NAME [BIT]. At the end of a path the register that is written counts."""
+        """`text` as abc prints it: NAME or NAME [BIT]. At the end of a path it names the register that is written."""
         found = re.fullmatch(r"\\?(\S+?)(?: \[(\d+)\])?", text.strip())
         bit = self._bits.get((found[1], int(found[2] or 0))) if found else None
         if end and bit in self._written and bit not in self._outputs:
@@ -222,7 +222,7 @@ def measured(technology, said, out):
 
 
 class Mapper:
-    """Rows from the cache, or made anew; a row over the time limit is `not mapped`."""
+    """Rows from the cache, or mapped again; a row over the time limit is `not mapped`."""
 
     def __init__(self, yosys, folder, versions, seconds):
         self._yosys, self._folder, self._versions, self._seconds = yosys, folder, versions, seconds
@@ -235,7 +235,7 @@ class Mapper:
                                ".json")
 
     def known(self, key, technology):
-        """(True, row) of what is in the cache."""
+        """(True, row) if the row is in the cache."""
         try:
             kept = json.loads(self._file(key, technology).read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -265,7 +265,7 @@ class Mapper:
 
 
 def yardstick(mapper, folder):
-    """ns of the multiply that delays are a ratio to."""
+    """Delay in ns of the multiplier to which delays are relative."""
     file = folder / "yardstick.sv"
     file.write_text(YARDSTICK_TEXT, encoding="utf-8")
     row = mapper.map(sha(YARDSTICK_TEXT), "osu018", file, "yardstick", YARDSTICK)
@@ -275,7 +275,7 @@ def yardstick(mapper, folder):
 
 
 def unit_area():
-    """The area of the NAND gate that areas are a multiple of."""
+    """Area of the NAND gate to which areas are relative."""
     text = LIBERTY.read_text(encoding="utf-8")
     return float(re.search(r"cell \(NAND2X1\) \{\s*area : ([\d.]+);", text)[1])
 

@@ -4,10 +4,10 @@ import textwrap
 
 from .flows import NOT_MAPPED, NOT_RUN
 
-# Settings of configurations that a preset builds, as they stand there. Their rows are there.
+# Settings of configurations that a preset already builds; see the rows of that preset.
 PRESETS = {"deburr": [], "paper": ["axes=two", "footprint=half", "log2=mitchell", "count=floor"]}
 
-# Cells of the units: in cost.json only.
+# Cells of the units: only in cost.json.
 CELLS = ("link", "pipe", "rom", "sram_1r1w")
 
 

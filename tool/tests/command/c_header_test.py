@@ -1,17 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What `deburr params --c-header` prints is a header that C99 and C++20 take without a warning, and
-its macros have the values of the contract, here by hand.
+"""`deburr params --c-header` prints a header that C99 and C++20 compile without a warning, and its macros have the
+values of the contract, given here by hand.
 
-usage: c_header_test.py DEBURR CC CXX
-"""
+usage: c_header_test.py DEBURR CC CXX"""
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
-# Bits by hand, from docs: a change of the register map has to be made here too.
+# Bits by hand, from docs: a change of the register map must be repeated here.
 VALUES = {
     "DEBURR_GEOMETRIC_ID_RESET": 0xDEB00005, "DEBURR_GEOMETRIC_SIZE": 0x0C,
     "DEBURR_GEOMETRIC_SIZE_HEIGHT_MASK": 0x3FFF0000, "DEBURR_GEOMETRIC_SIZE_HEIGHT_SHIFT": 16,
@@ -34,7 +33,7 @@ VALUES = {
     "DEBURR_TEXTURE_TEXTURE0_MODE_MIN_FILTER_LINEAR_MIPMAP_LINEAR": 5,
     "DEBURR_TEXTURE_TEXTURE0_BASE_12": 0x140, "DEBURR_TEXTURE_STRIDE": 0x80,
     "DEBURR_TEXTURE_COUNT": 16,
-    # What it has beside numbers.
+    # Contents other than numbers.
     "DEBURR_FIELD(DEBURR_GEOMETRIC_SIZE_HEIGHT, 0xFFFF1234u)": 0x3FFF,
     "DEBURR_FIELD(DEBURR_MORPHOLOGICAL_CONFIG_LEAVE, 0xFCFFFFFFu)": 4,
     "DEBURR_IN(DEBURR_GEOMETRIC_SIZE_HEIGHT, 5)": 0x50000,
@@ -46,13 +45,13 @@ VALUES = {
 
 
 def compiles(compiler, header, values):
-    """The compiler's words, or nothing, on a program that holds the values against the macros."""
+    """Compiler output, empty on success, for a program that asserts the values of the macros."""
     checks = [f"typedef char check{i}[{name} == {value}u ? 1 : -1];"
               for i, (name, value) in enumerate(values.items())]
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder, "program.c" if compiler[1] == "-std=c99" else "program.cpp")
         pathlib.Path(folder, "registers.h").write_text(header)
-        # Twice: the second time it must vanish.
+        # Included twice, to test the include guard.
         source.write_text('#include "registers.h"\n#include "registers.h"\n' + "\n".join(checks)
                           + "\nint main(void) { return 0; }\n")
         done = subprocess.run([*compiler, "-Wall", "-Wextra", "-pedantic", "-Werror",
@@ -76,7 +75,7 @@ def main():
         if said := compiles(compiler, header, VALUES):
             print(said)
             wrong += 1
-        # A wrong value is seen.
+        # A wrong value is detected.
         for name, value in (next(iter(VALUES.items())), list(VALUES.items())[-1]):
             if not compiles(compiler, header, {name: value ^ 1}):
                 print(f"{compiler}: {name} == {value ^ 1:#x} was not noticed")

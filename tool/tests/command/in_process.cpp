@@ -87,7 +87,7 @@ std::string InProcess::printed(const std::string& line) {
   std::string text = testing::internal::GetCapturedStdout();
   std::istringstream errors(testing::internal::GetCapturedStderr());
   for (std::string error; std::getline(errors, error);) {
-    // A worker prints the lines of GoogleTest as well.
+    // A worker also prints GoogleTest's own lines.
     if (error.starts_with("Running main()") || error.starts_with("[==") || error.starts_with("[--"))
       continue;
     text += "! " + error + "\n";

@@ -27,8 +27,7 @@ class InProcess : public testing::Test {
   ~InProcess() override;
 
   // Everything that `deburr LINE` prints: standard output, the error stream with "! " before each
-  // line, and
-  // "= CODE" if the exit code is not 0. Words are those of a shell.
+  // line, and "= CODE" if the exit code is not 0. LINE is split as by a shell.
   std::string printed(const std::string& line);
   // The object that a command with --json prints.
   nlohmann::ordered_json json(const std::string& line);

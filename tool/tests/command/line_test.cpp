@@ -27,7 +27,7 @@ void run_nothing(const RunParameters& /*run*/, RunContext& /*context*/, tb::Resu
 constexpr const char* kKnown =
     "run, papers, train, params, compare, report, sweep, search, regress, completion, help";
 
-// tool/tests/negative/app_bad_input_test.py has more mistakes, of real engines.
+// tool/tests/negative/app_bad_input_test.py has more mistakes, with real engines.
 class WrongCommandLine : public InProcessTable {};
 
 TEST_P(WrongCommandLine, MessageNamesMistake) {

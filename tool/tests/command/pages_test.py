@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The reference pages of docs are what the program prints today, and docs/reference/command_line.md names every
-option of a run.
+"""The reference pages of docs match the program's output, and docs/reference/command_line.md names every option of a
+run.
 
-usage: pages_test.py DEBURR SOURCE [--write]     --write brings the pages up to date
-"""
+usage: pages_test.py DEBURR SOURCE [--write]     --write updates the pages"""
 import difflib
 import pathlib
 import re
@@ -36,7 +35,7 @@ def main():
         done = subprocess.run([deburr, "params", "--markdown", page], check=True,
                               capture_output=True, text=True)
         printed = done.stdout
-        # Noise of a library beside the page would become part of it.
+        # Messages of a library on the same stream would become part of the page.
         if not printed.startswith(f"# {page.capitalize()}\n\n") or done.stderr:
             print(f"{page}: something else than the page was printed:\n{printed[:400]}{done.stderr}")
             return 1

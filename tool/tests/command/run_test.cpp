@@ -52,7 +52,7 @@ void fill(tb::Result& r) {
 void run(const RunParameters& p, RunContext& context, tb::Result& r) {
   if (context.checking_only()) return;
   switch (p.seed) {
-    case 2:  // without what may be absent
+    case 2:  // without optional fields
       r.cycles = 1000;
       r.throughput = 0.5;
       r.throughput_unit = "pixel/clk";

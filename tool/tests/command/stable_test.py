@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What docs/reference/stability.md promises is as stable.txt has it: functions and constants of the C interface, keys of
-result.json, commands with their options, exit codes. More may have come; nothing may be gone or changed.
+"""The promises of docs/reference/stability.md hold as listed in stable.txt: functions and constants of the C
+interface, keys of result.json, commands with their options, exit codes. Additions are allowed; nothing may be
+removed or changed.
 
 usage: stable_test.py DEBURR HEADER SOURCE [--update]     HEADER: deburr_golden.h as a build makes it
-                                                          --update: adds what has come, and takes nothing away, but
-                                                          the keys of an older schema of result.json"""
+                                                          --update: adds new entries; removes only the keys of an
+                                                          older schema of result.json"""
 import pathlib
 import re
 import subprocess
@@ -29,14 +30,14 @@ def functions(header):
 
 
 def keys(page):
-    """Of the page of statistics: of every engine, and the files beside it are not promised."""
+    """Keys from the page of statistics, of every engine. Files other than result.json are not promised."""
     schema = re.search(r"`result\.json`, schema (\d+)", page)[1]
     table = page.split("\n## Every engine\n")[1].split("\n## ")[0]
     return [f"result.json {schema} {name} [{unit.strip()}]" for name, unit in KEY.findall(table)]
 
 
 def commands(manual):
-    """Of the manual page."""
+    """Commands and options from the manual page."""
     plain = manual.replace("\\-", "-")
     found = []
     parts = re.split(r"^\.SS ", plain, flags=re.M)
@@ -64,7 +65,7 @@ def updated(text, there):
 
 
 def injected(header, page, manual):
-    """What the promise forbids, and a word of what has to be missed."""
+    """Forbidden changes, each with a word that must then be reported missing."""
     return (("a function is gone", header.replace("int deburr_reset(deburr_golden* golden);", ""), page, manual),
             ("a parameter has another type", header.replace("uint32_t index, char* text", "uint64_t index, char* text"), page, manual),
             ("a constant has another value", header.replace("DEBURR_BUSY = 3", "DEBURR_BUSY = 6"), page, manual),

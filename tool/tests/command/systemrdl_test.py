@@ -1,22 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What `deburr params --systemrdl` prints is read back, by a reader of the part of SystemRDL 2.0 that it uses. It keeps
-the standard's rules for properties, bits and addresses. It says of some fields what the contract says, of those that
-parameters load their defaults, and the same as the C header (whose values c_header_test.py holds against the contract).
-What the hardware does is compared with it by tb/harness/register_suite.h.
+"""Reads back the output of `deburr params --systemrdl` with a parser for the part of SystemRDL 2.0 that it uses. The
+output obeys the standard's rules for properties, bits and addresses. Some fields are checked against the contract,
+fields loaded by parameters against the defaults, and all against the C header (whose values c_header_test.py
+checks against the contract). tb/harness/register_suite.h compares it with the hardware.
 
-usage: systemrdl_test.py DEBURR
-"""
+usage: systemrdl_test.py DEBURR"""
 import json
 import re
 import subprocess
 import sys
 
 TOKEN = re.compile(r'\s+|//[^\n]*|("(?:\\.|[^"\\])*"|\\?\w+(?:\'[hd]\w+)?|@|\+=|[{}\[\];:=])')
-# What the properties of a field come to.
+# The resulting properties of a field.
 ACCESS = {("rw", "r"): "RW", ("r", "w"): "RO", ("r", "na"): "RO", ("rw", "rw", "we"): "RWH", ("w", "r"): "WO",
           ("w", "r", "singlepulse"): "W1P", ("rw", "r", "hwset", "woclr"): "W1C"}
-# By hand, of the contract's pages: access, properties and reset value of fields.
+# By hand, from the contract's pages: access, properties and reset value of fields.
 CONTRACT = {
     "deburr_geometric.STATUS.idle": ({"sw": "r", "hw": "w"}, 1),
     "deburr_geometric.STATUS.frame_done": ({"sw": "rw", "hw": "r", "onwrite": "woclr", "hwset": "true"}, 0),
@@ -79,7 +78,7 @@ class Reader:
     def property(self):
         if self.words[self.at] == "default":
             self.take()
-        key, value = self.take(), "true"  # which is what one without a value has
+        key, value = self.take(), "true"  # the standard's value of a property given without one
         if self.take("=", ";") == "=":
             value = self.name()
             self.take(";")
@@ -187,7 +186,7 @@ class Reader:
 
 
 def broken_rules(maps):
-    """Of the standard, SystemRDL 2.0 (its sections in brackets)."""
+    """Rules of the standard, SystemRDL 2.0 (its sections in brackets)."""
     for register, info in ((f"{prefix}.{name}", info) for prefix, registers in maps.items()
                            for name, info in registers.items() if name != "repeated"):
         taken = 0
@@ -248,7 +247,7 @@ def broken_resets(maps, defaults):
                 keys = [(prefix, stem), (prefix, f"edges_{stem}")]
                 default = next((defaults[key] for key in keys if key in defaults), None)
                 if default is None:
-                    continue  # made of several: area_table, area_learned
+                    continue  # made of several parameters: area_table, area_learned
                 tried += 1
                 if field["reset"] != field["codes"].get(default, default):
                     yield f"{prefix}.{register}.{name}: reset {field['reset']}, the parameter's default is {default}"
@@ -257,7 +256,7 @@ def broken_resets(maps, defaults):
 
 
 def macros(maps):
-    """What the C header would define, and the access that its comments tell."""
+    """The entries that the C header defines, and the access in its comments."""
     values, accesses = {}, {}
     for prefix, registers in maps.items():
         prefix = prefix.upper()
@@ -272,7 +271,7 @@ def macros(maps):
                 values[f"{full}_RESET"] = register["reset"]
             for field, bits in register["fields"].items():
                 if field == "value" and bits["mask"] == 0xFFFFFFFF:
-                    continue  # a register of one number, which has no field there
+                    continue  # a register with one number, which has no field in the header
                 stem = f"{full}_{field.upper()}"
                 values |= {f"{stem}_MASK": bits["mask"], f"{stem}_SHIFT": bits["shift"]}
                 values |= {f"{stem}_{code.upper()}": value for code, value in bits["codes"].items()}
@@ -309,8 +308,8 @@ def main():
     wrong = differences(text, header, defaults)
     if len(header_macros(header)[0]) < 300:
         wrong.append("the header is not all there")
-    # Faults that must be seen: an offset, a bit, a reset value, a code, an access, side effects, a lost register, a
-    # stride, and what the standard forbids.
+    # Faults that must be detected: an offset, a bit, a reset value, a code, an access, side effects, a lost register,
+    # a stride, and constructs that the standard forbids.
     for before, after in ((" ID @ 0x000;", " ID @ 0x0FC;"), ("crease[3:2]", "crease[4:3]"),
                           ("32'hDEB00005", "32'hDEB00002"), (" paper = 2'd1;", " paper = 2'd2;"),
                           ("onwrite = woclr;", ""), (" hwset;", ""), ("steps[13:9] = 5'h8", "steps[13:9] = 5'h0"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What an engine's hardware cannot be built with is rejected alike wherever it is asked for: by the
-// constructor, a resolved configuration (`run`, `--show-config`), the plan of a sweep and a search.
+// Hardware that an engine cannot be built with is rejected in the same way at every entry point:
+// the constructor, a resolved configuration (`run`, `--show-config`), the plan of a sweep, and a
+// search.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -35,10 +36,10 @@
 
 namespace deburr::tool {
 
-// What a user gives, beside defaults, and the rule that it breaks: its first parameter, and words
-// of it.
+// Settings of a user that differ from the defaults, and the rule that they break: its first
+// parameter and part of its message.
 struct Unbuildable {
-  std::vector<std::pair<std::string, std::string>> settings;  // names without the engine's
+  std::vector<std::pair<std::string, std::string>> settings;  // names without the engine's prefix
   std::string about, words;
 };
 
@@ -51,7 +52,7 @@ inline std::string text_of_error(const std::function<void()>& work) {
   return "taken";
 }
 
-// A visitor that sets one of the integers to an end of its range, or to the value beside it.
+// A visitor that sets one integer to an end of its range, or to the next value outside it.
 class EndSetter {
  public:
   EndSetter(std::size_t number, bool above, bool beside)
@@ -68,7 +69,7 @@ class EndSetter {
   void choice(std::string_view, Enum&, const std::array<std::string_view, N>&, std::string_view) {}
   void boolean(std::string_view, bool&, std::string_view) {}
 
-  const std::string& name() const { return name_; }  // empty: there are not so many integers
+  const std::string& name() const { return name_; }  // empty: there are fewer integers
   const std::string& range() const { return range_; }
   std::int32_t value() const { return value_; }
 
@@ -80,7 +81,7 @@ class EndSetter {
   std::int32_t value_ = 0;
 };
 
-// Any value of each parameter: ends of its range, powers of two, anything between.
+// Any value of each parameter: ends of its range, powers of two, random values.
 class AnyValue {
  public:
   explicit AnyValue(tb::Random& random) : random_(random) {}
@@ -127,7 +128,7 @@ class BuildChecks {
   BuildChecks(std::string engine, std::vector<Unbuildable> table)
       : engine_(std::move(engine)), table_(std::move(table)) {}
 
-  // Every rule has a row of the table that breaks it and no other.
+  // Every rule has a row of the table that breaks only this rule.
   void expect_a_row_a_rule() const {
     std::vector<std::string> missing;
     for (const spec::BuildRule<Parameters>& rule : build_rules(Parameters()))
@@ -150,7 +151,8 @@ class BuildChecks {
     }
   }
 
-  // A value beside the range of each integer. On the command line the range's words come first.
+  // A value just outside the range of each integer. On the command line, the message about the
+  // range comes first.
   void expect_ranges() const {
     for_each_end(true, [&](const Parameters& p, const EndSetter& set) {
       const std::string outside = " is outside " + set.range();
@@ -162,21 +164,21 @@ class BuildChecks {
     });
   }
 
-  // Both ends of each integer's range, all else at its default: what is shown can be built, or the
-  // same rule rejects it everywhere.
+  // Both ends of each integer's range, with all other parameters at their defaults: either the
+  // hardware can be built, or the same rule rejects it at every entry point.
   void expect_ends() const {
     std::size_t taken = 0, rejected = 0;
     for_each_end(false, [&](const Parameters& p, const EndSetter& set) {
       const std::string text = text_of_error([&] { check_build(p); });
       EXPECT_EQ(built(p), text) << set.name() << " = " << set.value();
       ++(text == "taken" ? taken : rejected);
-      if (text == "taken") return;  // of no use without another parameter, perhaps
+      if (text == "taken") return;  // may have no effect without another parameter
       EXPECT_EQ(text_of_error([&] { resolve(given(set)); }), text);
     });
     EXPECT_GT(taken, rejected);
   }
 
-  // No other reason keeps hardware from being built: neither a memory's shape nor a check inside.
+  // No other reason prevents a build: neither a memory's shape nor an internal check.
   void expect_all_else_is_built(std::uint64_t draws) const {
     tb::Random random(1, engine_);
     std::size_t built_ones = 0, rejected = 0;
@@ -196,7 +198,7 @@ class BuildChecks {
   }
 
  private:
-  // Calls `visit` with the defaults but for one integer at an end of its range, or beside it.
+  // Calls `visit` with the defaults, with one integer at an end of its range or just outside it.
   void for_each_end(bool beside,
                     const std::function<void(const Parameters&, const EndSetter&)>& visit) const {
     for (std::size_t number = 0;; ++number) {
@@ -225,7 +227,7 @@ class BuildChecks {
     return p;
   }
 
-  // What a resolved configuration of the engine has beside what is given.
+  // Settings of the resolved configuration of the engine that were not given.
   std::vector<std::pair<std::string, std::string>> implied_by_preset(const Unbuildable& row) const {
     const std::unique_ptr<Engine> made = engine_named(engine_);
     BoundEngine bound(*made);
@@ -257,8 +259,8 @@ class BuildChecks {
                                            [&](const auto& each) { return !each.holds(p); }) == 1;
   }
 
-  // What the constructor says. In a process of its own: a model that throws in its midst leaves
-  // SystemC's hierarchy torn.
+  // The constructor's message. It runs in a separate process: a model that throws halfway leaves
+  // SystemC's hierarchy in an invalid state.
   std::string built(const Parameters& p) const {
     return tb::forked_text([&]() -> std::string {
       try {

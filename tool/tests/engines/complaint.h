@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an engine says of parameters without an effect.
+// Messages of an engine about parameters without an effect.
 #pragma once
 
 #include <string>
@@ -12,10 +12,11 @@
 
 namespace deburr::tool {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;  // names without the engine's
+using Settings =
+    std::vector<std::pair<std::string, std::string>>;  // names without the engine's prefix
 
-// The reason of the first complaint about these, or nothing; `reject` is called with the set and
-// the values of an engine's parameters.
+// The reason in the first message about these settings, or an empty string. `reject` is called with
+// the parameter set and the values of the engine's parameters.
 template <class Parameters, class Reject>
 std::string complaint(const std::string& engine, const Settings& settings, Reject&& reject) {
   static constexpr std::string_view kBefore = "has no effect: ";

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Bad input to the command: each kind has its exit code and says what is wrong. See --help."""
+"""Bad input to the command: each kind has its exit code and a message that names the error. See --help."""
 import hashlib
 import json
 import os
@@ -22,59 +22,59 @@ class TextureFiles(CommandTest):
     def texture(self, code, name, content, says=()):
         return self.run_texture(code, "--texture", self.write(name, content), says=says)
 
-    def test_missing(self):
+    def test_rejects_missing_image(self):
         self.run_texture(5, "--texture", self.path("missing.png"), says="missing.png")
 
-    def test_directory(self):
+    def test_rejects_folder_as_image(self):
         os.mkdir(self.path("folder.png"))
         self.run_texture(5, "--texture", self.path("folder.png"), says="folder.png")
 
-    def test_empty(self):
+    def test_rejects_empty_image(self):
         self.texture(5, "empty.png", b"", says="empty.png")
 
-    def test_truncated(self):
+    def test_rejects_truncated_image(self):
         whole = png(64, 64)
         self.texture(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
 
-    def test_corrupt(self):
+    def test_rejects_corrupt_image(self):
         broken = bytearray(png(64, 64))
         for i in range(45, len(broken) - 12):
             broken[i] ^= 0x5A
         self.texture(5, "corrupt.png", bytes(broken), says="corrupt.png")
 
-    def test_not_an_image(self):
+    def test_rejects_text_as_image(self):
         self.texture(5, "text.png", b"this is no image at all\n" * 10, says="text.png")
 
-    def test_huge_header(self):
+    def test_rejects_huge_image_header(self):
         self.texture(5, "huge.png", png(4, 4, declared=(60000, 60000)), says="huge.png")
 
-    def test_larger_than_the_unit_takes(self):
+    def test_rejects_image_larger_than_the_unit_takes(self):
         self.texture(5, "wide.png", png(4097, 2), says="4097")
 
-    def test_truncated_tiff(self):
+    def test_rejects_truncated_tiff(self):
         whole = pages_tiff(64, 64, 1)
         for part in (0.3, 0.6, 0.99):
             self.texture(5, "truncated.tif", whole[:int(part * len(whole))], says="truncated.tif")
 
-    def test_16_bit(self):
+    def test_accepts_16_bit_image(self):
         self.texture(0, "deep.png", png(16, 16, bits=16), says="PASS")
 
-    def test_grey(self):
+    def test_accepts_grey_image(self):
         self.texture(0, "grey.png", png(16, 16, channels=1), says="PASS")
 
-    def test_grey_alpha(self):
+    def test_accepts_grey_alpha_image(self):
         self.texture(0, "grey_alpha.png", png(16, 16, channels=2), says="PASS")
 
-    def test_float(self):
+    def test_accepts_float_image(self):
         self.texture(0, "float.tif", float_tiff(16, 16), says="PASS")
 
-    def test_float_not_a_number(self):
+    def test_accepts_nan_texels(self):
         self.texture(0, "nan.tif", float_tiff(16, 16, float("nan")), says="PASS")
 
-    def test_not_a_power_of_two(self):
+    def test_accepts_image_with_odd_size(self):
         self.texture(0, "odd.png", png(13, 7), says="PASS")
 
-    def test_one_texel(self):
+    def test_accepts_one_texel(self):
         self.texture(0, "one.png", png(1, 1), says="PASS")
 
 
@@ -84,33 +84,33 @@ class MeshFiles(CommandTest):
     def mesh(self, code, name, content, says=()):
         return self.run_texture(code, "--in", self.write(name, content), says=says)
 
-    def test_missing(self):
+    def test_rejects_missing_mesh(self):
         self.run_texture(5, "--in", self.path("missing.obj"), says="missing.obj")
 
-    def test_empty(self):
+    def test_rejects_empty_mesh(self):
         self.mesh(5, "empty.obj", b"", says="empty.obj")
 
-    def test_no_triangles(self):
+    def test_rejects_mesh_without_triangles(self):
         self.mesh(5, "points.obj", b"v 0 0 0\nv 1 0 0\n", says="points.obj")
 
-    def test_index_out_of_range(self):
+    def test_rejects_index_out_of_range(self):
         self.mesh(5, "range.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", says="range.obj")
 
-    def test_not_finite(self):
+    def test_rejects_vertex_that_is_not_finite(self):
         self.mesh(5, "nan.obj", b"v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="nan.obj")
 
-    def test_truncated_glb(self):
+    def test_rejects_truncated_glb(self):
         self.mesh(5, "short.glb", b"glTF\x02\0\0\0\xff\xff\0\0", says="short.glb")
 
-    def test_notes_are_shown(self):
+    def test_notes_are_printed(self):
         self.mesh(0, "cut.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
                   says="may have been truncated")
         self.assertIn("may have been truncated", self.notes())
 
-    def test_one_triangle(self):
+    def test_accepts_one_triangle(self):
         self.mesh(0, "good.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", says="PASS")
 
-    def test_nothing_is_drawn(self):
+    def test_rejects_scene_that_draws_nothing(self):
         small = self.write("degenerate.obj", b"v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nv 5 5 5\n"
                                              b"f 1 2 3\nf 4 4 4\n")
         for engine in engines():
@@ -120,12 +120,12 @@ class MeshFiles(CommandTest):
             self.run_texture(2, *arguments, says=["draws nothing", "scene.eye"])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_unknown_scene(self):
+    def test_unknown_scene_suggests_similar_name(self):
         self.run_texture(2, "--scene", "plain", says="plane")
 
 
 class Notes(CommandTest):
-    """What had to be decided about an input reaches the result and the report of every engine."""
+    """Adjustments of an input are noted in the result and the report of every engine."""
 
     def of_texture(self, name, content, says):
         for engine in ("texture", "frame"):
@@ -144,20 +144,20 @@ class Notes(CommandTest):
         with open(self.path("out/report.html")) as file:
             self.assertIn(says, file.read())
 
-    def test_16_bit(self):
+    def test_notes_16_bit_image(self):
         self.of_texture("deep.png", png(16, 16, bits=16), "uint16 values scaled to 8 bits")
         self.of_image("deep.png", png(16, 16, bits=16), "uint16 values scaled to 8 bits")
 
-    def test_grey(self):
+    def test_notes_grey_image(self):
         self.of_texture("grey.png", png(16, 16, channels=1), "grey copied")
         self.of_image("grey.png", png(16, 16, channels=1), "grey copied")
 
-    def test_not_a_number(self):
+    def test_notes_nan_values(self):
         says = "768 of 768 values NaN made 0, the first at (0, 0)"
         self.of_texture("nan.tif", float_tiff(16, 16, float("nan")), says)
         self.of_image("nan.tif", float_tiff(16, 16, float("nan")), says)
 
-    def test_clamped(self):
+    def test_notes_clamped_values(self):
         says = "768 of 768 values clamped to [0, 1], the first at (0, 0)"
         self.of_texture("bright.tif", float_tiff(16, 16, 1.5), says)
         self.of_image("bright.tif", float_tiff(16, 16, 1.5), says)
@@ -165,22 +165,22 @@ class Notes(CommandTest):
         self.assertNotIn("clamped", self.notes())
         self.assertNotIn("NaN", self.notes())
 
-    def test_first_of_several(self):
+    def test_notes_first_of_several_pictures(self):
         self.of_texture("pages.tif", pages_tiff(16, 16, 3), "the first of several pictures")
         self.of_image("pages.tif", pages_tiff(16, 16, 3), "the first of several pictures")
 
-    def test_no_texture(self):
+    def test_notes_missing_texture(self):
         mesh = self.write("bare.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         for engine in ("texture", "frame"):
             self.expect(0, "run", engine, "--in", mesh, "--size", "16x16", "--out",
                         self.path("out"), says="has no texture")
             self.noted("bare.obj", "has no texture")
 
-    def test_quiet(self):
+    def test_quiet_run_keeps_notes_in_result(self):
         self.run_texture(0, "--texture", self.write("grey.png", png(16, 16, channels=1)), "--quiet")
         self.assertIn("grey copied", str(self.notes()))
 
-    def test_nothing_to_note(self):
+    def test_result_without_notes_has_no_key(self):
         self.run_texture(0)
         self.assertNotIn("notes", self.result())
 
@@ -191,41 +191,41 @@ class Configuration(CommandTest):
     def config(self, code, text, says=()):
         return self.run_texture(code, "--config", self.write("run.yaml", text), says=says)
 
-    def test_good(self):
+    def test_accepts_configuration_file(self):
         self.config(0, "texture:\n  cache: {bytes: 8192}\nsampler.mode: linear\n", says="PASS")
         with open(self.path("out/manifest.json")) as file:
             configuration = json.load(file)["configuration"]
         self.assertEqual(configuration["texture.cache.bytes"], 8192)
         self.assertEqual(configuration["sampler.mode"], "linear")
 
-    def test_unknown_key(self):
+    def test_unknown_key_names_line_and_suggestion(self):
         self.config(2, "texture:\n  cache.bites: 8192\n",
                     says=["run.yaml:2", "texture.cache.bytes"])
 
-    def test_out_of_range(self):
+    def test_rejects_value_out_of_range(self):
         self.config(2, "texture.cache.ways: 64\n", says=["run.yaml:1", "1..8"])
 
-    def test_wrong_type(self):
+    def test_rejects_value_of_wrong_type(self):
         self.config(2, "texture.cache.ways: many\n", says=["run.yaml:1", "integer"])
 
-    def test_duplicate(self):
+    def test_rejects_duplicate_key(self):
         self.config(2, "run.seed: 1\nrun.seed: 2\n", says=["run.yaml:2", "given twice"])
 
-    def test_broken_yaml(self):
+    def test_rejects_invalid_yaml(self):
         self.config(2, "[\n", says="not valid YAML")
 
-    def test_binary(self):
+    def test_rejects_binary_file(self):
         self.config(2, bytes(range(256)), says="run.yaml")
 
-    def test_missing_file(self):
+    def test_rejects_missing_configuration(self):
         self.run_texture(5, "--config", self.path("none.yaml"), says="none.yaml")
 
     def manifest(self):
         with open(self.path("out/manifest.json")) as file:
             return json.load(file)
 
-    def test_a_manifest(self):
-        """It gives what its run was given; presets and options count as they did."""
+    def test_manifest_repeats_the_run(self):
+        """A manifest sets what its run was given; presets and options take effect as before."""
         self.write("t.png", png(8, 8))
         self.run_texture(0, "--texture", "t.png", "--preset", "paper", "--set", "texture.cache.ways=2", "--seed", "7")
         first = self.manifest()
@@ -241,7 +241,7 @@ class Configuration(CommandTest):
         for key in ("configuration", "golden", "seed"):
             self.assertEqual(again[key], first[key])
         self.assertEqual([p["from"] for p in again["parameters"]], [p["from"] for p in first["parameters"]])
-        # From another folder the files are where they were; another preset can be chosen.
+        # From another folder, file names still refer to the same files; another preset can be selected.
         os.mkdir(self.path("elsewhere"))
         self.expect(0, *command, "--preset", "deburr", cwd=self.path("elsewhere"))
         again = self.manifest()
@@ -252,7 +252,7 @@ class Configuration(CommandTest):
                     says="first/manifest.json:4: this manifest is of a run of 'texture', and not of 'frame'")
         self.expect(2, "run", "texture", *config, "--out", self.path("first"), says="its results would replace it")
 
-    def test_a_manifest_of_other_defaults(self):
+    def test_manifest_of_other_defaults_is_applied(self):
         self.run_texture(0)
         manifest = self.manifest()
         manifest["configuration"].update({"memory.latency": 77, "no.more": 1})
@@ -264,7 +264,7 @@ class Configuration(CommandTest):
         self.run_texture(0, "--config", file)
         self.assertEqual(self.manifest()["configuration"]["memory.latency"], 77)
 
-    def test_the_standard_input(self):
+    def test_configuration_from_standard_input(self):
         text = "texture:\n  cache: {bytes: 8192}\t# it's 8 \\n\nsampler.mode: linear\n"
         done = self.run_texture(1, "--config", "/dev/stdin", "--fault", "flip-bit", input=text)
         repro = next(line for line in done.stdout.splitlines() if line.startswith("REPRO: "))
@@ -282,7 +282,7 @@ class Configuration(CommandTest):
         with open(self.write("run.yaml", text)) as file:
             self.run_texture(0, "--config", "/dev/stdin", stdin=file)
 
-    def test_trilinear(self):
+    def test_trilinear_is_rejected_with_advice(self):
         for engine in ("texture", "frame"):
             for given in (("--mode", "trilinear"), ("--set", "sampler.mode=trilinear")):
                 done = self.run_command("run", engine, *given, "--size", "16x16", "--show-config")
@@ -291,35 +291,35 @@ class Configuration(CommandTest):
         self.config(0, "sampler.mode: trilinear\n")
         self.assertEqual(self.manifest()["configuration"]["sampler.mode"], "linear_mipmap_linear")
 
-    def test_set_unknown(self):
+    def test_unknown_parameter_is_suggested(self):
         self.run_texture(2, "--set", "texture.fotprint=half", says=["--set", "texture.footprint"])
 
-    def test_set_out_of_range(self):
+    def test_parameter_out_of_range_is_rejected(self):
         self.run_texture(2, "--set", "memory.latency=0", says="1..100000")
 
-    def test_set_without_value(self):
+    def test_parameter_without_value_is_rejected(self):
         self.run_texture(2, "--set", "memory.latency", says="name=value")
 
-    def test_contradiction(self):
+    def test_contradicting_options_are_rejected(self):
         self.run_texture(2, "--mode", "linear", "--set", "sampler.mode=nearest", says="contradicts")
 
-    def test_cache_not_a_power_of_two(self):
+    def test_cache_size_must_be_power_of_two(self):
         self.run_texture(2, "--set", "texture.cache.bytes=10000", says="power of two")
 
-    def test_cache_smaller_than_a_set(self):
+    def test_cache_must_hold_one_set(self):
         self.run_texture(2, "--set", "texture.cache.bytes=256",
                          "--set", "texture.cache.ways=8", says=["cache.bytes = 256", "one set"])
 
-    def test_size(self):
+    def test_rejects_invalid_size(self):
         for size in ("0x4", "4", "4x", "9000x4", "-1x4"):
             self.expect(2, "run", "texture", "--size", size, "--out", self.path("out"))
 
-    def test_camera(self):
+    def test_rejects_invalid_camera(self):
         self.run_texture(2, "--set", "scene.eye=1,2", says="x,y,z")
         self.run_texture(2, "--set", "scene.eye=1,2,3", "--set", "scene.target=1,2,3",
                          says="same point")
 
-    def test_unknown_option_and_command(self):
+    def test_rejects_unknown_option_and_command(self):
         self.expect(2, "run", "texture", "--aniso", "3", says="1, 2, 4, 8, 16")
         self.expect(2, "run", "texture", "--colour", "red",
                     says=["'--colour'", "deburr run texture --help"])
@@ -328,7 +328,7 @@ class Configuration(CommandTest):
         self.expect(2, says=["deburr what?", "compare"])
         self.expect(2, "run", says=["deburr run what?", "morphological"])
 
-    def test_typing_errors_of_options_and_commands(self):
+    def test_typing_errors_are_corrected(self):
         self.expect(2, "run", "morphlogical", "--size", "8x8", says="did you mean 'morphological'?")
         self.expect(2, "rum", "texture", says="did you mean 'run'?")
         self.expect(2, "run", "morphological", "--presett", "mlaa",
@@ -337,8 +337,8 @@ class Configuration(CommandTest):
                     says="did you mean '--preset'?")
         self.expect(2, "compare", "a", "b", "--psnr", "1", says="'--psnr-db'")
 
-    def test_an_option_is_no_value(self):
-        """Of another option, unless it is written as one."""
+    def test_option_is_not_taken_as_value(self):
+        """An option is not the value of another option, unless it is written as NAME=VALUE."""
         self.write("one.yaml", "engine: texture\naxes: {memory.latency: [50]}\n")
         for command in (("run", "texture", "--size", "8x8"), ("sweep", "one.yaml", "plan"), ("papers",)):
             for word in ("--quiet", "--out=x"):
@@ -348,45 +348,45 @@ class Configuration(CommandTest):
         for name in ("--out=--quiet", "--out=./--wait"):
             self.expect(0, "run", "texture", "--size", "8x8", name)
             self.assertTrue(os.path.exists(self.path(f"{name.removeprefix('--out=')}/result.json")))
-        self.expect(0, "run", "texture", "--size", "8x8", "--out", "--other")  # the name of no option
+        self.expect(0, "run", "texture", "--size", "8x8", "--out", "--other")  # not an option's name
 
-    def test_faults_are_in_the_help(self):
+    def test_help_describes_faults(self):
         for engine in engines():
             self.assertIn("--fault", self.run_command("run", engine, "--help").stdout)
 
-    def test_papers_by_name(self):
+    def test_unknown_paper_lists_known_ones(self):
         for option in ((), ("--only",)):
             self.expect(2, "papers", *option, "999", says="no paper '999' here: known are 000")
 
-    def test_trace_of_nothing(self):
+    def test_trace_pattern_without_match_is_rejected(self):
         self.run_texture(2, "--trace", "texture.nothing*",
                          says=["texture.nothing*", "texture.texels", "texture.texture_cache.tag_stage"])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_a_window_that_caught_nothing(self):
+    def test_trace_interval_after_the_run_is_rejected(self):
         self.run_texture(2, "--trace", "*", "--trace-from", "900000", "--trace-to", "900100",
                          says=["run.trace_from = 900000", "nothing was traced"])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_empty_names(self):
+    def test_rejects_empty_names(self):
         self.expect(2, "run", "texture", "--config", "", says="--config: expected a name")
         self.expect(2, "run", "texture", "--out", "", says="--out: expected a name")
         self.expect(2, "papers", "--out", "", says="--out")
 
-    def test_empty_range_of_levels(self):
+    def test_rejects_empty_range_of_levels(self):
         for engine in ("texture", "frame"):
             self.expect(2, "run", engine, "--set", "sampler.min_lod=512", "--set",
                         "sampler.max_lod=511", "--out", self.path("out"),
                         says=["sampler.min_lod = 512", "sampler.max_lod = 511"])
 
-    def test_hexadecimal_addresses(self):
-        """As errors print them."""
+    def test_accepts_hexadecimal_addresses(self):
+        """In the notation of error messages."""
         self.run_texture(3, "--set", "memory.error_address=0x40", "--set", "memory.error_bytes=0x4000000")
         with open(self.path("out/manifest.json")) as file:
             configuration = json.load(file)["configuration"]
         self.assertEqual((configuration["memory.error_address"], configuration["memory.error_bytes"]), (64, 4 << 24))
 
-    def test_errors_that_nobody_meets(self):
+    def test_memory_errors_never_accessed_are_rejected(self):
         self.run_texture(2, "--set", "memory.error_address=2147483584",
                          says=["memory.error_address", "from 0x7fffffc0 to 0x7fffffff, so no access failed"])
         self.expect(2, "run", "morphological", "--size", "32x32", "--storage", "memory", "--set",
@@ -394,7 +394,7 @@ class Configuration(CommandTest):
                     says="no access failed")
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_memory_beyond_the_watchdog(self):
+    def test_rejects_memory_slower_than_watchdog(self):
         self.run_texture(2, "--set", "memory.latency=20000",
                          says=["memory.latency = 20000", "run.watchdog_cycles=40000"])
         self.run_texture(2, "--set", "memory.latency_max=30000", says="memory.latency_max = 30000")
@@ -403,8 +403,8 @@ class Configuration(CommandTest):
         self.expect(0, "run", "texture", "--size", "2x2", "--set", "memory.latency=20000", "--set",
                     "run.watchdog_cycles=40000", "--out", self.path("out"))
 
-    def test_show_config_checks_as_a_run_does(self):
-        """What a run would reject is rejected; what it would do is not done."""
+    def test_show_config_checks_like_a_run(self):
+        """Configurations that a run rejects are rejected; nothing is run or written."""
         for engine, *arguments in (
                 ("texture", "--fault", "gremlin"), ("texture", "--trace", "nothing*"),
                 ("texture", "--set", "texture.cache.bytes=10000"),
@@ -419,29 +419,29 @@ class Configuration(CommandTest):
             self.assertIn("run.trace", done.stdout.replace(": {", ".").replace("run:\n  ", "run."))
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_empty_window_of_a_trace(self):
+    def test_rejects_empty_trace_interval(self):
         self.run_texture(2, "--trace", "*", "--trace-from", "100", "--trace-to", "100",
                          says=["run.trace_from = 100", "--trace-to"])
         self.run_texture(2, "--trace", "*", "--trace-from", "5000", says="above 5000")
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_trace(self):
+    def test_trace_holds_clock_cycle_and_link(self):
         self.run_texture(0, "--trace", "texture.texels", "--trace-to", "50", says="PASS")
         with open(self.path("out/trace.vcd")) as file:
             wave = file.read()
-        # One scope holds all: the clock, the number of its cycle, and the link as a scope of its own.
+        # One scope holds everything: the clock, the cycle number, and the link in a nested scope.
         self.assertRegex(wave, r"(?s)^\$comment.*?\$scope module deburr \$end\n\$var wire 1 \S+ clk \$end")
         self.assertEqual(wave.count("$scope module"), 3, "deburr.texture.texels")
         for name in ("cycle", "occupancy", "push", "pop"):
             self.assertRegex(wave, rf"\$var wire \d+ \S+ {name} ")
 
-    def test_nothing_is_written_before_the_configuration_is_right(self):
+    def test_writes_nothing_before_configuration_is_valid(self):
         self.run_texture(2, "--set", "texture.fotprint=half")
         self.assertFalse(os.path.exists(self.path("out")))
 
 
 class Output(CommandTest):
-    """Where results cannot be left."""
+    """Output locations that cannot be written."""
 
     def no_remains(self):
         names = os.listdir(self.path("out")) if os.path.isdir(self.path("out")) else []
@@ -455,33 +455,33 @@ class Output(CommandTest):
                 with open(self.path("out/" + name)) as file:
                     json.load(file)
 
-    def test_a_file_is_in_the_way(self):
+    def test_rejects_file_as_output_folder(self):
         self.write("out", "in the way")
         self.run_texture(5, says="out")
 
-    def test_below_a_file(self):
+    def test_rejects_output_below_a_file(self):
         self.write("file", "in the way")
         self.expect(5, "run", "texture", "--size", "8x8", "--out", self.path("file/out"))
 
     @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
-    def test_read_only(self):
+    def test_rejects_read_only_folder(self):
         os.mkdir(self.path("out"), 0o555)
         self.run_texture(5, says="out")
 
     def limited(self, size):
         return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
-    def test_no_room_at_all_is_found_before_the_simulation(self):
+    def test_full_disk_is_found_before_the_simulation(self):
         done = self.run_texture(5, preexec_fn=self.limited(0))
         self.assertNotIn("cycles", done.stdout)
         self.no_remains()
 
-    def test_no_room_for_the_report(self):
+    def test_reports_no_room_for_the_report(self):
         self.run_texture(5, says="report.html", preexec_fn=self.limited(100_000))
         self.no_remains()
 
-    def test_full_disk(self):
-        """A real file system with 96 KB, where the kernel lets us make one."""
+    def test_full_disk_leaves_no_partial_results(self):
+        """A real file system of 96 KB, if the kernel allows it."""
         mount = f"mount -t tmpfs -o size=96k none {self.path('disk')}"
         os.mkdir(self.path("disk"))
         probe = subprocess.run(["unshare", "-rm", "sh", "-c", mount], capture_output=True)
@@ -497,8 +497,8 @@ class Output(CommandTest):
         names = done.stdout[done.stdout.index("RESULT: "):].splitlines()[1:]
         self.assertEqual(names, [], "all, or nothing")
 
-    def test_no_room_for_the_wave(self):
-        """Where the limit strikes: in the wave, at its end, in the pictures behind it."""
+    def test_reports_no_room_for_the_wave(self):
+        """The limit is reached in the wave, at its end, and in the pictures after it."""
         for size in (1_000, 100_000, 300_000):
             done = self.run_texture(5, "--trace", "*", preexec_fn=self.limited(size),
                                     says="File too large")
@@ -507,7 +507,7 @@ class Output(CommandTest):
 
 
 class EarlierResults(CommandTest):
-    """A run replaces an earlier run's results and nothing else, and not before it can begin."""
+    """A run replaces only an earlier run's results, and only once it can start."""
 
     def setUp(self):
         super().setUp()
@@ -519,7 +519,7 @@ class EarlierResults(CommandTest):
         return {name: os.stat(self.path("out/" + name)).st_mtime_ns
                 for name in os.listdir(self.path("out"))}
 
-    def test_stay_when_the_run_cannot_begin(self):
+    def test_earlier_results_stay_if_the_run_cannot_start(self):
         self.run_texture(5, "--texture", self.path("none.png"))
         self.run_texture(5, "--in", self.path("none.obj"))
         self.run_texture(2, "--fault", "gremlin")
@@ -532,7 +532,7 @@ class EarlierResults(CommandTest):
                     self.path("out"))
         self.assertEqual(self.contents(), self.before)
 
-    def test_are_not_read_and_replaced(self):
+    def test_run_does_not_replace_its_input(self):
         picture = self.path("out/before.png")
         self.run_texture(2, "--texture", picture, says=["before.png", "--out"])
         self.expect(2, "run", "morphological", "--in", "before.png", "--out", ".",
@@ -544,7 +544,7 @@ class EarlierResults(CommandTest):
         self.assertEqual(self.contents(), self.before)
         self.expect(0, "run", "morphological", "--in", picture, "--out", self.path("other"))
 
-    def test_files_of_others_stay(self):
+    def test_foreign_files_stay(self):
         os.mkdir(self.path("mine"))
         self.write("mine/before.png", b"mine")
         self.write("mine/trace.vcd", b"mine")
@@ -556,24 +556,24 @@ class EarlierResults(CommandTest):
         with open(self.path("mine/trace.vcd")) as file:
             self.assertEqual(file.read(), "mine")
 
-    def test_go_when_the_run_begins(self):
+    def test_earlier_results_go_when_the_run_starts(self):
         self.run_texture(0, "--check", "none")
         self.assertNotIn("trace.vcd", self.contents())
         self.assertNotIn("golden.png", self.contents())
 
 
 class StandardOutput(CommandTest):
-    """What was printed must have arrived."""
+    """A failed write to the standard output is an error."""
 
-    def test_full(self):
+    def test_full_output_is_an_error(self):
         for arguments in (["--help"], ["params", "texture"], ["run", "texture", "--help"]):
             with open("/dev/full", "w") as full:
                 done = subprocess.run([DEBURR, *arguments], stdout=full, stderr=subprocess.PIPE,
                                       text=True, check=False)
             self.assertEqual(done.returncode, 5, f"{arguments}: {done.stderr}")
 
-    def test_closed(self):
-        """No file of the results takes the place of a stream that is closed."""
+    def test_closed_streams_are_handled(self):
+        """No result file gets the file descriptor of a closed stream."""
         command = f"'{DEBURR}' run texture --size 16x16 --out '{self.path('out')}'"
         for closed, code in ((">&-", 5), ("2>&-", 0), ("<&-", 0), ("<&- >&- 2>&-", 5)):
             done = subprocess.run(["bash", "-c", f"{command} {closed}"], capture_output=True, text=True, check=False)
@@ -586,7 +586,7 @@ class StandardOutput(CommandTest):
                     self.assertNotIn(b"RESULT: ", file.read(), f"{closed}: {name}")
             shutil.rmtree(self.path("out"))
 
-    def test_words_that_are_not_utf8(self):
+    def test_names_that_are_not_utf8_are_rejected(self):
         for more in ([], ["--json"]):
             done = subprocess.run([DEBURR, "run", "texture", "--size", "16x16", "--out", b"q\xff", *more],
                                   cwd=self.directory, capture_output=True, check=False)
@@ -598,13 +598,13 @@ class StandardOutput(CommandTest):
 
 
 class Interruption(CommandTest):
-    """Ctrl-C keeps what is finished."""
+    """Ctrl-C keeps finished results."""
 
-    def test_ctrl_c(self):
+    def test_ctrl_c_ends_a_run(self):
         process = subprocess.Popen([DEBURR, "run", "texture", "--size", "2048x2048", "--out",
                                     self.path("out")], text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        # The simulation has begun when the first progress line is there.
+        # The simulation has begun when the first progress line is printed.
         line = process.stderr.readline()
         self.assertIn("texture", line)
         process.send_signal(signal.SIGINT)
@@ -620,8 +620,8 @@ class Interruption(CommandTest):
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
 
-    def test_a_terminal_that_is_closed(self):
-        """SIGHUP, from the kernel and from the shell, and nobody reads what goes to the terminal."""
+    def test_closed_terminal_ends_a_run(self):
+        """SIGHUP, from the kernel and from the shell, with no reader for the terminal output."""
         with open(self.path("said"), "w") as said:
             process, terminal = pty.fork()
             if process == 0:
@@ -643,8 +643,8 @@ class Interruption(CommandTest):
         self.assertGreater(result["checks"]["comparisons"], 0)
         self.assertTrue(os.path.exists(self.path("out/report.html")))
 
-    def test_nohup(self):
-        """A hangup that is ignored stays ignored."""
+    def test_nohup_run_continues(self):
+        """An ignored hangup stays ignored."""
         process = subprocess.Popen(["nohup", DEBURR, "run", "texture", "--size", "300x300", "--out", self.path("out")],
                                    text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         while not self.claimed():
@@ -655,7 +655,7 @@ class Interruption(CommandTest):
         self.assertEqual(process.returncode, 0, out + err)
 
     def interrupt(self, when, *arguments):
-        """The command, interrupted once when(); how long it took from then, and its output."""
+        """Interrupts the command once when() is true; returns the time it took to end, and its output."""
         process = subprocess.Popen([DEBURR, "run", *arguments, "--out", self.path("out")],
                                    text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         while not when():
@@ -668,18 +668,18 @@ class Interruption(CommandTest):
         return time.monotonic() - sent, out
 
     def claimed(self):
-        """From here on the run listens to Ctrl-C."""
+        """From this point the run handles Ctrl-C."""
         return os.path.exists(self.path("out/.deburr_run/claim.json"))
 
     def test_ctrl_c_before_the_simulation(self):
-        """The reference of a scene takes minutes here; the run ends without it and leaves nothing."""
+        """Rendering this reference takes minutes; the run ends without it and leaves nothing."""
         _, out = self.interrupt(self.claimed, "morphological", "--scene", "object", "--size",
                                 "4096x4096", "--set", "frame.reference_samples=16")
         self.assertIn("before the simulation began", out)
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_ctrl_c_in_the_truth(self):
-        """Few fragments in a large picture: the reference begins when the other pictures are there."""
+    def test_ctrl_c_while_rendering_the_reference(self):
+        """Few fragments in a large picture: rendering of the reference starts when the other pictures exist."""
         self.interrupt(lambda: os.path.exists(self.path("out/.deburr_run/difference.png")),
                        "texture", "--scene", "quad", "--size", "4096x4096", "--set",
                        "scene.fov=3.1", "--truth")
@@ -692,7 +692,7 @@ class Interruption(CommandTest):
 
 
 class Results(CommandTest):
-    """compare and report on what is not there or not right."""
+    """`compare` and `report` with missing or invalid results."""
 
     def setUp(self):
         super().setUp()
@@ -706,14 +706,14 @@ class Results(CommandTest):
         result.update(values)
         self.write("b/result.json", json.dumps(result))
 
-    def test_same(self):
+    def test_equal_results_pass(self):
         self.expect(0, "compare", self.path("a"), self.path("b"), says=["PASS", "no value differs"])
 
-    def test_different_engines(self):
+    def test_different_engines_are_rejected(self):
         self.expect(0, "run", "frame", "--size", "16x16", "--out", self.path("frame"))
         self.expect(2, "compare", self.path("a"), self.path("frame"), says=["texture", "frame"])
 
-    def test_different_work(self):
+    def test_different_work_is_a_warning(self):
         done = self.expect(0, "compare", self.path("a"), self.path("b/result.json"))
         self.assertNotIn("warning", done.stderr)
         self.run_texture(0, "--texture", self.write("t.png", png(8, 8)), "--set",
@@ -722,14 +722,14 @@ class Results(CommandTest):
         for word in ("inputs differ", "t.png", "run.clock_mhz differs"):
             self.assertIn(word, done.stderr)
 
-    def test_slower(self):
+    def test_slower_run_is_worse(self):
         self.change(cycles=10**9)
         self.expect(1, "compare", self.path("a"), self.path("b"), says=["cycles", "WORSE"])
         self.expect(0, "compare", self.path("b"), self.path("a"))
         self.expect(0, "compare", self.path("a"), self.path("b"), "--cycles-percent", "1e12")
 
-    def test_what_matters_comes_first(self):
-        """About twenty rows; counters are asked for."""
+    def test_important_rows_come_first(self):
+        """About twenty rows; counters are shown only on request."""
         self.run_texture(0, "--set", "texture.cache.bytes=1024", "--set", "memory.latency=400")
         loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
         command = ("compare", self.path("a"), self.path("out"), *loose)
@@ -748,20 +748,20 @@ class Results(CommandTest):
         answer = json.loads(self.run_command(*command, "--json").stdout)
         self.assertEqual(len(answer["comparison"]["values"]), len(all_rows))
 
-    def test_what_is_worse_is_shown_whatever_it_is(self):
+    def test_worse_values_are_always_shown(self):
         with open(self.path("b/result.json")) as file:
             checks = json.load(file)["checks"]
         self.change(checks={**checks, "mismatches": 3})
         done = self.expect(1, "compare", self.path("a"), self.path("b"))
         self.assertRegex(done.stdout, r"(?m)^checks.mismatches .* WORSE$")
 
-    def test_no_tolerance(self):
+    def test_rejects_invalid_tolerance(self):
         self.change(cycles=10**9)
         for given in ("nan", "inf", "-1", "two"):
             self.expect(2, "compare", self.path("a"), self.path("b"), "--cycles-percent", given,
                         says=["--cycles-percent", given, "tolerance"])
 
-    def test_a_page_among_what_is_compared(self):
+    def test_rejects_page_among_compared_results(self):
         before = {name: os.stat(self.path("a/" + name)).st_mtime_ns for name in os.listdir(self.path("a"))}
         for page in ("a/report.html", "b/result.json", "a/new.html"):
             for one in ("a", "a/result.json"):
@@ -771,21 +771,21 @@ class Results(CommandTest):
                                   for name in os.listdir(self.path("a"))})
         self.expect(0, "compare", self.path("a"), self.path("b"), "--html", self.path("page.html"))
 
-    def test_failed(self):
+    def test_failed_run_is_worse(self):
         self.change(verdict="fail")
         self.expect(1, "compare", self.path("a"), self.path("b"), says="verdict")
 
-    def test_missing(self):
+    def test_rejects_missing_result(self):
         self.expect(5, "compare", self.path("a"), self.path("none"))
         self.expect(5, "report", self.path("none"))
 
-    def test_not_a_result(self):
+    def test_rejects_file_that_is_no_result(self):
         self.write("b/result.json", "{}")
         self.expect(5, "compare", self.path("a"), self.path("b"), says="schema")
         self.expect(5, "report", self.path("b"))
 
-    def test_changed_by_hand(self):
-        """A value of another kind, wherever: a named error, of the file."""
+    def test_rejects_result_changed_by_hand(self):
+        """A value of another type, anywhere, gives an error that names the file."""
         with open(self.path("b/result.json")) as file:
             whole = json.load(file)
         places = [(key,) for key in whole if key != "schema"] + [("meaning", key) for key in list(whole["meaning"])[::20]]
@@ -810,7 +810,7 @@ class Results(CommandTest):
         with open(self.path("a/report.html")) as one, open(self.path("b/report.html")) as two:
             self.assertEqual(one.read(), two.read())
 
-    def test_the_repro_command_repeats_the_run(self):
+    def test_repro_command_repeats_the_run(self):
         with open(self.path("a/manifest.json")) as file:
             command = json.load(file)["command"]
         done = subprocess.run(command, shell=True, cwd=self.directory, capture_output=True,

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Injected faults (deburr run texture --fault NAME): each must be caught, by the right check and
-with the right exit code. By default the link checkers are off, so that the scoreboards must see
-it; both ways are tried."""
+"""Injected faults (deburr run texture --fault NAME): each must be caught by the right check with the right exit code.
+By default the link checkers are off, so that the scoreboards must find the fault; both settings are tested."""
 import html
 import json
 import os
@@ -25,11 +24,11 @@ class Faults(CommandTest):
         self.assertTrue(os.path.exists(self.path("out/report.html")), "failed runs have a report")
         return done, result
 
-    def test_without_a_fault(self):
+    def test_passes_without_a_fault(self):
         self.run_texture(0, *self.CHECKED)
         self.run_texture(0, *self.UNCHECKED)
 
-    def test_flipped_bit(self):
+    def test_catches_flipped_bit(self):
         done, result = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)
         # Pixel, tag, expected, got and cycle.
@@ -50,7 +49,7 @@ class Faults(CommandTest):
         done, _ = self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
         self.assertIn(f"(was/is): rgba.r={expected}/{got} ", done.stderr)
 
-    def test_dropped_colour(self):
+    def test_catches_dropped_colour(self):
         done, result = self.fault("drop-colour", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1, "the rest is compared with its own")
         self.assertIn("next came", done.stderr)
@@ -60,23 +59,23 @@ class Faults(CommandTest):
         self.assertIn("1 pixels were not delivered", captions["after"])
         self.fault("drop-colour", 3, "vanished", *self.CHECKED)
 
-    def test_the_last_colour_never_comes(self):
-        """Nothing comes behind it that would show the gap."""
+    def test_catches_missing_last_colour(self):
+        """No later colour would reveal the gap."""
         done, result = self.fault("drop:colours:1023", 1, "1 expected but never came", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)
         self.assertEqual(result["scoreboards"]["colours"], {"comparisons": 1023, "mismatches": 1})
 
-    def test_duplicated_colour(self):
+    def test_catches_duplicated_colour(self):
         done, result = self.fault("duplicate-colour", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(result["checks"]["mismatches"], 1)
         self.assertIn("expected it once, got again", done.stderr)
         self.fault("duplicate-colour", 3, "appeared", *self.CHECKED)
 
-    def test_dropped_quad(self):
+    def test_catches_dropped_quad(self):
         self.fault("drop-quad", 1, "mismatch", *self.UNCHECKED)
         self.fault("drop-quad", 3, "vanished", *self.CHECKED)
 
-    def test_duplicated_fetch(self):
+    def test_catches_duplicated_fetch(self):
         _, result = self.fault("duplicate-fetch", 1, "line fills", *self.UNCHECKED)
         self.assertEqual(result["scoreboards"]["colours"]["mismatches"], 0, "the picture is perfect")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
@@ -85,20 +84,20 @@ class Faults(CommandTest):
         self.assertEqual(cycles, sorted(cycles))
         self.assertLess(cycles[0], result["cycles"] // 2, "when it was seen, not when it was over")
 
-    def test_duplicated_request(self):
+    def test_catches_duplicated_request(self):
         self.fault("duplicate-request", 3, "fill_buffer", *self.UNCHECKED)
         self.fault("duplicate-request", 3, "memory_requests", *self.CHECKED)
 
-    def test_stuck_ready(self):
+    def test_catches_stuck_ready(self):
         done, _ = self.fault("stuck-ready", 4, "no link has moved", *self.CHECKED)
         self.assertIn("texture.texels", done.stderr, "the dump names every link")
         self.assertIn("texture.texture_cache.tag_stage", done.stderr, "the dump names every unit")
 
-    def test_lost_response(self):
+    def test_catches_lost_response(self):
         done, _ = self.fault("lost-response", 4, "no link has moved", *self.CHECKED)
         self.assertIn("texture.texture_cache.memory_responses", done.stderr)
 
-    def test_memory_error(self):
+    def test_catches_memory_error(self):
         self.fault("memory-error", 3, "memory answered 1 line fills with an error", *self.CHECKED)
 
     def test_memory_error_by_address_is_predicted(self):
@@ -109,7 +108,7 @@ class Faults(CommandTest):
         self.assertEqual(result["checks"]["mismatches"], 0, done.stderr)
         self.assertEqual(result["checks"]["traffic_mismatches"], 0)
 
-    def test_memory_errors_of_other_lines_are_another_golden_result(self):
+    def test_golden_result_depends_on_memory_errors(self):
         def golden(*arguments):
             self.run_command("run", "texture", "--size", "32x32", "--out", self.path("out"), *arguments)
             with open(self.path("out/manifest.json")) as file:
@@ -120,26 +119,26 @@ class Faults(CommandTest):
         self.assertNotEqual(golden(*error), golden(*error, *long_lines))
         self.assertEqual(golden(*error), golden(*error, "--set", "memory.latency=3"))
 
-    def test_wrong_texel(self):
+    def test_catches_wrong_texel(self):
         _, result = self.fault("wrong-texel", 1, "mismatch", *self.CHECKED)
         self.assertEqual(result["checks"]["traffic_mismatches"], 0,
                          "addresses do not depend on texels")
 
-    def test_wrong_directions_and_samples(self):
+    def test_catches_wrong_directions_and_samples(self):
         for name in ("wrong-axis", "wrong-ratio", "wrong-count", "wrong-sample"):
             with self.subTest(name):
                 self.fault(name, 1, "mismatch", *self.UNCHECKED)
 
-    def test_wrong_replacement(self):
+    def test_catches_wrong_replacement(self):
         _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
                                "texture.cache.bytes=1024")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
 
-    def test_a_fault_on_any_link(self):
+    def test_catches_fault_on_any_link(self):
         # The highest bit of the first texel's red.
         self.fault("flip:texture.texel_quads:12:texel.0.7", 1, "mismatch", *self.UNCHECKED)
 
-    def test_too_few_cycles(self):
+    def test_max_cycles_ends_the_run(self):
         done = self.run_texture(3, "--max-cycles", "300",
                                 says=["not done after 300 cycles", "--max-cycles"])
         last = done.stdout.strip().splitlines()[-1]
@@ -149,49 +148,49 @@ class Faults(CommandTest):
             result = json.load(file)
         self.assertEqual((result["verdict"], result["cycles"]), ("fail", 300))
 
-    def test_unknown_fault(self):
+    def test_unknown_fault_is_rejected(self):
         self.run_texture(2, "--fault", "gremlin", says=["gremlin", "flip-bit"])
         done = self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
         last = done.stdout.strip().splitlines()[-1]
         self.assertIn("there are: ", last)
         self.assertIn(", texture.texels", last, "the last line holds the whole message")
 
-    def test_a_fault_that_is_never_reached_is_no_pass(self):
+    def test_unreached_fault_fails_the_run(self):
         self.run_texture(3, "--fault", "drop:colours:100000000", *self.UNCHECKED,
                          says="never reached")
 
 
 class Registers(CommandTest):
-    """Each status register that is checked can fail the run by itself."""
+    """Each checked status register can fail the run by itself."""
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
                      "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "left-pixels",
                      "frame-cycles", "memory-errors"]
 
-    def test_texture(self):
+    def test_texture_registers_are_checked(self):
         self.miscount("texture", self.TEXTURE)
 
-    def test_morphological(self):
+    def test_morphological_registers_are_checked(self):
         self.miscount("morphological", self.MORPHOLOGICAL)
 
 
 class Figures(CommandTest):
-    """Each counter that has a second source can fail the run."""
+    """Each counter with a second source can fail the run."""
 
-    def test_texture(self):
+    def test_texture_figures_are_checked(self):
         self.wrong_figures("texture", 11, ["memory_port_reads", "miss_queue_fill_bytes"])
 
-    def test_morphological(self):
+    def test_morphological_figures_are_checked(self):
         self.wrong_figures("morphological", 4, ["slot_sequencer_beats", "endpoint_predictor_v_iterations"])
         self.wrong_figures("morphological", 10, ["memory_port_bytes_written", "pixel_store_lines_read"],
                            "--storage", "memory")
 
 
 class Fields(CommandTest):
-    """A field of a texture descriptor that the hardware decodes as another value than software wrote."""
+    """Hardware decodes a field of a texture descriptor as another value than software wrote."""
 
-    def test_texture(self):
+    def test_texture_fields_are_decoded(self):
         small, large = ("--size", "48x32"), ("--size", "48x32", "--scene", "quad", "--set", "scene.texture_size=8")
         runs = {f"texture0-{field}": small for field in (
             "size-width", "size-height", "mode-format", "mode-layout", "mode-wrap-s", "mode-wrap-t", "mode-min-filter",
@@ -201,11 +200,11 @@ class Fields(CommandTest):
 
 
 class Blind(CommandTest):
-    """A scoreboard that compares nothing, although everything else of the run is right, is no pass."""
+    """A scoreboard that compares nothing fails the run, even if everything else is right."""
     TEXTURE = ("colours", "line-fills", "status-registers", "figures")
     MORPHOLOGICAL = ("pixels", "probes", "memory-lines", "status-registers", "figures")
 
-    def test_texture(self):
+    def test_texture_scoreboards_must_compare(self):
         boards = {f"blind-{board}" for board in self.TEXTURE}
         self.assertEqual(self.known("texture"), boards)
         needed = {board: self.blind("texture", board) for board in boards}
@@ -214,7 +213,7 @@ class Blind(CommandTest):
         self.run_texture(0)
         self.assertEqual(needed["blind-line-fills"], self.result()["memory"]["lines_filled"])
 
-    def test_morphological(self):
+    def test_morphological_scoreboards_must_compare(self):
         memory = ("--storage", "memory")
         boards = {f"blind-{board}" for board in self.MORPHOLOGICAL}
         self.assertEqual(self.known("morphological", *memory), boards)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What the command does without OpenImageIO, which it loads when the first picture needs it: most of it, and a clear
-error for the rest; and without the other module and the program that are built beside it."""
+"""The command without OpenImageIO, which is loaded when the first picture needs it: most functions work, the others
+give a clear error. Also without the other module and program that are built next to it."""
 import glob
 import os
 import shutil
@@ -14,7 +14,7 @@ MODULE = "libdeburr_images.so"
 
 class Images(CommandTest):
     def loaded(self, *arguments):
-        """The libraries that the dynamic linker initialised in a run."""
+        """Libraries that the dynamic linker initialised in a run."""
         log = self.path("loaded")
         done = self.run_command(*arguments, env={**os.environ, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": log})
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -32,11 +32,11 @@ class Images(CommandTest):
             self.assertEqual(any(name in library for library in libraries), expected, name)
 
     def alone(self):
-        """The program without anything beside it."""
+        """A copy of the program without the files next to it."""
         os.mkdir(self.path("bin"))
         return shutil.copy(DEBURR, self.path("bin"))
 
-    def test_only_a_picture_to_read_loads_it(self):
+    def test_library_is_loaded_only_to_read_pictures(self):
         picture = self.write("in.png", png(32, 24))
         self.assert_loads(False, "--version")
         self.assert_loads(False, "params")
@@ -45,20 +45,20 @@ class Images(CommandTest):
             self.assertGreater(os.path.getsize(self.path(f"{engine}/after.png")), 50)
         self.assert_loads(True, "run", "morphological", "--in", picture, "--out", self.path("read"))
 
-    def test_a_copy_without_the_module_says_what_is_missing(self):
+    def test_copy_without_module_names_what_is_missing(self):
         program = self.alone()
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--size", "32x24", program=program)
         self.expect(5, "run", "morphological", "--in", picture, "--out", self.path("out2"), program=program,
                     says=(MODULE, "beside the program", "cannot open shared object file"))
 
-    def test_a_copy_with_the_module_beside_it_reads(self):
+    def test_copy_with_module_reads_pictures(self):
         program = self.alone()
         shutil.copy(os.path.join(os.path.dirname(DEBURR), MODULE), self.path("bin"))
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--in", picture, program=program)
 
-    def test_a_copy_alone_says_what_searches_papers_and_trainings_need(self):
+    def test_copy_names_missing_searches_papers_and_training(self):
         program = self.alone()
         self.write("s.yaml", "engine: texture\nbase: {scene: {width: 16, height: 16}, run.images: false}\n"
                    "axes: {memory.latency: [1, 9, 50, 200], texture.cache.ways: [1, 2, 4]}\n"
@@ -73,7 +73,7 @@ class Images(CommandTest):
         self.expect(5, "train", "--in", picture, "--truth", picture, "--out", self.path("t.shares"), program=program,
                     says=("deburr_train", "No such file", "scripts/demo --complete"))
 
-    def test_another_library_of_that_name_is_rejected(self):
+    def test_wrong_library_of_that_name_is_rejected(self):
         program = self.alone()
         self.write(f"bin/{MODULE}", "this is no library")
         picture = self.write("in.png", png(32, 24))

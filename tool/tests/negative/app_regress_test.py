@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Testplans that cannot be meant: each is a clear error that names its file and line. See --help."""
+"""Invalid testplans: each gives a clear error that names its file and line. See --help."""
 import html
 import json
 import os
@@ -41,12 +41,12 @@ class Testplans(CommandTest):
         if action == "plan":
             self.assertFalse(os.path.exists(self.path("out/regressions/t-1/plan.json")), done.stdout)
 
-    def test_what_is_meant_is_planned(self):
+    def test_valid_plan_is_accepted(self):
         self.write("t.yaml", HEAD)
         self.expect(0, "regress", "t.yaml", "plan", "--seed", "1",
                     says="PASS regression t --seed 1: 1 point over 1 input, 0 of them done")
 
-    def test_unknown_names(self):
+    def test_rejects_unknown_names(self):
         self.reject(HEAD.replace("checks:", "check:"),
                     "t.yaml:8: unknown key 'check': did you mean 'checks'?")
         self.reject(HEAD.replace("engine: texture", "engine: textur"),
@@ -56,7 +56,7 @@ class Testplans(CommandTest):
         self.reject(HEAD.replace("{name: base,", "{name: base, sedes: 3,"),
                     "t.yaml:7: unknown key 'sedes': did you mean 'seeds'?")
 
-    def test_what_is_missing_or_twice(self):
+    def test_rejects_missing_and_duplicate_keys(self):
         self.reject("title: Small\n", "t.yaml:1: 'features' is missing")
         self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
         self.reject("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
@@ -69,14 +69,14 @@ class Testplans(CommandTest):
         self.reject(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
         self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
 
-    def test_a_page_that_has_changed(self):
+    def test_rejects_heading_of_changed_page(self):
         self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
         self.write("docs/unit.md", "# The units\n")
         self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': did you mean 'the-units'?")
         self.write("docs/unit.md", "Nothing.\n")
         self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': check that the feature is still tested")
 
-    def test_headings(self):
+    def test_rejects_invalid_headings(self):
         for anchor in ("code", "Stalls", "stalls", "It filters."):
             self.reject(HEAD.replace("#the-unit", "#" + anchor), f"t.yaml:5: 'docs/unit.md' has no heading '#{anchor}'")
         for anchor in ("", "#"):
@@ -86,14 +86,14 @@ class Testplans(CommandTest):
         self.write("t.yaml", HEAD.replace("#the-unit", "#stalls-and-why"))
         self.expect(0, "regress", "t.yaml", "plan", "--seed", "1")
 
-    def test_pages_of_the_documentation_alone(self):
+    def test_rejects_pages_outside_the_documentation(self):
         self.write("other.md", UNIT)
         for page in ("/etc/passwd", "etc/passwd", "other.md", "docs/../other.md", "docs/unit.txt", "docs",
                      self.path("docs/unit.md")):
             self.reject(HEAD.replace("docs/unit.md", page),
                         f"t.yaml:5: 'traces' = '{page}#the-unit' wants a heading of a page")
 
-    def test_globs(self):
+    def test_rejects_invalid_globs(self):
         self.reject(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
         self.reject(HEAD + "    coverage: ['texture/cash/hit']\n",
                     "t.yaml:9: no bin of the feature's engines is called 'texture/cash/hit'",
@@ -101,7 +101,7 @@ class Testplans(CommandTest):
         self.reject(HEAD + "    coverage: ['morphological/*']\n",
                     "t.yaml:9: no bin of the feature's engines is called 'morphological/*'")
 
-    def test_globs_of_all_runs(self):
+    def test_rejects_invalid_globs_of_all_runs(self):
         self.reject(HEAD + "coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
         self.reject(HEAD + "coverage: [texture/cash/hit]\n",
                     "t.yaml:9: no bin of the plan's engines is called 'texture/cash/hit'", "did you mean 'texture/cache/hit'")
@@ -124,7 +124,7 @@ class Testplans(CommandTest):
         self.reject(HEAD + "    coverage: [texture/cache/hit]\nunmet: [{bins: texture/cache/hit, reason: None.}]\n",
                     "t.yaml:10: 'unmet' excepts bins of the plan's 'coverage'")
 
-    def test_a_scoreboard_that_no_run_has_is_a_check_that_failed(self):
+    def test_unknown_scoreboard_is_a_failed_check(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))
         why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (there are colours, figures, line fills, "
                "status registers): did you mean 'colours'?")
@@ -136,25 +136,25 @@ class Testplans(CommandTest):
             with open(self.path("out/regressions/t-1/" + name)) as file:
                 self.assertIn(why, html.unescape(file.read()))
 
-    def test_what_the_engine_rejects(self):
+    def test_rejects_run_that_the_engine_rejects(self):
         text = HEAD.replace("engine: texture, base: {scene: {width: 8, height: 8}}",
                             "engine: morphological, base: {morphological.preset: mlaa, morphological.quality: low}")
         self.reject(text, "the engine rejects the point")
 
-    def test_what_nobody_checks(self):
+    def test_rejects_runs_without_checks(self):
         for run in ("run: {check: none, coverage: false}", "run.check: none"):
             self.reject(HEAD.replace("height: 8}}", "height: 8}, " + run + "}"),
                         "has run.check = none: what nobody checks would pass")
 
-    def test_an_action_alone_is_about_the_default_testplan(self):
+    def test_action_without_plan_uses_default_plan(self):
         self.expect(5, "regress", "plan", says="cannot open 'tb/testplan/smoke.yaml'")
         os.makedirs(self.path("tb/testplan"))
         self.write("tb/testplan/smoke.yaml", HEAD)
         self.expect(0, "regress", "plan", "--seed", "1", says="PASS regression smoke --seed 1: 1 point")
-        self.write("plan", HEAD)  # a file of this name is one
+        self.write("plan", HEAD)  # a file of this name wins
         self.expect(0, "regress", "plan", "plan", "--seed", "1", says="PASS regression plan --seed 1: 1 point")
 
-    def test_what_reproduces_it_on_another_day(self):
+    def test_repro_command_holds_on_another_day(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colours: 1000000"))
         done = self.expect(1, "regress", "t.yaml", "--quiet")
         seed = re.search(r"RESULT: FAIL regression t --seed (\d+):", done.stdout)[1]
@@ -162,7 +162,7 @@ class Testplans(CommandTest):
         done = self.expect(1, "regress", "t.yaml", "--seed", "5")
         self.assertRegex(done.stdout, r"(?m)^REPRO: \S+ regress t.yaml --seed 5$")
 
-    def test_a_full_disk_leaves_the_report_of_before(self):
+    def test_full_disk_keeps_the_previous_report(self):
         self.write("t.yaml", HEAD)
         self.expect(0, "regress", "t.yaml", "--seed", "1")
         place = self.path("out/regressions/t-1")
@@ -183,7 +183,7 @@ class Testplans(CommandTest):
         self.expect(0, "regress", "t.yaml", "collect", "--seed", "1")
         self.assertTrue(all(report()[name] != before[name] for name in ("collected.json", "index.html")))
 
-    def test_a_rerun_of_nothing(self):
+    def test_rejects_rerun_without_target(self):
         self.write("t.yaml", HEAD)
         self.expect(2, "regress", "t.yaml", "rerun", says="rerun: of what? 'rerun --failed' runs again what has failed")
         self.expect(2, "regress", "t.yaml", "--failed", says="--failed goes with 'rerun'")
@@ -197,7 +197,7 @@ class Testplans(CommandTest):
         self.write("out/regressions/t-4/collected.json", "{}")
         self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="is not a report of this version")
 
-    def test_seeds(self):
+    def test_rejects_invalid_seeds(self):
         self.write("t.yaml", HEAD)
         for seed in ("-1", "18446744073709551616", "1.5", "0x10", "today", " 1", ""):
             for command in (("regress", "t.yaml", "plan"), ("search", "t.yaml")):
@@ -205,7 +205,7 @@ class Testplans(CommandTest):
         for seed in ("0", "18446744073709551615"):
             self.expect(0, "regress", "t.yaml", "plan", "--seed", seed, says=f"PASS regression t --seed {seed}: 1 point")
 
-    def test_surroundings(self):
+    def test_reports_missing_files(self):
         self.expect(5, "regress", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.write("t.yaml", HEAD)
         self.expect(5, "regress", "t.yaml", "status", "--seed", "1",
@@ -214,7 +214,7 @@ class Testplans(CommandTest):
         self.write("t.yaml", "features: [")
         self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")
 
-    def test_a_pipe_is_not_waited_for(self):
+    def test_does_not_wait_for_a_pipe(self):
         os.mkfifo(self.path("pipe.yaml"))
         self.expect(5, "regress", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")
         self.expect(5, "sweep", "pipe.yaml", "plan", says="cannot read 'pipe.yaml': it is not a regular file")

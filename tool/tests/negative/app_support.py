@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Running the command in a scratch directory, and image files of every awkward kind."""
+"""Runs the command in a scratch directory, and makes unusual image files."""
 import json
 import os
 import struct
@@ -32,10 +32,10 @@ def png(width, height, bits=8, channels=3, declared=None):
 
 
 def float_tiff(width, height, value=0.5, channels=3):
-    """A little-endian TIFF of 1 or 3 channels of 32-bit floats: this value, or all of these."""
+    """A little-endian TIFF of 1 or 3 channels of 32-bit floats: one value everywhere, or these values."""
     values = value if isinstance(value, list) else [value] * (channels * width * height)
     data = struct.pack(f"<{len(values)}f", *values)
-    colour = channels == 3  # then three numbers stand in tables of their own
+    colour = channels == 3  # then three numbers are stored in separate tables
     tables = 8 + len(data)
     ifd = tables + 12
     entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, channels, tables if colour else 32),
@@ -47,7 +47,7 @@ def float_tiff(width, height, value=0.5, channels=3):
 
 
 def pages_tiff(width, height, pages):
-    """A little-endian TIFF of several RGB pictures; each directory stands before its pixels."""
+    """A little-endian TIFF of several RGB pictures; each directory precedes its pixels."""
     pixels = bytes(range(1, 256)) * (3 * width * height // 255 + 1)
     pixels = pixels[:3 * width * height]
     out = b"II*\0" + struct.pack("<I", 8)
@@ -66,7 +66,7 @@ def pages_tiff(width, height, pages):
 
 
 class CommandTest(unittest.TestCase):
-    """Every test runs in a directory of its own that disappears afterwards."""
+    """Every test runs in its own temporary directory."""
 
     def setUp(self):
         self._scratch = tempfile.TemporaryDirectory(prefix="deburr_test_")
@@ -94,7 +94,7 @@ class CommandTest(unittest.TestCase):
                               **options)
 
     def expect(self, code, *arguments, says=(), **options):
-        """Runs, and checks exit code, last line, REPRO line and words of the output."""
+        """Runs, and checks exit code, last line, REPRO line and parts of the output."""
         done = self.run_command(*arguments, **options)
         context = f"\n{arguments}\n{done.stdout}\n{done.stderr}"
         self.assertEqual(done.returncode, code, context)
@@ -108,7 +108,7 @@ class CommandTest(unittest.TestCase):
         return done
 
     def expect_as_shown(self, engine, *arguments):
-        """What a run rejects, --show-config rejects in the same words."""
+        """Configurations that a run rejects, --show-config rejects with the same message."""
         command = ("run", engine, "--size", "32x32", "--out", self.path("out"), *arguments)
         told = [self.expect(2, *command, *more).stdout.splitlines()[-1] for more in ((), ("--show-config",))]
         self.assertEqual(told[0], told[1])
@@ -119,11 +119,11 @@ class CommandTest(unittest.TestCase):
         return [word.strip(",") for word in line.split() if f"{kind}-" in word]
 
     def misdecode(self, engine, runs):
-        """Outputs or traffic show each field that is decoded wrongly, in the run that `runs` has of it."""
+        """Outputs or traffic reveal each wrongly decoded field, in the run that `runs` gives for it."""
         self.assertEqual([fault.split("misdecode-")[1] for fault in self.faults(engine, "misdecode")], list(runs))
         out = ("--out", self.path("out"))
         for run in {tuple(run) for run in runs.values()}:
-            self.expect(0, "run", engine, *out, *run)  # without it all is well
+            self.expect(0, "run", engine, *out, *run)  # without the fault the run passes
         for field, run in runs.items():
             with self.subTest(field):
                 self.expect(1, "run", engine, *out, *run, "--fault", f"misdecode-{field}", says="FAIL mismatch: ")
@@ -131,7 +131,7 @@ class CommandTest(unittest.TestCase):
                 self.assertGreater(checks["mismatches"] + checks["traffic_mismatches"], 0)
 
     def decode_as_built(self, engine):
-        """Nobody writes a field of a rule that is a reset value."""
+        """Faults in configuration fields have no effect if the configuration is a reset value."""
         self.expect(2, "run", engine, "--out", self.path("out"), "--set", "run.program=reset", "--fault",
                     "misdecode-rules-linear-light", says="needs run.program = registers")
 
@@ -145,7 +145,7 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(self.result()["checks"]["mismatches"], 1)
 
     def wrong_figures(self, engine, count, named, *arguments):
-        """All of them are compared, and each differs; these are among the first."""
+        """All of them are compared, and each differs; the given ones are among the first."""
         run = ("run", engine, "--size", "24x24", "--out", self.path("out"), *arguments)
         self.expect(0, *run)
         self.assertEqual(self.result()["scoreboards"]["figures"], {"comparisons": count, "mismatches": 0})

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A directory of results survives: runs killed at any moment, runs side by side, disks that fill.
-See --help. DEBURR_KILLS sets how often each run is killed (20)."""
+"""A directory of results stays consistent: runs killed at any moment, parallel runs, full disks. See --help.
+DEBURR_KILLS sets the number of kills per run (20)."""
 import json
 import os
 import random
@@ -23,7 +23,7 @@ class Survival(CommandTest):
         return ["run", engine, *ENGINES[engine], "--out", self.path("out"), *arguments]
 
     def long_run(self, *arguments):
-        """A run that has the directory, and will not be over soon."""
+        """A run that has the directory and takes a long time."""
         process = subprocess.Popen(
             [DEBURR, "run", "texture", "--size", "2048x2048", "--out", self.path("out"), *arguments],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -33,13 +33,13 @@ class Survival(CommandTest):
         return process
 
     def wait_for(self, name, process):
-        """Until something is in the file."""
+        """Waits until the file is not empty."""
         while not os.path.exists(self.path(name)) or os.path.getsize(self.path(name)) == 0:
             self.assertIsNone(process.poll())
             time.sleep(0.01)
 
     def contents(self):
-        """Name, inode and content of everything there: what was written again differs."""
+        """Name, inode and content of every file: a file that was written again differs."""
         found = {}
         for folder, _, names in os.walk(self.path("out")):
             for name in names:
@@ -58,7 +58,7 @@ class Survival(CommandTest):
             return json.load(file)
 
     def assert_whole(self, verdict="pass"):
-        """Exactly what the manifest names is there, and every picture of the report."""
+        """Exactly the files named in the manifest exist, and every picture of the report."""
         with open(self.path("out/result.json")) as file:
             self.assertEqual(json.load(file)["verdict"], verdict)
         manifest = self.manifest()
@@ -69,7 +69,7 @@ class Survival(CommandTest):
 
 
 class Killed(Survival):
-    """kill -9 at random moments: the same command works again, and nothing of the dead run stays."""
+    """kill -9 at random moments: the same command works again, and nothing of the killed run remains."""
 
     def kill_often(self, engine, *arguments):
         command = [DEBURR, *self.command(engine, *arguments)]
@@ -90,7 +90,7 @@ class Killed(Survival):
             code = process.wait()
             self.assertIn(code, (0, -signal.SIGKILL))
             died += code != 0
-            # While there is a result.json, everything beside it is of the same run.
+            # While a result.json exists, everything in its folder is from the same run.
             now = self.results()
             if "result.json" in now and now["result.json"] == before.get("result.json"):
                 self.assertEqual(now, before, attempt)
@@ -99,7 +99,7 @@ class Killed(Survival):
         self.assert_whole()
         self.assertEqual(sorted(os.listdir(self.path("out"))), expected)
 
-    def test_a_wave_of_a_dead_run_is_not_the_next_runs(self):
+    def test_wave_of_killed_run_is_removed(self):
         process = self.long_run(*WAVES)
         self.wait_for(f"out/{DRAFT}/trace.vcd", process)
         process.kill()
@@ -116,7 +116,7 @@ for each in ENGINES:
 
 
 class SideBySide(Survival):
-    """Several runs into one directory: one result, and the others are told who has it."""
+    """Several runs into one directory: one result, and the others are told which run has it."""
 
     def race(self, number, *arguments):
         processes = [subprocess.Popen(
@@ -140,16 +140,16 @@ class SideBySide(Survival):
         self.assert_whole()
         return len(ended) - len(passed)
 
-    def test_two(self):
+    def test_one_of_two_runs_gets_the_directory(self):
         self.rejected(2)
 
-    def test_four(self):
+    def test_one_of_four_runs_gets_the_directory(self):
         self.rejected(4)
 
-    def test_eight(self):
+    def test_one_of_eight_runs_gets_the_directory(self):
         self.rejected(8)
 
-    def test_the_second_is_rejected(self):
+    def test_second_run_is_rejected_with_owner(self):
         first = self.long_run()
         with open(self.path(f"out/{DRAFT}/claim.json")) as file:
             holder = json.load(file)
@@ -163,12 +163,12 @@ class SideBySide(Survival):
         self.expect(0, *self.command("texture"))
         self.assert_whole()
 
-    def test_waiting(self):
+    def test_waiting_runs_all_finish(self):
         ended = self.race(4, "--wait")
         self.assertEqual([code for code, *_ in ended], [0] * 4, ended)
         self.assert_whole()
 
-    def test_waiting_ends_with_ctrl_c(self):
+    def test_ctrl_c_ends_waiting(self):
         self.long_run()
         second = subprocess.Popen([DEBURR, *self.command("texture", "--wait")], text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -179,12 +179,12 @@ class SideBySide(Survival):
 
 
 class FullDisk(Survival):
-    """Whatever does not fit, the earlier result is whole."""
+    """Whatever does not fit, the earlier result stays complete."""
 
     def limited(self, size):
         return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
-    def test_ten_sizes(self):
+    def test_earlier_result_stays_at_ten_size_limits(self):
         for engine in ENGINES:
             for waves in ((), WAVES):
                 self.expect(0, *self.command(engine, *waves))
@@ -198,8 +198,8 @@ class FullDisk(Survival):
                     self.assertEqual(self.contents(), before, f"{engine} {waves} {size}")
                 self.assert_whole()
 
-    def test_ten_sizes_of_a_real_one(self):
-        """A file system that is too small, where the kernel lets us make one."""
+    def test_earlier_result_stays_on_full_file_system(self):
+        """A file system that is too small, if the kernel allows it."""
         mount = f"mount -t tmpfs -o size=4m none {self.path('disk')}"
         os.mkdir(self.path("disk"))
         if subprocess.run(["unshare", "-rm", "sh", "-c", mount], capture_output=True).returncode:
@@ -223,7 +223,7 @@ class FullDisk(Survival):
 
 
 class Papers(Survival):
-    """`papers` keeps what is finished."""
+    """`papers` keeps finished results."""
 
     def start(self, **options):
         return subprocess.Popen([DEBURR, "papers", "--quick", "--size", "64", "--out",
@@ -236,7 +236,7 @@ class Papers(Survival):
         self.assertEqual(sorted(os.listdir(self.path("out"))),
                          sorted(self.manifest()["files"] + ["manifest.json"]))
 
-    def test_interrupted_before_anything_is_finished(self):
+    def test_interrupted_before_first_result_leaves_nothing(self):
         process = self.start()
         self.wait_for(f"out/{DRAFT}/claim.json", process)
         process.send_signal(signal.SIGINT)
@@ -245,8 +245,8 @@ class Papers(Survival):
         self.assertIn("nothing was finished", out)
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_interrupted_after_the_first(self):
-        """Unless the second one was faster, which is possible too."""
+    def test_interrupted_after_first_result_keeps_it(self):
+        """Unless the second one was faster, which is also possible."""
         process = self.start()
         line = process.stdout.readline()
         self.assertIn("== 000", line)
@@ -255,7 +255,7 @@ class Papers(Survival):
         self.assertIn(process.returncode, (0, 130), out + err)
         self.assert_kept(*(["000"] if process.returncode == 130 else ["000", "004"]))
 
-    def test_into_a_pipe_that_is_closed(self):
+    def test_closed_pipe_ends_the_command(self):
         process = self.start()
         process.stdout.close()
         with process.stderr:

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Sweeps that cannot be meant or cannot be run: each is a clear error that names its place. See
---help."""
+"""Invalid sweeps, and sweeps that cannot run: each gives a clear error that names its position. See --help."""
 import os
 import resource
 import unittest
@@ -20,7 +19,7 @@ class Sweeps(CommandTest):
 
 
 class Definitions(Sweeps):
-    def test_unknown_names(self):
+    def test_rejects_unknown_names(self):
         self.reject(BASE + "axes: {texture.cache.weighs: [1]}\n",
                     "s.yaml:3: unknown parameter 'texture.cache.weighs'", "did you mean 'texture.cache.ways'")
         self.reject(BASE.replace("height", "hight") + AXES,
@@ -33,15 +32,16 @@ class Definitions(Sweeps):
         self.reject(BASE + AXES + "objectives: {for_each: [memory.latencies]}\n",
                     "no axis 'memory.latencies': did you mean 'memory.latency'?")
 
-    def test_values_that_are_none(self):
+    def test_rejects_invalid_values(self):
         self.reject(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
                     "'texture.cache.ways' = '17' is outside 1..8")
         self.reject(BASE + "axes: {texture.footprint: [half, hafl]}\n",
                     "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
         self.reject(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
 
-    def test_faults(self):
-        """A name that every run would reject is rejected by plan; a part's own name, and links, are the run's."""
+    def test_rejects_unknown_faults(self):
+        """`plan` rejects a fault name that every run would reject; names in one part and links are checked by the
+        run."""
         for fault, says in (("none", "no run of 'texture' has a fault 'none'"), ("flip-bits", "did you mean 'flip-bit'?")):
             self.reject(BASE.replace("base: {", f"base: {{run.fault: {fault}, ") + AXES, says)
         self.write("s.yaml", BASE + "axes: {run.fault: ['', drop-colour, 'drop:quads:9'], memory.latency: [50, 60]}\n")
@@ -51,7 +51,7 @@ class Definitions(Sweeps):
         self.write("s.yaml", "engine: frame\naxes: {run.fault: [drop-colour, texture.drop-quad]}\n")
         self.expect(0, "sweep", "s.yaml", "plan", says="2 points")
 
-    def test_empty_axes(self):
+    def test_rejects_empty_axes(self):
         self.reject(BASE + "axes: {texture.cache.ways: []}\n",
                     "s.yaml:3: axis 'texture.cache.ways' is empty")
         self.reject(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
@@ -62,14 +62,14 @@ class Definitions(Sweeps):
         self.reject(BASE, "nothing is varied")
         self.reject(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
 
-    def test_twice(self):
+    def test_rejects_duplicates(self):
         self.reject(BASE + "axes: {scene.width: [8, 16]}\n",
                     "'scene.width' is varied, and fixed at s.yaml:2")
         self.reject(BASE + AXES + "points: [{texture.cache.bytes: 4096}]\n", "exclude each other")
         self.reject(BASE + "points: [{memory.latency: 50}, {texture.cache.ways: 1}]\n",
                     "the first point does not give 'texture.cache.ways'")
 
-    def test_constraints(self):
+    def test_rejects_invalid_constraints(self):
         def constraint(text, *says):
             self.reject(BASE + AXES + f"constraints: ['{text}']\n", f"constraint '{text}'", *says)
 
@@ -85,8 +85,8 @@ class Definitions(Sweeps):
         self.reject(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
                     "no point is left of 4: 'texture.cache.ways > 2' excludes 4")
 
-    def test_expressions_that_are_too_long_or_too_deep(self):
-        """They would take minutes or all of the stack."""
+    def test_rejects_too_long_or_deep_expressions(self):
+        """They would take minutes or exhaust the stack."""
         for text, says in (("(" * 20000 + "cycles" + ")" * 20000, "a metric of 40006 characters: 4000 are the most"),
                            ("+".join(["cycles"] * 20000), "a metric of 139999 characters"),
                            ("(" * 101 + "cycles" + ")" * 101, "more than 100 brackets and signs inside each other"),
@@ -97,18 +97,18 @@ class Definitions(Sweeps):
                    f"b: '{'+'.join(['cycles'] * 570)}', c: '{'- ' * 100}cycles'}}\n")
         self.expect(0, "sweep", "s.yaml", "plan")
 
-    def test_what_is_not_utf8(self):
+    def test_rejects_text_that_is_not_utf8(self):
         """It cannot be written into results."""
         self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
 
-    def test_a_file_whose_name_names_no_folder(self):
+    def test_rejects_file_name_that_gives_no_folder(self):
         for name in ("..yaml", "...yaml"):
             self.write(name, BASE + AXES)
             self.expect(2, "sweep", name, "plan", says=(f"'{name}': a sweep is called by its file",))
             self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_a_constraint_is_not_only_syntax(self):
-        """Precedence, words and logic, by how many of 4 points are left."""
+    def test_constraints_are_evaluated(self):
+        """Precedence, words and logic, checked by the number of the 4 points that remain."""
         for text, left in (("texture.cache.ways * 2 + 1 == 5", 2),
                            ("1 + texture.cache.ways * 2 == 5", 2),
                            ("(1 + texture.cache.ways) * 2 == 4", 2),
@@ -123,7 +123,7 @@ class Definitions(Sweeps):
             self.write("s.yaml", BASE + AXES + f"constraints: ['{text}']\n")
             self.expect(0, "sweep", "s.yaml", "plan", says=f"{left} point" + "s" * (left > 1) + " over")
 
-    def test_too_many(self):
+    def test_rejects_too_many_points(self):
         steps = "{from: 1, to: 1000}"
         self.reject("engine: texture\naxes:\n"
                     f"  memory.latency: {steps}\n  run.seed: {steps}\n  run.stall_seed: {steps}\n",
@@ -132,7 +132,7 @@ class Definitions(Sweeps):
         self.reject("engine: texture\naxes: {run.seed: {from: 0, to: 4294967295}}\n",
                     "has 4294967296 values")
 
-    def test_points_that_the_engine_rejects(self):
+    def test_rejects_points_that_the_engine_rejects(self):
         text = ("engine: morphological\nbase: {frame: {width: 16, height: 16, reference_samples: 1}}\n"
                 "axes: {morphological.predictor: [none, fit], morphological.steps: [4, 8]}\n")
         self.reject(text, "the engine rejects the point morphological.predictor = none",
@@ -140,7 +140,7 @@ class Definitions(Sweeps):
         self.write("s.yaml", text + "refused: skip\n")
         self.expect(0, "sweep", "s.yaml", "plan", says=("2 that the engine rejects", "2 points"))
 
-    def test_axes_under_a_condition(self):
+    def test_rejects_invalid_conditional_axes(self):
         def axis(text):
             return ("engine: morphological\nbase: {frame: {width: 16, height: 16, reference_samples: 1}}\n"
                     "axes:\n  morphological.predictor: [none, fit]\n"
@@ -154,7 +154,7 @@ class Definitions(Sweeps):
         self.reject(axis("{when: true}"), "a range wants 'from' and 'to'")
         self.reject(axis("{values: [4], when: true}"), "the engine rejects the point")
 
-    def test_files(self):
+    def test_rejects_unreadable_files(self):
         self.expect(5, "sweep", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.reject("engine: [\n", "s.yaml:", "not valid YAML")
         self.reject("- engine\n", "expected a map, got a list")
@@ -171,7 +171,7 @@ class Searches(Sweeps):
         self.expect(2, "search", "s.yaml", *options, says=says)
         self.assertFalse(os.path.exists(self.path("out/points")))
 
-    def test_what_cannot_be_searched(self):
+    def test_rejects_what_cannot_be_searched(self):
         self.reject_search(BASE + AXES, "a search wants two objectives at least (0 given)")
         self.reject_search(BASE + AXES + "objectives: {minimise: [cycles]}\n", "(1 given)")
         self.reject_search(BASE + AXES + self.GOALS + "sample: {random: 3}\n", "leave out 'sample'")
@@ -182,7 +182,7 @@ class Searches(Sweeps):
         self.reject_search(BASE + AXES + self.GOALS.replace(
             "]}", "], for_each: [memory.latency, texture.cache.ways]}"), "nothing is left to search")
 
-    def test_budgets(self):
+    def test_rejects_invalid_budgets(self):
         text = BASE + AXES + self.GOALS.replace("]}", "], for_each: [memory.latency]}")
         self.reject_search(text, "--runs 12 leave 6 for each of 2 fronts", "population of 8",
                            options=("--runs", "12", "--population", "8"))
@@ -191,20 +191,20 @@ class Searches(Sweeps):
                               ("--population", "4")):
             self.expect(2, "search", "s.yaml", option, value, says=option)
 
-    def test_unknown_metric(self):
+    def test_rejects_unknown_metric(self):
         self.write("s.yaml", BASE + AXES + "metrics: {cycles: cicles, bits: memory_bits.total.physical}\n"
                    "objectives: {minimise: [cycles, bits]}\n")
         self.expect(2, "search", "s.yaml", "--runs", "8",
                     says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
 
-    def test_nothing_there_and_something_else(self):
+    def test_rejects_missing_or_foreign_plan(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
         self.expect(5, "search", "s.yaml", "status", says="there is no plan in 'out/searches/s'")
         self.expect(0, "search", "s.yaml", "--runs", "8")
         self.write("s.yaml", BASE + AXES.replace("60", "70") + self.GOALS)
         self.expect(2, "search", "s.yaml", "collect", says="search again")
 
-    def test_full_disk(self):
+    def test_full_disk_is_reported(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
         limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))}
         done = self.expect(3, "search", "s.yaml", "--runs", "8", "-j1", says=("0 done", "missing"),
@@ -214,8 +214,8 @@ class Searches(Sweeps):
 
 
 class Surroundings(Sweeps):
-    def test_unknown_metric(self):
-        """Found before anything is run; one that runs of another kind would have, when it is collected."""
+    def test_rejects_unknown_metric(self):
+        """Found before any point runs if no run can have the metric; otherwise when results are collected."""
         self.write("s.yaml", BASE + AXES + "metrics: {cycles: cicles}\n")
         for action in ("plan", "run"):
             self.expect(2, "sweep", "s.yaml", action,
@@ -228,7 +228,7 @@ class Surroundings(Sweeps):
         self.expect(0, "sweep", "s.yaml", "run")
         self.expect(2, "sweep", "s.yaml", "collect", says="metric 'psnr': no result has the key 'quality.psnr_db'")
 
-    def test_expressions(self):
+    def test_rejects_invalid_metric_expressions(self):
         def metric(text, *says):
             self.reject(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
 
@@ -238,7 +238,7 @@ class Surroundings(Sweeps):
         metric("cycles > 2", "expected a number, got true or false")
         metric("2x * cycles", "'2x' is neither a key of result.json nor a number")
 
-    def test_limits(self):
+    def test_rejects_invalid_limits(self):
         def limit(text, *says):
             self.reject(BASE + AXES + f"metrics: {{cycles: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
 
@@ -249,8 +249,8 @@ class Surroundings(Sweeps):
         limit("1 < 2", "is no comparison of a metric")
         self.reject(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
 
-    def test_an_input_that_cannot_be_read(self):
-        """It fails its own points, and only them; once it can be read they are done."""
+    def test_unreadable_input_fails_only_its_points(self):
+        """It fails only its own points; once it can be read, they are run."""
         self.write("good.png", png(16, 8))
         self.write("bad.png", png(16, 8)[:60])
         self.write("s.yaml", "engine: morphological\nbase: {run.images: false}\n"
@@ -259,12 +259,12 @@ class Surroundings(Sweeps):
         self.write("bad.png", png(16, 8))
         self.expect(0, "sweep", "s.yaml", "run", says="4 points, 4 done (2 in this run)")
 
-    def test_no_ninja(self):
+    def test_missing_ninja_is_reported(self):
         self.write("s.yaml", BASE + AXES)
         self.expect(5, "sweep", "s.yaml", "run", says="ninja was not found",
                     env={"PATH": "/nonexistent"})
 
-    def test_names_that_tools_read_otherwise(self):
+    def test_names_with_special_characters_work(self):
         for out in ("a|b", "-x", "--retry", " a $b: 'c'"):
             name = "s|t.yaml" if out == "a|b" else "s.yaml"
             self.write(name, BASE + AXES)
@@ -279,7 +279,7 @@ class Surroundings(Sweeps):
     def limited(self, size):
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))}
 
-    def test_full_disk(self):
+    def test_full_disk_fails_points(self):
         self.write("s.yaml", BASE + AXES)
         done = self.expect(3, "sweep", "s.yaml", "run", "-j1", says=("0 done", "4 missing"),
                            **self.limited(20_000))
@@ -289,7 +289,7 @@ class Surroundings(Sweeps):
         self.expect(5, "sweep", "s.yaml", "collect", says="cannot write", **self.limited(20_000))
         self.assertFalse(os.path.exists(self.path("out/sweeps/s/index.html")))
 
-    def test_full_disk_while_planning(self):
+    def test_full_disk_while_planning_is_reported(self):
         self.reject(BASE + "axes: {memory.latency: {from: 1, to: 1000}}\n", "points.jsonl",
                     code=5, **self.limited(20_000))
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Traces that are wrong, and traces that cannot be written: an error says where, what and what to do."""
+"""Invalid traces, and traces that cannot be written: an error names the position, the reason and a remedy."""
 import json
 import os
 import resource
@@ -35,7 +35,7 @@ class Fragments(CommandTest):
                 self.assertIn(word, done.stdout + done.stderr, context)
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_text_with_its_line(self):
+    def test_error_in_text_names_its_line(self):
         sized = TITLE + "size 8 8\n"
         for content, *says in (
                 ("", "trace:1", "the file is empty", "begins with 'deburr-fragments 1'"),
@@ -72,7 +72,7 @@ class Fragments(CommandTest):
             with self.subTest(content=content[:120]):
                 self.rejected(content, *says)
 
-    def test_binary_with_its_record(self):
+    def test_error_in_binary_names_its_record(self):
         good = record()
         for content, *says in (
                 (header()[:40], "within its header of 64 bytes", "cut short"),
@@ -97,16 +97,16 @@ class Fragments(CommandTest):
             with self.subTest(says=says):
                 self.rejected(content, *says)
 
-    def test_nothing_to_filter(self):
+    def test_rejects_trace_without_samples(self):
         self.rejected(TITLE + "end 0\n", "covers no fragment", code=2)
         self.rejected(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
                      "covers no fragment in 1 quads", code=2)
 
-    def test_files_that_are_none(self):
+    def test_rejects_missing_file_and_folder(self):
         for name, says in (("missing", "no such file"), (".", "not a regular file")):
             self.expect(5, "run", "texture", "--fragments", name, "--out", "out", says=says)
 
-    def test_what_has_no_effect(self):
+    def test_rejects_options_without_effect_on_fragments(self):
         self.write("trace", TITLE + FRAGMENT + "end 1\n")
         for arguments in (["--size", "8x8"], ["--set", "scene.fov=1"], ["--truth"],
                           ["--set", "scene.visibility=overdraw"]):
@@ -115,26 +115,26 @@ class Fragments(CommandTest):
             done = self.run_command("run", engine, "--set", "scene.fragments=trace", "--out", "out")
             self.assertEqual(done.returncode, 2, done.stderr)
 
-    def test_the_results_do_not_replace_what_is_read(self):
+    def test_results_do_not_replace_their_input(self):
         os.mkdir(self.path("out"))
         self.run_texture(0, "--fragment-trace", "text")
         before = open(self.path("out/fragments.trace"), "rb").read()
         self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--fragment-trace", "text",
                     "--out", "out", says="would replace it")
-        # Nor does it go with the results of the run that made it.
+        # Nor is it removed with the results of the run that made it.
         self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out", says="would replace it")
         self.assertEqual(open(self.path("out/fragments.trace"), "rb").read(), before)
 
 
 class Lines(CommandTest):
-    def test_what_has_no_effect(self):
+    def test_rejects_options_without_effect_on_lines(self):
         self.run_texture(2, "--set", "run.line_trace_lookups=true", says="no trace without run.line_trace")
         for more in ((), ("--show-config",)):
             self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
                         *more, says="morphological.storage = memory")
         self.run_texture(2, "--line-trace", "yaml", says="none, text, binary")
 
-    def test_a_file_of_somebody_else_stays(self):
+    def test_keeps_foreign_file(self):
         os.mkdir(self.path("out"))
         self.write("out/lines.trace", "mine")
         self.run_texture(2, "--line-trace", "text", says="lines.trace")
@@ -142,7 +142,7 @@ class Lines(CommandTest):
             self.assertEqual(file.read(), "mine")
         self.run_texture(0)
 
-    def test_an_earlier_trace_goes_with_its_run(self):
+    def test_earlier_trace_goes_with_its_run(self):
         self.run_texture(0, "--line-trace", "text", "--fragment-trace", "binary")
         self.assertTrue(os.path.exists(self.path("out/lines.trace")))
         with open(self.path("out/manifest.json")) as file:
@@ -151,7 +151,7 @@ class Lines(CommandTest):
         self.assertFalse(os.path.exists(self.path("out/lines.trace")))
         self.assertFalse(os.path.exists(self.path("out/fragments.trace")))
 
-    def test_a_full_disk_leaves_the_earlier_results(self):
+    def test_full_disk_keeps_earlier_results(self):
         self.run_texture(0, "--no-images")
         before = sorted(os.listdir(self.path("out")))
         with open(self.path("out/result.json")) as file:
@@ -169,7 +169,7 @@ class Lines(CommandTest):
                 with open(self.path("out/result.json")) as file:
                     self.assertEqual(file.read(), result)
 
-    def test_a_run_that_is_broken_off_leaves_whole_traces(self):
+    def test_aborted_run_leaves_complete_traces(self):
         self.run_texture(3, "--max-cycles", "1000", "--line-trace", "text", "--fragment-trace", "text",
                          says="1,000 cycles")
         for name, end in (("lines", "# end "), ("fragments", "end ")):

@@ -13,12 +13,12 @@ TEXTURE, MORPHOLOGICAL, GEOMETRIC = BlindAlone.TEXTURE, BlindAlone.MORPHOLOGICAL
 
 
 class Registers(CommandTest):
-    def test_each(self):
+    def test_each_register_is_checked(self):
         self.miscount("frame", RegistersAlone.TEXTURE + RegistersAlone.MORPHOLOGICAL)
 
 
 class Blind(CommandTest):
-    def test_each(self):
+    def test_each_scoreboard_must_compare(self):
         memory = ("--storage", "memory")
         boards = ({f"texture.blind-{board}" for board in TEXTURE} |
                   {f"morphological.blind-{board}" for board in MORPHOLOGICAL})

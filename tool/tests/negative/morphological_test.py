@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Bad input and injected faults of `deburr run morphological` and `deburr run frame`: each has its exit code and
-says what is wrong; awkward but legal frames pass. See --help of unittest."""
+"""Bad input and injected faults of `deburr run morphological` and `deburr run frame`: each has its exit code and a
+message that names the error; unusual but legal frames pass. See --help of unittest."""
 import json
 import os
 import random
@@ -54,69 +54,69 @@ class Frames(Base):
     def frame(self, code, name, content, *arguments, says=()):
         return self.run_engine(code, "--in", self.write(name, content), *arguments, says=says)
 
-    def test_missing(self):
+    def test_rejects_missing_image(self):
         self.run_engine(5, "--in", self.path("missing.png"), says="missing.png")
 
-    def test_unknown_scene(self):
+    def test_unknown_scene_suggests_similar_name(self):
         self.run_engine(2, "--scene", "cylinder", says=["cylinder", "road"])
 
-    def test_directory(self):
+    def test_rejects_folder_as_image(self):
         os.mkdir(self.path("folder.png"))
         self.run_engine(5, "--in", self.path("folder.png"), says="folder.png")
 
-    def test_empty(self):
+    def test_rejects_empty_image(self):
         self.frame(5, "empty.png", b"", says="empty.png")
 
-    def test_truncated(self):
+    def test_rejects_truncated_image(self):
         whole = noisy_png(64, 64)
         done = self.frame(5, "truncated.png", whole[:len(whole) // 2], says="truncated.png")
         self.assertEqual(len(done.stderr.splitlines()), 1, "a library's own message, or one of several lines")
 
-    def test_corrupt(self):
+    def test_rejects_corrupt_image(self):
         broken = bytearray(noisy_png(64, 64))
         for i in range(45, len(broken) - 12):
             broken[i] ^= 0x5A
         self.frame(5, "corrupt.png", bytes(broken), says="corrupt.png")
 
-    def test_not_an_image(self):
+    def test_rejects_text_as_image(self):
         self.frame(5, "text.png", b"this is no image at all\n" * 10, says="text.png")
 
-    def test_over_size(self):
+    def test_rejects_image_that_is_too_large(self):
         self.frame(5, "huge.png", png(4, 4, declared=(60000, 60000)), says="huge.png")
         self.frame(5, "wide.png", png(8193, 1), says=["wide.png", "8192"])
 
-    def test_wider_than_the_line_buffers(self):
+    def test_rejects_frame_wider_than_line_buffers(self):
         self.frame(2, "wide.png", png(65, 2), "--set", "morphological.line_pixels=64", says="line_pixels")
 
-    def test_largest_width(self):
+    def test_accepts_largest_width(self):
         self.frame(0, "widest.png", png(8192, 1), says="PASS")
 
-    def test_one_pixel_row_and_column(self):
+    def test_accepts_one_pixel_row_and_column(self):
         self.frame(0, "one.png", png(1, 1), says="PASS")
         self.frame(0, "row.png", noisy_png(200, 1), says="PASS")
         self.frame(0, "column.png", noisy_png(1, 200), says="PASS")
 
-    def test_all_edges(self):
+    def test_accepts_frame_full_of_edges(self):
         self.frame(0, "noise.png", noisy_png(90, 60), says="PASS")
         self.assertGreater(self.result()["work"]["edge_pixels_percent"], 50)
 
-    def test_flat(self):
+    def test_flat_frame_blends_nothing(self):
         self.frame(0, "flat.png", png(40, 30), says="PASS")
         self.assertEqual(self.result()["work"]["blended_pixels_percent"], 0)
 
-    def test_16_bit(self):
+    def test_accepts_16_bit_image(self):
         self.frame(0, "deep.png", png(16, 16, bits=16), says="PASS")
 
-    def test_grey_and_alpha(self):
+    def test_accepts_grey_and_alpha(self):
         self.frame(0, "grey.png", png(16, 16, channels=1), says="PASS")
         self.frame(0, "grey_alpha.png", png(16, 16, channels=2), says="PASS")
         self.frame(0, "alpha.png", png(16, 16, channels=4), says="PASS")
 
-    def test_float(self):
+    def test_accepts_float_image(self):
         self.frame(0, "float.tif", float_tiff(16, 16), says="PASS")
         self.frame(0, "nan.tif", float_tiff(16, 16, float("nan")), says="PASS")
 
-    def test_truth_and_depth_must_fit(self):
+    def test_rejects_reference_and_depth_of_other_size(self):
         self.frame(2, "a.png", png(16, 16), "--truth", self.write("b.png", png(15, 16)), says=["b.png", "15 x 16"])
         self.frame(2, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("d.png", png(16, 17)),
                    says=["d.png", "16 x 17"])
@@ -126,7 +126,7 @@ class Frames(Base):
         self.frame(0, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), says="PASS")
         self.assertIn("psnr_edge_db", self.result()["quality"])
 
-    def test_edges_of_depth_need_depth(self):
+    def test_rejects_depth_edges_without_depth(self):
         for source in ("depth", "predicated"):
             edges = ("--set", "morphological.edges.source=" + source)
             self.frame(2, "a.png", png(16, 16), *edges, says=[source, "--depth FILE"])
@@ -134,7 +134,7 @@ class Frames(Base):
             self.run_engine(0, "--size", "16x16", *edges)
             self.run_engine(0, "--size", "16x16", *edges, engine="frame")
 
-    def test_depth_of_16_bits_of_grey(self):
+    def test_accepts_depth_of_16_bit_grey(self):
         done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth",
                           self.write("d.png", png(16, 16, bits=16, channels=1)), says="PASS")
         self.assertIn("'%s': 16 bits of grey taken as near / w" % self.path("d.png"), done.stderr)
@@ -142,7 +142,7 @@ class Frames(Base):
         self.frame(5, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("c.png", png(16, 16, bits=16)),
                    says=["c.png", "this one has 3 channels of uint16"])
 
-    def test_depth_that_is_a_picture_is_noted(self):
+    def test_notes_depth_that_looks_like_a_picture(self):
         picture = [bytes((x * 5 % 256, x * 5 % 256 // 2 + y, x * 5 % 256)) for y in range(32) for x in range(48)]
         depth = [(9_000_000 + 70_001 * x + 30_011 * y).to_bytes(3, "big") for y in range(32) for x in range(48)]
         frame = self.write("a.png", noisy_png(48, 32))
@@ -150,8 +150,8 @@ class Frames(Base):
             done = self.run_engine(0, "--in", frame, *DEPTH_EDGES, "--depth", self.write("d.png", rgb_png(48, pixels)))
             self.assertEqual("looks like a picture" in done.stderr, noted)
 
-    def test_depth_that_is_no_number_is_rejected(self):
-        """It is at no distance: silhouettes and edges would be found around it."""
+    def test_rejects_depth_that_is_not_finite(self):
+        """Such a depth has no distance: silhouettes and edges would be found around it."""
         depths = [0.25] * 256
         depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
         depth = ("--depth", self.write("nan.tif", float_tiff(16, 16, depths, channels=1)))
@@ -159,26 +159,26 @@ class Frames(Base):
         self.frame(5, "a.png", noisy_png(16, 16), *DEPTH_EDGES, *depth, says=says)
         self.frame(5, "a.png", noisy_png(16, 16), "--truth", self.write("t.png", png(16, 16)), *depth, says=says)
 
-    def test_depth_that_is_clamped_is_noted(self):
+    def test_notes_clamped_depth(self):
         for beyond, noted in ((1.0, False), (0.0, False), (1.5, True), (-0.1, True)):
             depth = self.write("d.tif", float_tiff(16, 16, [0.25] * 100 + [beyond] * 2 + [0.5] * 154, channels=1))
             done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth", depth)
             self.assertEqual("2 of 256 values lie outside [0, 1], the first at (4, 6)" in done.stderr, noted,
                              done.stderr)
 
-    def test_a_scene_has_its_own_truth(self):
+    def test_rejects_reference_for_a_scene(self):
         self.run_engine(2, "--scene", "road", "--truth", self.write("t.png", png(4, 4)), says="scene has its own")
 
 
 class Configuration(Base):
-    """Presets, rules beside them, and mixes that are impossible."""
+    """Presets, settings that override them, and invalid combinations."""
     SMALL = ("--size", "48x40")
 
-    def test_an_unknown_preset(self):
+    def test_rejects_unknown_preset(self):
         self.run_engine(2, *self.SMALL, "--preset", "smoothest", says="mlaa")
         self.assertFalse(os.path.exists(self.path("out/result.json")))
 
-    def test_a_quality_is_a_preset_of_the_preset(self):
+    def test_quality_selects_a_preset_of_smaa(self):
         for preset in ("smaa", "smaa-dynamic"):
             for quality, rows, steps in (("low", 38, 4), ("medium", 70, 8), ("high", 134, 16), ("ultra", 258, 32)):
                 shown = self.run_engine(0, "--preset", preset, "--set", f"morphological.quality={quality}",
@@ -190,7 +190,7 @@ class Configuration(Base):
         self.assertIn("morphological.window_rows: 40", given)
         self.assertNotIn("# morphological.window_rows", given)
 
-    def test_impossible_mixes(self):
+    def test_rejects_impossible_combinations(self):
         self.run_engine(2, *self.SMALL, "--set", "morphological.diagonals=true", says="learned with diagonals")
         self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.diagonals=true", "--set",
                         "morphological.diagonal_steps=10", "--set", "morphological.window_rows=20",
@@ -206,25 +206,25 @@ class Configuration(Base):
     RANGES = {"edges.threshold": (1, 16777215), "edges.alpha": (0, 16777215), "edges.floor": (1, 16777215),
               "search_steps": (1, 112), "diagonal_steps": (1, 16), "corner_rounding": (0, 256)}
 
-    def test_numbers_of_smaa_out_of_their_ranges(self):
-        """Distances to 2N pixels lie within the 225 of the tables for every N, so that there is no table that does
-        not fit: N above that is out of range."""
+    def test_rejects_smaa_numbers_out_of_range(self):
+        """Distances up to 2N pixels lie within the 225 of the tables for every N, so every table fits; a larger N is
+        out of range."""
         for name, (least, most) in self.RANGES.items():
             for value in (least - 1, most + 1, "few", 0.5):
                 self.run_engine(2, *self.SMALL, "--preset", "smaa", "--set", f"morphological.{name}={value}",
                                 says=[f"morphological.{name}", f"{least}..{most}"])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_numbers_of_smaa_at_the_ends_of_their_ranges(self):
-        """Also alpha and T far outside of what the paper speaks of."""
+    def test_accepts_smaa_numbers_at_ends_of_range(self):
+        """Also alpha and T far outside the values in the paper."""
         for name, ends in self.RANGES.items():
             preset = "smaa-dynamic" if name in ("edges.alpha", "edges.floor") else "smaa"
             for value in ends:
                 self.run_engine(0, *self.SMALL, "--preset", preset, "--set", f"morphological.{name}={value}",
                                 says="PASS")
 
-    def test_thresholds_below_a_code_are_noted(self):
-        """Legal, and most likely of the time when thresholds were weights of full scale."""
+    def test_notes_thresholds_below_one_code(self):
+        """Legal, but probably written when thresholds were fractions of full scale."""
         predicated = ("--set", "morphological.edges.source=predicated")
         dynamic = ("--preset", "smaa-dynamic")
         for name, least, rules in (("edges.threshold", 65536, ()), ("edges.threshold_on_depth_edge", 65536, predicated),
@@ -240,14 +240,14 @@ class Configuration(Base):
                       "from before 0.3.0 by 255", done.stderr)
         done = self.run_engine(0, *self.SMALL, "--set", "morphological.edges.threshold=65535")
         self.assertIn("= 65535 is 0.99998 of a code", done.stderr)
-        # Below a code alpha decides nothing where the floor is a code; a lower floor may be below alpha times luma.
+        # Below a code, alpha decides nothing if the floor is a code; a lower floor may be below alpha times luma.
         for floor, decides in ((65536, ", so edges.floor alone decides"), (65535, "")):
             done = self.run_engine(0, *self.SMALL, *dynamic, "--set", "morphological.edges.alpha=65793", "--set",
                                    f"morphological.edges.floor={floor}")
             self.assertIn(f"edges.alpha = 65793 is 0.00392, below a code even of white{decides}: its unit is "
                           "1 / 16777216; multiply a number from before 0.3.0 by 256", done.stderr)
 
-    def test_unknown_choices_of_smaa(self):
+    def test_rejects_unknown_smaa_choices(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
                             ("border", "end, clamp"), ("area_values", "exact, published"),
                             ("area", "analytic, table_full, table_merged, table_minimal"),
@@ -259,8 +259,8 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, "--preset", "smaa2", says=["smaa2", "did you mean 'smaa'?", "smaa-dynamic"])
         self.assertFalse(os.path.exists(self.path("out")))
 
-    def test_mixes_of_smaa(self):
-        """What the contract rejects, and next to it what is legal."""
+    def test_rejects_illegal_smaa_combinations(self):
+        """Combinations that the contract rejects, and similar legal ones."""
         smaa = ("--preset", "smaa")
 
         def rows(steps, window):
@@ -271,25 +271,25 @@ class Configuration(Base):
             least = 2 * steps + 2
             self.run_engine(2, *rows(steps, least - 2), says=["diagonal_steps", f"window_rows of at least {least}"])
             self.run_engine(0, *rows(steps, least), says="PASS")
-        # Without diagonals the same window is legal.
+        # Without diagonals the same search range is legal.
         self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.diagonals=false", "--set",
                         "morphological.window_rows=10", says="PASS")
         self.run_engine(2, *self.SMALL, "--preset", "smaa-dynamic", "--set", "morphological.edges.source=predicated",
                         says=["predicated", "threshold_mode = fixed"])
         self.run_engine(0, *self.SMALL, *smaa, "--set", "morphological.edges.source=predicated", says="PASS")
-        # A border that runs go on beyond: what has no search has none to go on.
+        # Runs continue past this border: without a search nothing can continue.
         for name, value in (("ends", "gaps"), ("area", "analytic")):
             one = ("--set", f"morphological.{name}={value}")
             self.run_engine(2, *self.SMALL, *smaa, *one, says=["morphological.border", name, "must be end"])
             self.run_engine(0, *self.SMALL, *smaa, *one, "--set", "morphological.border=end", says="PASS")
         self.run_engine(2, *self.SMALL, "--preset", "mlaa", "--set", "morphological.border=clamp", says="must be end")
 
-    def test_a_rule_beside_a_preset_overrides_it(self):
+    def test_setting_overrides_preset(self):
         done = self.run_engine(0, "--preset", "mlaa-slope", "--set", "morphological.steps=8", "--show-config")
         self.assertIn("morphological.steps: 8", done.stdout)
         self.assertIn('morphological.predictor: "chord"', done.stdout)
 
-    def test_what_has_no_effect_is_rejected(self):
+    def test_rejects_parameters_without_effect(self):
         image = ("--in", self.write("a.png", noisy_png(16, 16)))
         morphological = [
             (image, "--size", "10x10", "size of its own"),
@@ -329,7 +329,7 @@ class Configuration(Base):
     def configuration(self, *arguments):
         return self.write("rules.yaml", self.run_engine(0, *arguments, "--show-config").stdout)
 
-    def test_a_resolved_configuration_says_all_again(self):
+    def test_resolved_configuration_repeats_itself(self):
         for rules in ((), ("--preset", "mlaa"), ("--preset", "mlaa-slope", "--set", "morphological.steps=8"),
                       ("--in", self.write("a.png", noisy_png(16, 16)))):
             text = self.run_engine(0, *rules, "--show-config").stdout
@@ -340,8 +340,8 @@ class Configuration(Base):
         with open(self.path("out/manifest.json")) as file:
             return json.load(file)["summary"]
 
-    def test_a_preset_beside_a_resolved_configuration(self):
-        """It is that preset, and what had been changed is still changed, and said to be."""
+    def test_preset_overrides_resolved_configuration(self):
+        """The preset takes effect; settings that had been changed stay changed and are reported."""
         config = ("--config", self.configuration("--preset", "mlaa-slope", *self.SMALL))
         self.run_engine(0, *config, "--preset", "mlaa")
         self.assertIn("preset mlaa: ", self.title())
@@ -372,7 +372,7 @@ class Configuration(Base):
         self.run_engine(0, *self.SMALL, "--truth", engine="frame", says="PASS")
         self.assertGreater(encoded, self.result()["quality"]["psnr_db"] + 0.5)  # filtered in linear light
 
-    def test_frame(self):
+    def test_frame_passes(self):
         self.run_engine(0, *self.SMALL, engine="frame", says="PASS")
         work = self.result()["work"]
         self.assertGreater(work["texturing_cycles"], 0)
@@ -380,7 +380,7 @@ class Configuration(Base):
 
 
 class Faults(Base):
-    """What is injected must be found, by the right check; without link checkers by the scoreboards."""
+    """Every injected fault must be found by the right check; without link checkers by the scoreboards."""
     SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
     CHECKED = SMALL + ("--set", "run.check_links=true")
     UNCHECKED = SMALL + ("--set", "run.check_links=false")
@@ -392,100 +392,100 @@ class Faults(Base):
         self.assertTrue(os.path.exists(self.path("out/report.html")), "a failed run has a report too")
         return done
 
-    def test_without_a_fault(self):
+    def test_passes_without_a_fault(self):
         self.run_engine(0, *self.CHECKED)
         self.run_engine(0, *self.UNCHECKED, *self.MEMORY)
         self.assertGreater(self.result()["checks"]["traffic_comparisons"], 0)
 
-    def test_flipped_bit(self):
+    def test_catches_flipped_bit(self):
         done = self.fault("flip-bit", 1, "mismatch", *self.UNCHECKED)
         self.assertEqual(self.result()["checks"]["mismatches"], 1)
         self.assertRegex(done.stderr, r"cycle \d+: pixel \(36, 1\): expected RGBA .*, got RGBA")
         self.fault("flip-bit", 3, "changed while it waited", *self.CHECKED)
 
-    def test_dropped_pixel(self):
+    def test_catches_dropped_pixel(self):
         self.fault("drop-pixel", 1, "end of row", *self.UNCHECKED)
         self.assertLess(self.result()["checks"]["mismatches"], 2 * 64, "only its own row is spoiled")
         self.fault("drop-pixel", 3, "vanished", *self.CHECKED)
 
-    def test_duplicated_pixel(self):
+    def test_catches_duplicated_pixel(self):
         self.fault("duplicate-pixel", 1, "mismatch", *self.UNCHECKED)
         self.assertLess(self.result()["checks"]["mismatches"], 2 * 64, "only its own row is spoiled")
         self.fault("duplicate-pixel", 3, "appeared", *self.CHECKED)
 
-    def test_dropped_input(self):
+    def test_catches_dropped_input(self):
         self.fault("drop-input", 4, "deadlock", *self.UNCHECKED)
 
-    def test_wrong_edge(self):
+    def test_catches_wrong_edge(self):
         self.fault("wrong-edge", 1, "edges", *self.UNCHECKED)
 
-    def test_wrong_rule(self):
+    def test_catches_wrong_configuration(self):
         self.fault("wrong-rule", 1, "mismatch", "--scene", "cylinders", "--size", "200x150")
 
-    def test_stuck_ready(self):
+    def test_catches_stuck_ready(self):
         self.fault("stuck-ready", 4, "morphological.slots", *self.CHECKED)
 
-    def test_duplicated_request(self):
+    def test_catches_duplicated_request(self):
         self.fault("duplicate-fetch", 1, "memory lines", *self.UNCHECKED, *self.MEMORY)
         result = self.result()
         self.assertRegex(result["first_mismatches"][0]["where"], r"^cycle \d+$")
         self.assertLess(int(result["first_mismatches"][0]["where"].split()[1]), result["cycles"] // 2, "request 20")
         self.fault("duplicate-fetch", 3, "appeared", *self.CHECKED, *self.MEMORY)
 
-    def test_lost_response(self):
+    def test_catches_lost_response(self):
         self.fault("lost-response", 4, "memory", *self.CHECKED, *self.MEMORY)
 
-    def test_memory_error(self):
+    def test_catches_memory_error(self):
         self.fault("memory-error", 3, "1 lines with an error", *self.CHECKED, *self.MEMORY)
 
-    def test_error_range(self):
+    def test_errors_by_address_are_predicted(self):
         self.run_engine(3, *self.CHECKED, *self.MEMORY, "--set", "memory.error_address=256", says="with an error")
         self.assertEqual(self.result()["checks"]["mismatches"], 0)
 
-    def test_faults_of_memory_need_memory(self):
+    def test_rejects_memory_faults_without_memory(self):
         self.run_engine(2, *self.CHECKED, "--fault", "lost-response", says="storage = memory")
 
-    def test_too_few_cycles(self):
+    def test_max_cycles_ends_the_run(self):
         self.run_engine(3, *self.CHECKED, "--max-cycles", "1000", says=["not done after 1,000", "of 3,072 pixels"])
         self.assertEqual(self.result()["cycles"], 1000)
         self.run_engine(3, *self.CHECKED, "--max-cycles", "1000", engine="frame", says="of 3,072 pixels")
-        # The second of two frames finds nothing left of the budget.
+        # The second of two frames has no cycles left.
         self.run_engine(0, *self.CHECKED)
         cycles = str(self.result()["cycles"])
         self.run_engine(3, *self.CHECKED, "--max-cycles", cycles, "--set", "frame.count=2", says="3,072 of 6,144")
 
-    def test_unknown_fault(self):
+    def test_unknown_fault_is_rejected(self):
         self.run_engine(2, *self.CHECKED, "--fault", "gremlin", says=["gremlin", "flip-bit"])
 
-    def test_frame(self):
+    def test_catches_flipped_bits_in_a_frame(self):
         self.fault("flip:colours:50:56", 1, "mismatch", *self.UNCHECKED, engine="frame")
         self.fault("flip:blended:50:4", 1, "mismatch", *self.UNCHECKED, engine="frame")
 
-    def test_the_checkers_are_off_by_default(self):
+    def test_link_checkers_are_off_by_default(self):
         self.fault("morphological.flip-bit", 1, "mismatch", *self.SMALL, engine="frame")
         self.fault("flip-bit", 1, "mismatch", *self.SMALL)
 
-    def test_every_bit_of_the_output_of_a_frame_is_checked_or_rejected(self):
-        """Its flags too; what is no bit of the beat is rejected."""
-        # Of one lane: 32 of the pixel, 19 of how it was blended, 3 of the count, 2 flags.
+    def test_every_output_bit_of_a_frame_is_checked_or_rejected(self):
+        """Including flags; a bit that the beat does not have is rejected."""
+        # Per lane: 32 bits of the pixel, 19 of the blend decision, 3 of the count, 2 flags.
         for bit in (0, 31, 32, 33, 48, 50, 51, 53, 54, 55):
             self.fault(f"flip:blended:100:{bit}", 1, "mismatch", *self.UNCHECKED, engine="frame")
         for bit in (56, 264, 100000):
             self.run_engine(2, *self.UNCHECKED, "--fault", f"flip:blended:100:{bit}", engine="frame",
                             says=f"no bit {bit}: the payload has 56 bits")
 
-    def test_errors_of_the_texture_memory_of_a_frame(self):
+    def test_frame_reports_texture_memory_errors(self):
         self.run_engine(3, *self.SMALL, "--set", "memory.error_address=0", "--set", "memory.error_bytes=100000000",
                         engine="frame", says="line fills with an error")
         self.assertEqual(self.result()["checks"]["mismatches"], 0, "golden reads zero too")
         self.assertEqual(self.result()["checks"]["traffic_mismatches"], 0)
 
-    def test_errors_of_the_frame_memory_of_a_frame(self):
+    def test_frame_reports_frame_memory_errors(self):
         self.run_engine(3, *self.SMALL, *self.MEMORY, "--set", "frame_memory.error_address=256", engine="frame",
                         says=["lines with an error", "frame_memory.error_address"])
         self.assertEqual(self.result()["checks"]["mismatches"], 0)
 
-    def test_named_faults_of_a_frame(self):
+    def test_catches_named_faults_in_a_frame(self):
         for name, checked, unchecked in (
                 ("morphological.flip-bit", 3, 1), ("drop-pixel", 3, 1), ("duplicate-pixel", 3, 1),
                 ("texture.flip-bit", 3, 1), ("drop-colour", 3, 4), ("morphological.stuck-ready", 4, 4),
@@ -502,19 +502,19 @@ class Faults(Base):
 
 
 def stair_png(size):
-    """White beneath a stair of one pixel, which rises: one diagonal over the whole frame."""
+    """White beneath a rising staircase with steps of one pixel: one diagonal over the whole frame."""
     return rgb_png(size, [bytes([255 if x + y >= size else 0]) * 3 for y in range(size) for x in range(size)])
 
 
 def columns_png(height, colours):
-    """A column of each colour."""
+    """One column per colour."""
     return rgb_png(len(colours), [bytes(colour) for _ in range(height) for colour in colours])
 
 
 class BlockFaults(Base):
-    """Scoreboards find faults in blocks. The link checkers find faults of links first, with a code of their own."""
+    """Scoreboards find faults in blocks. The link checkers find faults of links first, with their own exit code."""
     SMALL = ("--size", "64x48", "--set", "run.watchdog_cycles=2000")
-    passed = set()  # runs without a fault, a file by what it holds
+    passed = set()  # runs without a fault, keyed by file content
 
     def passes(self, *arguments, engine="morphological"):
         run = [engine]
@@ -528,7 +528,7 @@ class BlockFaults(Base):
             self.passed.add(tuple(run))
 
     def fault(self, name, *arguments, code=1, says="mismatch", unchecked=None, **options):
-        self.passes(*arguments, **options)  # without it all is well
+        self.passes(*arguments, **options)  # without the fault the run passes
         for checked, expected in ((False, unchecked or code), (True, code))[:2 if unchecked else 1]:
             links = ("--set", f"run.check_links={str(checked).lower()}")
             self.run_engine(expected, "--fault", name, *links, *arguments, says=says if expected == code else (),
@@ -546,28 +546,28 @@ class BlockFaults(Base):
 
 
 class WeightsFaults(BlockFaults):
-    """Faults in edges from colour and in learned weights, and what a mask does."""
+    """Faults in edges from colour and in learned weights, and the effect of a mask."""
 
     def noise(self):
         return self.picture("noise.png", noisy_png(48, 40))
 
-    def test_a_bit_of_each_table(self):
+    def test_catches_a_bit_of_each_weight_table(self):
         for name in ("wrong-weight", "wrong-near", "wrong-far", "wrong-sum"):
             with self.subTest(name):
                 self.fault(name, *self.noise())
 
-    def test_edges_from_luma(self):
-        # Hues of one luma, as nearly as codes allow.
+    def test_catches_wrong_edges_from_luma(self):
+        # Hues of equal luma, as nearly as codes allow.
         hues = self.picture("hues.png", columns_png(8, [(128, 40, 70)] * 6 + [(10, 76, 64)] * 6))
         self.fault("wrong-colour", *hues)
 
-    def test_faults_of_links(self):
+    def test_catches_faults_of_links(self):
         for name in ("wrong-class", "wrong-code", "wrong-axis"):
             with self.subTest(name):
                 self.fault(name, *self.noise(), code=3, unchecked=1, says="changed while it waited")
         self.fault("drop-line", *self.noise(), code=3, unchecked=4, says="vanished")
 
-    def test_what_is_not_there_cannot_fail(self):
+    def test_faults_in_absent_hardware_are_rejected(self):
         for name in ("wrong-weight", "wrong-near", "wrong-far", "wrong-sum", "wrong-class", "wrong-code",
                      "wrong-axis", "drop-line"):
             self.run_engine(2, *self.SMALL, "--preset", "deburr-line", "--fault", name,
@@ -575,7 +575,7 @@ class WeightsFaults(BlockFaults):
         self.run_engine(2, *self.SMALL, "--preset", "deburr-line", "--fault", "wrong-colour",
                         says=["wrong-colour", "needs", "edges.source = colour"])
 
-    def test_rules_that_do_not_go_together(self):
+    def test_rejects_incompatible_settings(self):
         for rules, says in (({"edges__threshold_mode": "dynamic"}, "dynamic"),
                             ({"diagonals": "true"}, "learned"), ({"round_corners": "true"}, "learned")):
             self.run_engine(2, *self.SMALL, *self.rules(**rules), says=says)
@@ -583,10 +583,10 @@ class WeightsFaults(BlockFaults):
         self.run_engine(2, *self.SMALL, *self.rules(edges__depth_threshold=4), says="source = depth")
 
     def mask(self, marks):
-        """Red where a pixel is marked, the other codes the other way round."""
+        """Red where a pixel is marked; the other channels are inverted."""
         return self.write("mask.png", rgb_png(48, [bytes((red, 255 - red, 255)) for red in marks]))
 
-    def test_a_mask(self):
+    def test_marked_pixels_are_not_blended(self):
         noise = self.noise()
         for preset in ("deburr", "deburr-line", "mlaa", "smaa"):
             for marks, blends in (([255] * 1920, False), ([128] * 1920, False), ([127] * 1920, True),
@@ -597,7 +597,7 @@ class WeightsFaults(BlockFaults):
                 self.assertEqual(work["blender_bypassed_pixels"], 0)
                 self.assertEqual(work["edge_pixels_percent"] > 0, blends, preset)
 
-    def test_a_mask_that_does_not_fit(self):
+    def test_rejects_mask_that_does_not_fit(self):
         noise = self.noise()
         self.run_engine(2, *noise, "--mask", self.write("small.png", noisy_png(20, 20)),
                         says=["mask", "20 x 20", "48 x 40"])
@@ -607,30 +607,30 @@ class WeightsFaults(BlockFaults):
 
 
 class GuardFaults(BlockFaults):
-    """A text guard that is not there or errs, and what it leaves."""
+    """A text guard that is missing or wrong, and its effect."""
     GUARD = ("--set", "morphological.text_guard=true")
 
-    def test_a_guard_that_is_off(self):
+    def test_catches_disabled_guard(self):
         noise = self.picture("noise.png", noisy_png(48, 40))
         for preset in ("deburr", "deburr-line", "mlaa", "smaa"):
             with self.subTest(preset):
                 self.fault("wrong-guard", *noise, "--preset", preset, *self.GUARD)
-        # What has no guarded pixel does not tell.
+        # A frame without a guarded pixel does not reveal the fault.
         flat = self.picture("flat.png", rgb_png(24, [bytes([255 * (x < 12)] * 3) for _ in range(20) for x in range(24)]))
         self.run_engine(0, *flat, *self.GUARD, "--fault", "wrong-guard", says="PASS")
 
-    def test_a_bit_of_a_pixel(self):
+    def test_catches_a_bit_of_a_guarded_pixel(self):
         noise = self.picture("noise.png", noisy_png(48, 40))
         for arguments in (("--preset", "deburr"), ("--preset", "mlaa", "--lanes", "4"), ("--preset", "smaa")):
             with self.subTest(arguments):
                 self.fault("flip-guard", *noise, *arguments, *self.GUARD, code=3, unchecked=1,
                            says="changed while it waited")
 
-    def test_what_is_not_there_cannot_fail(self):
+    def test_faults_in_absent_guard_are_rejected(self):
         for name in ("wrong-guard", "flip-guard"):
             self.run_engine(2, *self.SMALL, "--fault", name, says=[name, "needs", "text_guard = true"])
 
-    def test_it_leaves_most_of_two_colours_at_random(self):
+    def test_guard_bypasses_most_of_random_two_colour_frame(self):
         noise = self.picture("noise.png", noisy_png(48, 40))
         self.run_engine(0, *noise)
         before = self.result()["work"]
@@ -643,9 +643,9 @@ class GuardFaults(BlockFaults):
 
 
 class Fields(BlockFaults):
-    """A field of the rules that the hardware decodes as another value than software wrote."""
+    """Hardware decodes a configuration field as another value than software wrote."""
 
-    def test_each(self):
+    def test_each_field_is_decoded(self):
         bits = random.Random(1)
         grain, grey, dark = (self.picture(name, rgb_png(48, [bytes(code() for _ in range(3)) if colours else
                                                             bytes([code()] * 3) for _ in range(48 * 32)]))
@@ -679,22 +679,22 @@ class Fields(BlockFaults):
 class SmaaFaults(BlockFaults):
     """Faults in SMAA's blocks."""
 
-    def test_a_bit_of_the_table_in_each_layout(self):
+    def test_catches_a_bit_of_the_table_in_each_layout(self):
         for area in ("table_full", "table_merged", "table_minimal"):
             with self.subTest(area):
                 rules = self.rules(quality="medium", area=area)
                 self.fault("wrong-area", "--preset", "smaa", *rules, *self.SMALL)
                 self.run_engine(1, "--fault", "wrong-root", "--preset", "smaa", *rules, *self.SMALL, says="mismatch")
 
-    def test_the_decode_of_the_merged_table(self):
+    def test_catches_wrong_decode_of_merged_table(self):
         self.fault("wrong-decode", "--preset", "smaa-dynamic", *self.SMALL)
         self.fault("wrong-decode", "--preset", "smaa", *self.rules(area="table_merged"), *self.SMALL)
 
-    def test_the_other_roms(self):
+    def test_catches_faults_in_other_roms(self):
         self.fault("wrong-diagonal-area", "--preset", "smaa", *self.SMALL)
         self.fault("wrong-mix", "--preset", "smaa", *self.SMALL)
 
-    def test_thresholds_at_equality(self):
+    def test_catches_wrong_threshold_at_equality(self):
         # Steps of blue are T exactly; steps from 1 to 2 are alpha times luma exactly.
         blue = self.picture("blue.png", columns_png(8, [(0, 0, 0)] * 6 + [(0, 0, 255)] * 6))
         dark = self.picture("dark.png", columns_png(8, [(1, 1, 1)] * 6 + [(2, 2, 2)] * 6))
@@ -702,23 +702,23 @@ class SmaaFaults(BlockFaults):
         self.fault("wrong-threshold", *blue, "--preset", "smaa", *off, *self.rules(edges__threshold=255 * 4732))
         self.fault("wrong-floor", *blue, "--preset", "smaa-dynamic", *off,
                    *self.rules(edges__alpha=1, edges__floor=255 * 4732))
-        for luma in ("current", "max"):  # of the right column, which owns the edge and is the brighter
+        for luma in ("current", "max"):  # of the right column, which owns the edge and is brighter
             self.fault("wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
                        *self.rules(edges__alpha=1 << 23, edges__floor=1, edges__dynamic_luma=luma))
         for luma, code in (("min", 16777215), ("mean", 11184810)):  # 1 and 1.5: just below, no equality
             self.run_engine(0, "--fault", "wrong-threshold", *dark, "--preset", "smaa-dynamic", *off,
                             *self.rules(edges__alpha=code, edges__floor=1, edges__dynamic_luma=luma), says="PASS")
 
-    def test_local_contrast_at_equality(self):
+    def test_catches_wrong_local_contrast_at_equality(self):
         grey = self.picture("grey.png", columns_png(8, [(c, c, c) for c in [0] * 5 + [60] + [180] * 5]))
         for contrast in ("smaa", "paper"):
             self.fault("wrong-contrast", *grey, "--preset", "smaa", *self.rules(edges__local_contrast=contrast))
 
-    def test_searches_a_step_short(self):
+    def test_catches_search_one_step_short(self):
         self.fault("wrong-search", "--preset", "smaa", *self.rules(quality="low"), *self.SMALL)
         self.fault("wrong-diagonal", *self.picture("stair.png", stair_png(40)), "--preset", "smaa")
 
-    def test_the_border(self):
+    def test_catches_wrong_border(self):
         noise = self.picture("noise.png", noisy_png(48, 40))
         for preset in ("smaa", "smaa-dynamic"):
             for rules in (self.rules(diagonals="false"), self.rules(quality="ultra")):
@@ -726,12 +726,12 @@ class SmaaFaults(BlockFaults):
         self.fault("wrong-endless", *noise, "--preset", "smaa", code=3, unchecked=1, says="changed while it waited")
         self.run_engine(2, *self.SMALL, "--preset", "smaa", *self.rules(border="end"), "--fault", "wrong-border",
                         says="border = clamp")
-        # Where no run meets the border nothing is found.
+        # If no run meets the border, the fault has no effect.
         inner = [bytes([255 * (20 <= x < 40 and 15 <= y < 31)] * 3) for y in range(48) for x in range(60)]
         self.run_engine(0, *self.picture("inner.png", rgb_png(60, inner)), "--preset", "smaa", "--fault",
                         "wrong-border", says="PASS")
 
-    def test_values_of_the_tables(self):
+    def test_catches_wrong_table_values(self):
         for values in ("exact", "published"):
             for area in ("table_full", "table_merged", "table_minimal"):
                 self.fault("wrong-values", "--preset", "smaa", *self.SMALL,
@@ -739,22 +739,22 @@ class SmaaFaults(BlockFaults):
             self.fault("wrong-values", *self.picture("stair.png", stair_png(40)), "--preset", "mlaa",
                        *self.rules(diagonals="true", diagonal_steps=8, area_values=values))
 
-    def test_corners(self):
+    def test_catches_wrong_corners(self):
         self.fault("wrong-corner", "--preset", "smaa", *self.SMALL)
 
-    def test_faults_of_links(self):
-        # In one column a vertical run in each row.
+    def test_catches_smaa_link_faults(self):
+        # A column with a vertical run in each row.
         rows = rgb_png(64, [bytes([0 if x < 20 else 255 - 100 * (y % 2)] * 3) for y in range(48) for x in range(64)])
         rules = self.rules(edges__local_contrast="off", diagonals="false")
         self.fault("wrong-entry", *self.picture("rows.png", rows), "--preset", "smaa", *rules, code=3, unchecked=1,
                    says="changed while it waited")
         self.fault("drop-diagonals", "--preset", "smaa", *self.SMALL, code=3, unchecked=4, says="vanished")
 
-    def test_in_a_frame(self):
+    def test_catches_smaa_faults_in_a_frame(self):
         for name in ("wrong-area", "morphological.wrong-diagonal-area", "wrong-corner"):
             self.fault(name, "--preset", "smaa", *self.SMALL, engine="frame")
 
-    def test_what_is_not_there_cannot_fail(self):
+    def test_smaa_faults_in_absent_hardware_are_rejected(self):
         for name, needs in (("wrong-area", "area = table"), ("wrong-root", "area = table"),
                             ("wrong-decode", "area = table_merged"), ("wrong-search", "search_steps of at least 2"),
                             ("wrong-floor", "threshold_mode = dynamic"), ("wrong-contrast", "smaa or paper"),

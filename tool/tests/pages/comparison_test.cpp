@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Several runs or sweeps side by side: what is listed, what is matched, and how it is compared.
+// Several runs or sweeps compared: which entries are listed and matched, and how values are
+// compared.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -32,7 +33,7 @@ using testing::Not;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Check, ByTheValuesOwnDirectionAndTolerance) {
+TEST(Check, UsesDirectionAndToleranceOfTheValue) {
   const Tolerances t;
   const auto of = [&](const char* key, std::optional<double> a, std::optional<double> b,
                       std::optional<bool> maximise = std::nullopt) {
@@ -70,8 +71,8 @@ TEST(Check, ByTheValuesOwnDirectionAndTolerance) {
   EXPECT_EQ(change_of("quality.psnr_db", 30, 31.5), "+1.50 dB");
 }
 
-// Each key just within its own tolerance and just beyond it, both ways.
-TEST(Check, EachRuleHasItsDirectionAndItsTolerance) {
+// Each key just inside and just outside its tolerance, in both directions.
+TEST(Check, EachRuleHasItsDirectionAndTolerance) {
   Tolerances t;
   t.cycles_percent = 10;
   t.throughput_percent = 20;
@@ -126,7 +127,7 @@ TEST(Check, EachRuleHasItsDirectionAndItsTolerance) {
   }
 }
 
-TEST(Comparing, TextOfAChange) {
+TEST(Comparing, FormatsChanges) {
   EXPECT_EQ(change_of("cycles", 100, 103.2), "+3.20 %");
   EXPECT_EQ(change_of("cycles", -4, -5), "-25.00 %") << "of its size";
   EXPECT_EQ(change_of("cycles", 4, 4), "");
@@ -144,8 +145,8 @@ TEST(Comparing, TextOfAChange) {
   EXPECT_EQ(value_text(Json(true)), "true");
 }
 
-// Parts of a key may have dots, and the first of several ways may lead nowhere.
-TEST(Comparing, ValueUnderADottedKey) {
+// Parts of a key may contain dots, and the first matching path may not lead to a value.
+TEST(Comparing, FindsValueUnderDottedKey) {
   const Json result = {
       {"a", {{"b", 1}, {"c", nullptr}}}, {"a.b", {{"c", 2}}}, {"a.b.d", 3}, {"list", {1, 2}}};
   EXPECT_EQ(value_at(result, "a.b"), Json({{"c", 2}})) << "the whole name first";
@@ -215,7 +216,7 @@ class Runs : public Directory {
   }
 };
 
-TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
+TEST_F(Runs, ListDifferencesFromTheFirst) {
   leave("a", 1000, "2");
   leave("b", 900, "4", 1024);
   leave("c", 1100, "2");
@@ -250,8 +251,8 @@ TEST_F(Runs, ListWhatDiffersComparedWithTheFirst) {
   EXPECT_FALSE(compare_runs(paths({"a", "b"}), {.memory_percent = 100})["worse"]);
 }
 
-// What a reader is told beside the figures.
-TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
+// Notes for the reader, in addition to the figures.
+TEST_F(Runs, DescribeRunsAndWarnings) {
   const auto changed = [&](const char* name, const std::function<void(Json&, Json&)>& change) {
     Json manifest = leave(name, 1000, "2");
     Json result = Json::parse(std::ifstream(path_ / name / "result.json"));
@@ -325,7 +326,7 @@ TEST_F(Runs, SayWhatTheyAreAndWhatIsDoubtful) {
   }
 }
 
-TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
+TEST(Comparing, FailedRunIsWorseThanPassedRun) {
   tb::Result r;
   r.unit = "texture";
   r.verdict = tb::Verdict::kPass;
@@ -338,7 +339,7 @@ TEST(Comparing, ARunThatFailedIsWorseThanOneThatDid) {
   EXPECT_TRUE(compare(failed, failed, {}).worse) << "wrong on both sides";
 }
 
-TEST_F(Runs, AnIdenticalPictureIsSaidToBeOne) {
+TEST_F(Runs, IdenticalPictureIsLabelled) {
   for (const auto& [name, psnr] :
        {std::pair{"a", 40.0}, std::pair{"b", kInfinity}, std::pair{"c", kInfinity}}) {
     leave(name, 1000, "2");
@@ -367,7 +368,7 @@ TEST_F(Runs, AnIdenticalPictureIsSaidToBeOne) {
   EXPECT_TRUE(compare_runs(paths({"b", "c"}), {})["values"].empty());
 }
 
-TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
+TEST_F(Runs, PageIsSelfContainedAndEscapes) {
   leave("a", 1000, "2");
   leave("b", 900, "<4>");
   const std::string page = comparison_page(compare_runs(paths({"a", "b"}), {}));
@@ -382,8 +383,8 @@ TEST_F(Runs, ThePageIsSelfContainedAndEscapes) {
     EXPECT_THAT(page, Not(HasSubstr(reference)));
 }
 
-// Three runs whose rows have one of each kind of cell, word by word.
-TEST_F(Runs, AreOnAPageInTheirForms) {
+// Three runs whose rows have one cell of each kind, compared with the exact text.
+TEST_F(Runs, PageShowsEveryKindOfCell) {
   const auto cell = [](const Json& value, const char* change, const char* judgement,
                        bool worse = false) {
     return Json{{"value", value},
@@ -499,7 +500,7 @@ deburr run C
 )page");
 }
 
-TEST_F(Runs, ThatAreNotWholeAreRejected) {
+TEST_F(Runs, RejectsIncompleteRuns) {
   Json manifest = leave("a", 1000, "2");
   const auto rejected = [&](const char* name, const char* says) {
     try {
@@ -580,12 +581,12 @@ class Sweeps : public Directory {
   }
 };
 
-TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
+TEST_F(Sweeps, MatchPointsByConfiguration) {
   leave("a",
         sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes")}),
               Json::array({point({"1024"}, {100, 30.0, 5}, true), point({"2048"}, {90, 31.0, 4}),
                            identical(point({"4096"}, {80, nullptr, 3}))})));
-  // Another axis, whose default is what the first sweep has; another base.
+  // Another axis, whose default is the value of the first sweep; another base.
   leave("b",
         sweep(Json::array({Json{"latency", "200"}}), Json::array({axis("ways"), axis("bytes")}),
               Json::array({point({"2", "2048"}, {99, 31.02, 4}),
@@ -617,7 +618,7 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_NEAR(all["summary"][0][0]["mean"].get<double>(), (-50 + 10 + 0) / 3.0, 1e-9);
   EXPECT_EQ(all["summary"][0][1]["unit"], "dB");
   EXPECT_NEAR(all["summary"][0][1]["most"].get<double>(), 0.02, 1e-9);
-  // (80, 3) of A and (40, 5) of B: nobody is better in both.
+  // (80, 3) of A and (40, 5) of B: neither sweep is better in both objectives.
   EXPECT_EQ(all["sweeps"][0]["joint_front"], 1);
   EXPECT_EQ(all["sweeps"][1]["joint_front"], 1);
   EXPECT_EQ(all["metrics"][0]["maximise"], false);
@@ -626,7 +627,7 @@ TEST_F(Sweeps, PointsAreMatchedByTheirConfiguration) {
   EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
 }
 
-TEST_F(Sweeps, AreOnAPageInTheirForms) {
+TEST_F(Sweeps, PageShowsEveryKindOfCell) {
   leave("a",
         sweep(Json::array({Json{"latency", "100"}}), Json::array({axis("bytes"), axis("ways")}),
               Json::array({point({"1024", "1"}, {1000, 30.0, 50}, true),
@@ -672,8 +673,8 @@ deburr compare --json has them all.
 )page");
 }
 
-// Nobody is better than an identical picture, and one that is lost is worse.
-TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
+// No picture is better than an identical one, and losing identity is worse.
+TEST_F(Sweeps, IdenticalPictureIsBest) {
   const auto with = [](Json first, Json second) {
     Json all = sweep(Json::array(), Json::array({axis("bytes")}),
                      Json::array({std::move(first), std::move(second)}));
@@ -694,8 +695,8 @@ TEST_F(Sweeps, AnIdenticalPictureIsTheBestOfAll) {
   EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
 }
 
-// Of the third sweep the words say B, and which one that is.
-TEST_F(Sweeps, ThatReadOtherFilesAreTold) {
+// The message about the third sweep uses the name B and explains which sweep that is.
+TEST_F(Sweeps, WarnOfDifferentInputFiles) {
   const auto with = [&](const char* name, const char* hash) {
     Json one = sweep(Json::array(), Json::array({axis("bytes")}),
                      Json::array({point({"1"}, {1, 1.0, 1})}));
@@ -726,7 +727,7 @@ TEST_F(Sweeps, ThatReadOtherFilesAreTold) {
   EXPECT_EQ(all["points"][0]["judgements"].size(), 2u);
 }
 
-TEST_F(Sweeps, NamedChoicesAreTheirValues) {
+TEST_F(Sweeps, NamedChoicesMatchTheirValues) {
   const auto points = [](const char* label) { return Json::array({point({label}, {1, 30.0, 1})}); };
   Json named = axis("shape");
   named["parameters"] = {"bytes", "ways"};
@@ -736,7 +737,7 @@ TEST_F(Sweeps, NamedChoicesAreTheirValues) {
   EXPECT_EQ(compared({"a", "b"})["points"].size(), 1u);
 }
 
-TEST_F(Sweeps, APointThatFailedIsWorse) {
+TEST_F(Sweeps, FailedPointIsWorse) {
   leave("a", sweep(Json::array(), Json::array({axis("bytes")}),
                    Json::array({point({"1"}, {1, 1.0, 1}), point({"2"}, {1, 1.0, 1})})));
   Json failed = point({"1"}, {nullptr, nullptr, nullptr});
@@ -756,7 +757,7 @@ TEST_F(Sweeps, APointThatFailedIsWorse) {
   EXPECT_FALSE(compared({"b", "a"})["worse"]);
 }
 
-TEST_F(Sweeps, ThatAreNotWholeOrDoNotFitAreRejected) {
+TEST_F(Sweeps, RejectsIncompleteOrDifferentSweeps) {
   const Json good =
       sweep(Json::array(), Json::array({axis("bytes")}), Json::array({point({"1"}, {1, 1.0, 1})}));
   leave("a", good);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Question: do keys hold what the files of a run hold, and is a file that becomes another one found
-// out before anything is kept under the old key?
+// Keys depend on the contents of a run's input files, and a file that changes is detected before a
+// result is stored under the old key.
 #include "tool/pages/input_files.h"
 
 #include <gmock/gmock.h>
@@ -44,9 +44,10 @@ class InputFilesOfARun : public testing::Test {
     std::ofstream(path_ / name) << text;
     return path_ / name;
   }
-  // A file system that counts time in jiffies gives two writings of one length the same stamp.
+  // On a file system with time stamps in jiffies, two writes of the same length could get equal
+  // stamps.
   static void let_time_pass() { std::this_thread::sleep_for(std::chrono::milliseconds(20)); }
-  // A run that shares what is made in the folder "cache".
+  // A run that shares intermediate results in the folder "cache".
   std::unique_ptr<RunContext> run(const std::vector<fs::path>& files) const {
     auto context = std::make_unique<RunContext>(path_ / "out", parameters_, "x", 0);
     context->share(std::make_shared<SharedInputs>(path_ / "cache"), files);
@@ -60,7 +61,7 @@ class InputFilesOfARun : public testing::Test {
   tb::ParameterSet parameters_;
 };
 
-TEST_F(InputFilesOfARun, ContentInAWord) {
+TEST_F(InputFilesOfARun, ContentIsOneWord) {
   EXPECT_EQ(content_of(write("a", "abc")), sha256("abc"));
   EXPECT_EQ(content_of(path_ / "none"), kMissingFile);
   EXPECT_EQ(content_of(path_), kUnreadableFile);
@@ -76,7 +77,7 @@ TEST_F(InputFilesOfARun, ContentInAWord) {
               content_of(path_ / name));
 }
 
-TEST_F(InputFilesOfARun, AreLookedIntoOnce) {
+TEST_F(InputFilesOfARun, FilesAreReadOnce) {
   InputFiles files;
   const fs::path file = write("a", "one");
   EXPECT_EQ(files.content(file), sha256("one"));
@@ -86,7 +87,7 @@ TEST_F(InputFilesOfARun, AreLookedIntoOnce) {
   EXPECT_EQ(files.all().size(), 2u);
 }
 
-TEST_F(InputFilesOfARun, ThatHaveChangedAreRejected) {
+TEST_F(InputFilesOfARun, RejectsChangedFiles) {
   InputFiles files;
   const std::vector<fs::path> some = {write("a", "one"), path_ / "none"};
   files.contents(some);
@@ -103,7 +104,7 @@ TEST_F(InputFilesOfARun, ThatHaveChangedAreRejected) {
   EXPECT_NO_THROW(files.reject_changed({path_ / "that nobody has asked for"}));
 }
 
-TEST_F(InputFilesOfARun, AreInTheKeysOfWhatIsShared) {
+TEST_F(InputFilesOfARun, KeysOfSharedResultsDependOnFiles) {
   const std::vector<fs::path> files = {write("m.obj", "mesh"), write("t.png", "old")};
   EXPECT_EQ(shared(*run(files), "of the old one"), "of the old one");
   EXPECT_EQ(shared(*run(files), "again"), "of the old one");
@@ -115,7 +116,7 @@ TEST_F(InputFilesOfARun, AreInTheKeysOfWhatIsShared) {
   EXPECT_EQ(shared(*run(files), "again"), "of the old one");
 }
 
-TEST_F(InputFilesOfARun, NothingIsKeptOfAFileThatBecameAnotherOne) {
+TEST_F(InputFilesOfARun, ChangedFileKeepsNothingShared) {
   const std::vector<fs::path> files = {write("t.png", "old")};
   const auto context = run(files);
   EXPECT_THROW(context->shared_bytes("thing", {},
@@ -130,13 +131,13 @@ TEST_F(InputFilesOfARun, NothingIsKeptOfAFileThatBecameAnotherOne) {
   EXPECT_EQ(shared(*run(files), "of the old one"), "of the old one");
 }
 
-TEST_F(InputFilesOfARun, AFileThatIsInNoKeyIsADefect) {
+TEST_F(InputFilesOfARun, FileOutsideEveryKeyIsAnInternalError) {
   const std::vector<fs::path> files = {write("a", "one"), path_ / "none"};
   EXPECT_NO_THROW(run(files)->add_inputs(files));
   EXPECT_THROW(run(files)->add_inputs({write("b", "two")}), spec::CheckFailed);
 }
 
-TEST_F(InputFilesOfARun, InAManifest) {
+TEST_F(InputFilesOfARun, ManifestListsFiles) {
   RunContext context(path_ / "out", parameters_, "x", 0);
   context.claim();
   context.add_inputs({write("a", "one"), path_ / "none"});
@@ -154,7 +155,7 @@ TEST_F(InputFilesOfARun, InAManifest) {
   EXPECT_THAT(page, AllOf(HasSubstr("none  missing"), HasSubstr("configuration")));
 }
 
-TEST(DifferentInputs, AreNamed) {
+TEST(DifferentInputs, DifferencesAreNamed) {
   const auto entry = [](const char* file, const char* content) {
     return input_entry(file, content);
   };

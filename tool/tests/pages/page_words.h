@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words of a page that a run or a comparison leaves.
+// The text of a page that a run or a comparison writes.
 #pragma once
 
 #include <regex>
@@ -7,8 +7,8 @@
 
 namespace deburr::tool {
 
-// What a reader sees, a line a row, "|" between what stands apart; of attributes those that a page
-// is filled with.
+// The visible text, one line per row, with "|" between separate items; of the attributes only those
+// that hold page content.
 inline std::string words(std::string page) {
   const auto replaced = [&page](const char* what, const char* by) {
     page = std::regex_replace(page, std::regex(what), by);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole pages of small results, word by word: each value in its place, in its unit, and in the form
-// that it has there.
+// Whole pages of small results, compared word by word: each value at its position, in its unit and
+// format.
 #include "tool/pages/report.h"
 
 #include <gmock/gmock.h>
@@ -321,7 +321,7 @@ class Pages : public testing::Test {
   Json result_ = Json::parse(kResult), manifest_ = Json::parse(kManifest);
 };
 
-// Lines that begin so.
+// Lines with this prefix.
 std::string lines(const std::string& text, const std::string& begin) {
   std::string found;
   std::istringstream all(text);
@@ -330,7 +330,7 @@ std::string lines(const std::string& text, const std::string& begin) {
   return found;
 }
 
-TEST_F(Pages, OfARunWithEverything) { EXPECT_EQ(words(page_of(result_, manifest_)), kPage); }
+TEST_F(Pages, ShowEveryPartOfACompleteRun) { EXPECT_EQ(words(page_of(result_, manifest_)), kPage); }
 
 Json data_of(const std::string& page) {
   const std::string begin = R"(<script type="application/json" id="data">)";
@@ -338,8 +338,8 @@ Json data_of(const std::string& page) {
   return Json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
-// What the page's scripts draw.
-TEST_F(Pages, HaveTheDataOfTheirCharts) {
+// The data that the page's scripts draw.
+TEST_F(Pages, HoldTheDataOfTheirCharts) {
   const Json data = data_of(page_of(result_, manifest_));
   Json expected = result_;
   EXPECT_EQ(data["result"].dump(1), expected.dump(1));
@@ -366,7 +366,7 @@ TEST_F(Pages, HaveTheDataOfTheirCharts) {
   EXPECT_EQ(data["map_colours"], Json(tb::map_colours()));
 }
 
-TEST_F(Pages, HaveTilesOfWhatThereIs) {
+TEST_F(Pages, ShowTilesForAvailableFigures) {
   const auto tiles = [&] {
     return lines(words(page_of(result_, Json::object())), "tile") +
            lines(words(page_of(result_, Json::object())), "--columns");
@@ -387,7 +387,7 @@ TEST_F(Pages, HaveTilesOfWhatThereIs) {
             "tile|PSNR|41.26|dB|+5.76 dB, before 35.50\n"
             "tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing\n"
             "--columns: 6\n");
-  // What an engine shows takes the place of what all have; more than seven stand in two rows.
+  // Tiles of the engine replace the common ones; more than seven are placed in two rows.
   result_["interrupted"] = false;
   result_["clock_mhz"] = 100;
   result_["quality"] = {{"psnr_db", nullptr}, {"identical", {{"psnr_db", true}}}};
@@ -423,9 +423,9 @@ TEST_F(Pages, HaveTilesOfWhatThereIs) {
               HasSubstr("At 100.00 MHz this is 150.0 Mpixel/s."));
 }
 
-// Pictures of a frame of few rows or columns are drawn out; a picture beyond the frame is cut to
-// it.
-TEST_F(Pages, HavePicturesOfTheFramesShape) {
+// Pictures of a frame with few rows or columns are enlarged; a picture larger than the frame is
+// cropped.
+TEST_F(Pages, PicturesHaveTheFramesShape) {
   const auto shape = [&](int width, int height) {
     write_image(path_ / "after.png", tb::Image(width, height));
     const Json manifest = {
@@ -444,7 +444,7 @@ TEST_F(Pages, HavePicturesOfTheFramesShape) {
   EXPECT_THAT(shape(1, 16), testing::StartsWith("tall|--ratio: 0.0625;"));
 }
 
-TEST_F(Pages, AreNotMadeOfDamagedFiles) {
+TEST_F(Pages, DamagedFilesAreRejected) {
   const auto says = [&](const char* file, const std::string& text, const std::string& expected) {
     const std::string before = tb::read_file(path_ / file, 1 << 20);
     put(file, text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run leaves behind: result.json, comparison, report, progress, files.
+// Output of a run: result.json, comparison, report, progress, files.
 #include "tb/run/result.h"
 
 #include <gmock/gmock.h>
@@ -100,7 +100,7 @@ Result sample_result() {
   return r;
 }
 
-// With everything that a run may have.
+// With every optional part of a run.
 Result full_result() {
   Result r = sample_result();
   r.verdict = tb::Verdict::kFail;
@@ -129,10 +129,10 @@ Result full_result() {
   return r;
 }
 
-// As read_result() gives it.
+// As read_result() returns it.
 Json as_read(const Result& result) { return tb::with_infinity(to_json(result)); }
 
-TEST(Headline, IsTheWholeMessageWithoutItsDetails) {
+TEST(Headline, JoinsMessageWithoutDetails) {
   EXPECT_EQ(headline("one line"), "one line");
   EXPECT_EQ(headline("no such link; there are:\n  a\n  b\n"), "no such link; there are: a, b");
   EXPECT_EQ(headline("nothing moves\n\nlinks:\n  a 0 of 2\n"), "nothing moves");
@@ -152,7 +152,7 @@ class Directory : public testing::Test {
   std::filesystem::path path_;
 };
 
-TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
+TEST(ResultJson, KeysFollowSchemaOrder) {
   const Json json = to_json(sample_result());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -167,7 +167,7 @@ TEST(ResultJson, HasTheKeysOfSchemaThreeInOrder) {
   EXPECT_TRUE(json["quality"]["psnr_silhouette_db"].is_null());
 }
 
-// Of a result with everything, by hand.
+// Of a complete result, by hand.
 constexpr const char* kFullResult = R"json({
   "schema": 4, "unit": "texture", "verdict": "fail", "reason": "3 mismatches",
   "interrupted": true,
@@ -282,14 +282,14 @@ constexpr const char* kFullResult = R"json({
   "coverage": {"bins": {"footprint/rule/half": 3, "footprint/rule/max": 0}}
 })json";
 
-TEST(ResultJson, IsThisOfAFullResult) {
+TEST(ResultJson, MatchesExpectedTextOfFullResult) {
   Json json = to_json(full_result());
   json.erase("meaning");
   EXPECT_EQ(json.dump(1), Json::parse(kFullResult).dump(1));
 }
 
-// The order of the file, and after it what an engine declares.
-TEST(ResultJson, MeaningsStandInTheOrderOfTheFile) {
+// The order of the file, followed by the values that an engine declares.
+TEST(ResultJson, MeaningsFollowTheOrderOfTheFile) {
   const Json json = to_json(full_result());
   std::vector<std::string> paths, meanings, declared;
   const std::function<void(const Json&, const std::string&)> collect =
@@ -312,8 +312,8 @@ TEST(ResultJson, MeaningsStandInTheOrderOfTheFile) {
             (Json{{"unit", "clk"}, {"meaning", "Not known of this run."}}));
 }
 
-// The table of keys has what a full result has, and nothing else.
-TEST(Statistics, AreTheKeysOfAFullResult) {
+// The table of keys has exactly the keys of a complete result.
+TEST(Statistics, ListTheKeysOfAFullResult) {
   std::set<std::string_view> met;
   Result r = full_result();
   r.pixel = tb::PixelHistory{{3, 4}, "of one fragment", {}};
@@ -341,8 +341,8 @@ TEST(Statistics, AreTheKeysOfAFullResult) {
   EXPECT_EQ(met.size(), tb::statistics().size()) << "a key is in the table twice";
 }
 
-// A number that is none is null, never a text; why, says the flag.
-TEST_F(Directory, IdenticalPicturesAreNullInTheFileAndInfiniteForItsReaders) {
+// A value that is not a finite number is null, never a string; a flag gives the reason.
+TEST_F(Directory, IdenticalPicturesAreNullInFileAndInfiniteWhenRead) {
   std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
   const Json quality = Json::parse(read_file(path_ / "result.json", 1 << 20))["quality"];
   EXPECT_EQ(quality["psnr_db"], 41.25);
@@ -386,7 +386,7 @@ TEST(Results, MemoriesAddUpByKind) {
   EXPECT_FALSE(to_json(sample_result())["memory_bits"].contains("registers")) << "there are none";
 }
 
-TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
+TEST(Results, UnimplementableMemoryIsNamedEverywhere) {
   Result ideal = sample_result();
   EXPECT_THAT(tb::not_implementable_memories(to_json(ideal)), testing::IsEmpty());
   EXPECT_FALSE(to_json(ideal).contains("not_implementable"));
@@ -399,7 +399,7 @@ TEST(Results, AnIdealisedMemoryIsNamedEverywhere) {
   EXPECT_FALSE(compare(to_json(ideal), to_json(ideal), {}).worse) << "it was before";
 }
 
-// Every number in the file has a unit and a meaning beside it.
+// Every number in the file has a unit and a meaning.
 void expect_described(const Json& node, const std::string& path, const Json& meanings) {
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
@@ -415,7 +415,7 @@ TEST(ResultJson, EveryKeyHasUnitAndMeaning) {
   expect_described(json, "", json["meaning"]);
 }
 
-TEST_F(Directory, AnIncompleteOrForeignResultIsRejected) {
+TEST_F(Directory, RejectsIncompleteOrForeignResult) {
   EXPECT_THROW(read_result(path_), spec::FileError);
   const auto reject = [&](const std::string& text) {
     std::ofstream(path_ / "result.json") << text;
@@ -434,7 +434,7 @@ TEST_F(Directory, AnIncompleteOrForeignResultIsRejected) {
   EXPECT_EQ(read_result(path_ / "result.json")["cycles"], 54321);
 }
 
-TEST(Compare, TheSameIsNotWorse) {
+TEST(Compare, EqualResultsAreNotWorse) {
   const Json a = as_read(sample_result());
   EXPECT_FALSE(compare(a, a, {}).worse);
 }
@@ -472,7 +472,7 @@ TEST(Compare, EachValueIsComparedInItsDirection) {
   EXPECT_FALSE(worse([](Result& r) { r.host_seconds = 100; })) << "the host is not compared";
 }
 
-TEST(Compare, AResultWithoutItsMismatchesIsWorse) {
+TEST(Compare, MissingMismatchCountIsWorse) {
   const Json a = as_read(sample_result());
   for (const char* key : {"mismatches", "traffic_mismatches"}) {
     Json b = a;
@@ -482,7 +482,7 @@ TEST(Compare, AResultWithoutItsMismatchesIsWorse) {
   }
 }
 
-TEST(Compare, OnlyWhatDiffersOrIsWorseIsListed) {
+TEST(Compare, ListsOnlyDifferentOrWorseValues) {
   const Json a = to_json(sample_result());
   EXPECT_TRUE(compare(a, a, {}).values.empty());
   Result r = sample_result();
@@ -522,7 +522,7 @@ TEST(Compare, DifferentWorkIsNamed) {
   EXPECT_EQ(different_work(a, manifest("11", 640, 166.67, "x.png")).size(), 1u);
   EXPECT_EQ(different_work(a, scene).size(), 1u);
   EXPECT_EQ(different_work(scene, manifest("", 640, 148.5, "object")).size(), 1u);
-  // A parameter that one of them alone has.
+  // A parameter that only one of them has.
   Json other = a;
   other["parameters"].push_back({{"name", "picture.count"}, {"work", "setting"}});
   other["configuration"]["picture.count"] = 2;
@@ -530,7 +530,7 @@ TEST(Compare, DifferentWorkIsNamed) {
     EXPECT_THAT(lines, ::testing::ElementsAre(::testing::StartsWith("picture.count differs")));
 }
 
-TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
+TEST_F(Directory, ReportIsSelfContainedAndEscapes) {
   tb::ParameterSet parameters;
   RunContext context(path_, parameters, "deburr run texture --set a='<b>'", 7);
   context.set_title("A <title> & more", "summary");
@@ -547,13 +547,14 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   EXPECT_THAT(page, HasSubstr("<noscript>"));
   EXPECT_THAT(page, HasSubstr("deburr run texture --set a=&apos;&lt;b&gt;&apos;"));
   EXPECT_THAT(page, HasSubstr("Chart.js v3"));
-  // Nothing may be fetched: the page forbids it to itself, and refers to nothing.
+  // No external resource is loaded: the content policy forbids it, and the page has no external
+  // reference.
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
   for (const char* reference : {"src=\"http", "href=\"http", "@import", "<link"})
     EXPECT_THAT(page, Not(HasSubstr(reference)));
-  // Each chart says in words what it shows, contents lead somewhere.
+  // Each chart has a text description, and links in the contents have targets.
   EXPECT_THAT(page, Not(testing::ContainsRegex("<canvas id=\"[a-z-]*\">")));
-  // No table is wider than a phone: each has a box of its own that scrolls.
+  // No table is wider than a phone: each is in its own scrolling box.
   const auto count = [&](std::string_view text) {
     std::size_t found = 0;
     for (std::size_t at = page.find(text); at != std::string::npos; at = page.find(text, at + 1))
@@ -571,7 +572,7 @@ TEST_F(Directory, TheReportIsSelfContainedAndEscapes) {
   for (const char* key :
        {"commit", "compiler", "systemc", "command", "seed", "configuration", "inputs", "host"})
     EXPECT_TRUE(manifest.contains(key)) << key;
-  // How the program was compiled, and what was chosen to build.
+  // Build type and build options.
   EXPECT_TRUE(manifest["build_type"].is_string());
   EXPECT_TRUE(manifest["build"].is_object());
   for (const auto& entry : std::filesystem::directory_iterator(path_))
@@ -590,7 +591,7 @@ class Page : public Directory {
   }
 };
 
-TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
+TEST_F(Page, ShowsMainFiguresFirst) {
   const std::string page = page_of(sample_result());
   EXPECT_THAT(page, HasSubstr("bound 50,000, +8.6\u00a0%")) << "the tile, against its formula";
   EXPECT_THAT(page, HasSubstr("<td>PSNR, whole frame</td><td class=\"n\">35.50</td>"
@@ -617,7 +618,7 @@ TEST_F(Page, ShowsWhatTheIssueAsksForFirst) {
   EXPECT_THAT(page, HasSubstr("id=\"latency\""));
 }
 
-TEST_F(Page, SaysEqualOnlyOfWhatIsEqual) {
+TEST_F(Page, SaysEqualOnlyForEqualValues) {
   Result r = sample_result();
   r.cycles = 50000;
   EXPECT_THAT(page_of(r), HasSubstr("= bound"));
@@ -625,7 +626,7 @@ TEST_F(Page, SaysEqualOnlyOfWhatIsEqual) {
   EXPECT_THAT(page_of(r), Not(HasSubstr("= bound")));
 }
 
-TEST_F(Page, DrawsNoHistogramOfOneValue) {
+TEST_F(Page, OmitsHistogramOfOneValue) {
   Result r = sample_result();
   r.latency = {47366, 47366, 47366, 47366, 47366, {{47366, 1000}}};
   const std::string page = page_of(r);
@@ -633,7 +634,7 @@ TEST_F(Page, DrawsNoHistogramOfOneValue) {
   EXPECT_THAT(page, HasSubstr("47,366 clk, every one"));
 }
 
-TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
+TEST_F(Page, InterruptedRunShowsComparedPart) {
   Result r = sample_result();
   r.verdict = tb::Verdict::kUnchecked;
   r.interrupted = true;
@@ -644,7 +645,7 @@ TEST_F(Page, OfAnInterruptedRunSaysWhatWasCompared) {
   EXPECT_THAT(page_of(r), HasSubstr("not checked against the golden model"));
 }
 
-TEST_F(Page, SaysThatAMemoryIsIdealised) {
+TEST_F(Page, ShowsUnimplementableMemory) {
   EXPECT_THAT(page_of(sample_result()), Not(HasSubstr("cannot be built")));
   Result ideal = sample_result();
   ideal.memories[1].not_implementable = "nine ports";
@@ -653,8 +654,9 @@ TEST_F(Page, SaysThatAMemoryIsIdealised) {
   EXPECT_THAT(page, HasSubstr("cache_lines (nine ports)"));
 }
 
-// It is made of what was written, not of what is read; readers take other types, and null.
-TEST_F(Page, IsThatOfTheFile) {
+// It is made from the written values, not from the values read back; readers get other types, and
+// null.
+TEST_F(Page, MatchesTheFile) {
   Result result = full_result();
   result.work.push_back({"unbounded", std::numeric_limits<double>::infinity(), "", "No end."});
   result.work.push_back({"undefined", std::numeric_limits<double>::quiet_NaN(), "", "0 / 0."});
@@ -664,7 +666,7 @@ TEST_F(Page, IsThatOfTheFile) {
   EXPECT_EQ(page, build_report(path_));
 }
 
-// The golden model's picture is written from the hardware model's if it is the same one.
+// The golden model's picture is copied from the hardware model's if they are equal.
 TEST_F(Directory, KeepsPicturesApart) {
   tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
@@ -681,8 +683,8 @@ TEST_F(Directory, KeepsPicturesApart) {
     EXPECT_EQ(read_file(path_ / (name + ".png"), 1 << 20), encode_png(image)) << name;
 }
 
-// A result.json of an earlier version has none of the newer keys.
-TEST_F(Page, CanBeMadeFromAnOlderResult) {
+// A result.json of an earlier version lacks the newer keys.
+TEST_F(Page, AcceptsOlderResult) {
   page_of(sample_result());
   Json json = Json::parse(read_file(path_ / "result.json", 1 << 20));
   for (const char* key : {"bottleneck", "figures"}) json.erase(key);
@@ -699,7 +701,7 @@ TEST_F(Page, CanBeMadeFromAnOlderResult) {
   EXPECT_THAT(page, Not(HasSubstr("What was changed")));
 }
 
-TEST_F(Directory, AManifestCannotPullInFilesFromElsewhere) {
+TEST_F(Directory, ManifestCannotIncludeFilesFromElsewhere) {
   tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
   context.claim();
@@ -767,7 +769,7 @@ class Manifests : public Directory {
   tb::ParameterSet set_;
 };
 
-TEST_F(Manifests, SayWhatARunWas) {
+TEST_F(Manifests, DescribeTheRun) {
   set_.set("scene.width", "9", "--set");
   Json json = manifest(5, [](RunContext& context) {
     context.add_note("of the test");
@@ -827,7 +829,7 @@ TEST_F(Manifests, SayWhatARunWas) {
 }
 
 // Two runs with the same key have the same golden result.
-TEST_F(Manifests, HaveTheKeyOfTheirGoldenResult) {
+TEST_F(Manifests, HoldKeyOfGoldenResult) {
   std::set<std::string> keys;
   const auto golden = [&](std::uint64_t seed = 5, const char* text = nullptr) {
     return manifest(seed,
@@ -853,7 +855,7 @@ TEST_F(Manifests, HaveTheKeyOfTheirGoldenResult) {
   EXPECT_TRUE(is_new(golden()));
   rule_.value = 3;
   EXPECT_TRUE(is_new(golden()));
-  inputs_.error_address = 64;  // what fails depends on what is built
+  inputs_.error_address = 64;  // the failing input depends on build parameters
   EXPECT_TRUE(is_new(golden()));
   build_.value = 2;
   EXPECT_TRUE(is_new(golden()));
@@ -865,8 +867,8 @@ TEST_F(Manifests, HaveTheKeyOfTheirGoldenResult) {
                        {"build.value", 2}}));
 }
 
-// Nothing that somebody else left is replaced, whatever parameter asks for a file of that name.
-TEST_F(Manifests, AreOfRunsThatReplaceNothing) {
+// A file of another user is never replaced, whatever parameter requests a file of that name.
+TEST_F(Manifests, RunReplacesNoForeignFiles) {
   run_.interval_cycles = 10;
   run_.maps = true;
   for (const char* name : {"result.json", "report.html", "manifest.json", "intervals.json",
@@ -883,7 +885,7 @@ TEST_F(Manifests, AreOfRunsThatReplaceNothing) {
   EXPECT_FALSE(json.contains("records"));
 }
 
-TEST_F(Directory, Sha256IsThatOfTheContent) {
+TEST_F(Directory, Sha256MatchesContent) {
   EXPECT_EQ(tb::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   std::ofstream(path_ / "x") << "abc";
   EXPECT_EQ(tb::sha256_of_file(path_ / "x"), tb::sha256("abc"));
@@ -892,7 +894,7 @@ TEST_F(Directory, Sha256IsThatOfTheContent) {
   EXPECT_THROW(read_file(path_, 100), spec::FileError);
 }
 
-TEST(Progress, SaysRateAndTimeLeft) {
+TEST(Progress, ShowsRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("texture", "fragment", 500000, 1000000, 0.25),
             "texture   50 %  2.00 Mfragment/s  0 s left");
   EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
@@ -900,7 +902,7 @@ TEST(Progress, SaysRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
 }
 
-TEST(Progress, SaysTimesInTwoUnits) {
+TEST(Progress, ShowsTimesInTwoUnits) {
   const auto left = [](double seconds) {  // of a second hundredth
     return Progress::line("x", "y", 1, 101, seconds / 100);
   };
@@ -942,13 +944,13 @@ TEST(Progress, FitsEveryTerminal) {
   EXPECT_EQ(fitted(39), "sweep    2 %  6 min 30 s left");
   EXPECT_EQ(fitted(20), "sweep    2 %");
   EXPECT_EQ(fitted(3), "swe");
-  // A character is a column, whatever it takes in bytes, and stays whole.
+  // A character takes one column whatever its number of bytes, and is never split.
   EXPECT_EQ(Progress::fitted(2, "bürste", "point", 1, 2, 1, ""), "bü");
   EXPECT_EQ(Progress::fitted(10, "bürste", "p", 1, 2, 0, ""), "bürste   5");
 }
 
 // A morphological engine takes 37 rows before it delivers a pixel.
-TEST(Progress, CountsWhatWasTaken) {
+TEST(Progress, CountsPixelsTaken) {
   EXPECT_EQ(Progress::done(0, 0), 0u);
   EXPECT_EQ(Progress::done(0, 47360), 23680u);
   EXPECT_EQ(Progress::done(900, 1000), 950u);
@@ -974,7 +976,7 @@ struct Limited {
   std::string unit, cause;
 };
 
-TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
+TEST(Bottleneck, NamesTheDeepestCauseOfTheLoss) {
   const Limited rows[] = {
       {"nothing stalls: the first of the busiest",
        {unit("sequencer", 999), unit("luma", 1000), unit("blender", 950)},
@@ -1047,14 +1049,14 @@ TEST(Bottleneck, IsTheDeepestCauseOfTheLoss) {
   EXPECT_FALSE(find_bottleneck(still, "blender"));
 }
 
-TEST(Numbers, AreGrouped) {
+TEST(Numbers, UseThousandsSeparators) {
   EXPECT_EQ(tb::grouped(0), "0");
   EXPECT_EQ(tb::grouped(999), "999");
   EXPECT_EQ(tb::grouped(1000), "1,000");
   EXPECT_EQ(tb::grouped(1234567), "1,234,567");
 }
 
-TEST(Statistics, TheMostSpecificDescriptionWins) {
+TEST(Statistics, MostSpecificDescriptionWins) {
   ASSERT_NE(find_statistic("units.address.busy"), nullptr);
   EXPECT_EQ(find_statistic("units.address.busy")->name, "units.*.busy");
   EXPECT_EQ(find_statistic("units.address.stalls.downstream")->name, "units.*.stalls.*");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The life of a directory of results: who has it, when earlier results go, what a death leaves.
+// Life cycle of a directory of results: its owner, the removal of earlier results, the state after
+// a crash.
 #include "tool/pages/run_directory.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +42,7 @@ class Life : public testing::Test {
   ~Life() override { fs::remove_all(root_); }
 
   static void put(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
-  // Everything in the directory but the manifest, which differs by its files.
+  // Everything in the directory except the manifest, whose list of files differs.
   Contents contents() const {
     Contents found;
     for (const auto& entry : fs::directory_iterator(path_))
@@ -62,7 +63,7 @@ class Life : public testing::Test {
     draft(directory, files);
     directory.publish({{"unit", "x"}}, kHead);
   }
-  // A process that claims the directory, makes this draft and is killed.
+  // A process that claims the directory, writes this draft and is killed.
   void die_with(const Contents& files) const {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -90,7 +91,7 @@ class Life : public testing::Test {
   const Contents new_ = {{"after.png", "new"}, {"before.png", "new"}, {kHead, "new"}};
 };
 
-TEST_F(Life, EarlierResultsGoWhenTheRunIsOverAndFilesOfOthersStay) {
+TEST_F(Life, FinishedRunReplacesEarlierResultsAndKeepsForeignFiles) {
   leave(old_);
   put(path_ / "notes.txt", "mine");
   put(path_ / "photo.png", "mine");
@@ -108,7 +109,7 @@ TEST_F(Life, EarlierResultsGoWhenTheRunIsOverAndFilesOfOthersStay) {
   EXPECT_EQ(contents(), expected);
 }
 
-TEST_F(Life, ARunThatDoesNotFinishLeavesNothing) {
+TEST_F(Life, UnfinishedRunLeavesNothing) {
   {
     RunDirectory directory(path_);
     claim(directory);
@@ -127,7 +128,7 @@ TEST_F(Life, ARunThatDoesNotFinishLeavesNothing) {
   EXPECT_EQ(contents(), old_);
 }
 
-TEST_F(Life, NothingOfADeadRunStays) {
+TEST_F(Life, RemovesFilesOfDeadRun) {
   die_with(new_);
   EXPECT_TRUE(fs::exists(path_ / ".deburr_run/before.png"));
   EXPECT_FALSE(fs::exists(path_ / "before.png"));
@@ -138,9 +139,9 @@ TEST_F(Life, NothingOfADeadRunStays) {
   EXPECT_EQ(contents(), (Contents{{kHead, "third"}}));
 }
 
-TEST_F(Life, ARunThatDiesWhileItsFilesMoveIsFinishedByTheNextOne) {
+TEST_F(Life, NextRunCompletesInterruptedMove) {
   const std::vector<std::pair<std::string, bool>> steps = {
-      // file, and whether it moves or goes
+      // file, and whether it is moved or removed
       {kHead, false},       {"golden.png", false}, {"after.png", true},
       {"before.png", true}, {kHead, true},         {"manifest.json", true}};
   for (std::size_t done = 0; done <= steps.size(); ++done) {
@@ -181,7 +182,7 @@ TEST_F(Life, OnlyOneRunHasTheDirectory) {
   EXPECT_EQ(fs::exists(second.draft()), true);
 }
 
-TEST_F(Life, SaysWhoseItIs) {
+TEST_F(Life, NamesTheOwner) {
   RunDirectory first(path_), second(path_);
   first.claim("deburr run x --seed 3", kNames, IfTaken::kReject);
   const nlohmann::json claim =
@@ -200,7 +201,7 @@ TEST_F(Life, SaysWhoseItIs) {
                         claim.at("started").get<std::string>() + " (deburr run x --seed 3)"));
 }
 
-TEST_F(Life, ARunThatWaitsGetsItAfterwards) {
+TEST_F(Life, WaitingRunGetsTheDirectory) {
   auto first = std::make_unique<RunDirectory>(path_);
   claim(*first);
   std::thread ends([&] {
@@ -216,7 +217,7 @@ TEST_F(Life, ARunThatWaitsGetsItAfterwards) {
   EXPECT_EQ(seen, new_) << "the first was over when the second began";
 }
 
-TEST_F(Life, WhatNoManifestNamesIsNotReplaced) {
+TEST_F(Life, KeepsFilesNotNamedByManifest) {
   fs::create_directories(path_);
   for (const char* name : {"before.png", kHead, "manifest.json"}) {
     put(path_ / name, "{}");
@@ -225,7 +226,7 @@ TEST_F(Life, WhatNoManifestNamesIsNotReplaced) {
     EXPECT_EQ(tb::read_file(path_ / name, 10), "{}");
     fs::remove(path_ / name);
   }
-  // One that comes while the run is under way.
+  // A file that appears during the run.
   RunDirectory directory(path_);
   claim(directory);
   draft(directory, new_);
@@ -234,7 +235,7 @@ TEST_F(Life, WhatNoManifestNamesIsNotReplaced) {
   EXPECT_EQ(tb::read_file(path_ / "after.png", 10), "mine");
 }
 
-TEST_F(Life, AManifestNamesNoFilesThatNoRunLeaves) {
+TEST_F(Life, ManifestNamesOnlyFilesOfRuns) {
   leave(old_);
   put(path_ / "thesis.tex", "mine");
   put(root_ / "runs/other.png", "mine");
@@ -246,7 +247,7 @@ TEST_F(Life, AManifestNamesNoFilesThatNoRunLeaves) {
   EXPECT_FALSE(fs::exists(path_ / "golden.png"));
 }
 
-TEST_F(Life, ARunDoesNotReplaceWhatItReads) {
+TEST_F(Life, RunKeepsItsInputs) {
   leave(old_);
   put(path_ / "mine.png", "mine");
   fs::create_symlink(path_ / "before.png", path_ / "link.png");
@@ -258,8 +259,8 @@ TEST_F(Life, ARunDoesNotReplaceWhatItReads) {
   directory.reject_to_replace(path_ / "mine.png");
 }
 
-// An earlier run's file that this run has none of would be removed.
-TEST_F(Life, ARunDoesNotRemoveWhatItReads) {
+// A file of an earlier run that this run does not write would be removed.
+TEST_F(Life, RunDoesNotRemoveItsInputs) {
   leave(old_);
   RunDirectory directory(path_);
   directory.claim("deburr run", {"after.png", kHead}, IfTaken::kReject);
@@ -268,7 +269,7 @@ TEST_F(Life, ARunDoesNotRemoveWhatItReads) {
       HasSubstr("golden.png"));
 }
 
-TEST_F(Life, WhatIsInTheWayIsAnError) {
+TEST_F(Life, ReportsObstacles) {
   put(root_ / "runs", "a file");
   RunDirectory below_a_file(path_);
   EXPECT_THAT(text_of<spec::FileError>([&] { claim(below_a_file); }), HasSubstr("runs"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a regression makes of names, seeds and messages; whole regressions:
+// Names, seeds and messages in a regression; whole regressions are in
 // tool/tests/system/regress_test.py.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(FailureMessage, IsTheSameWhateverItsNumbersAndPaths) {
+TEST(FailureMessage, IgnoresNumbersAndPaths) {
   EXPECT_EQ(without_particulars("colours: 1 mismatches in 1,536 comparisons"),
             without_particulars("colours: 27 mismatches in 98 comparisons"));
   EXPECT_EQ(without_particulars("address 0x1f40, depth -3.5"), "address N, depth N");
@@ -38,14 +38,14 @@ TEST(FailureMessage, IsTheSameWhateverItsNumbersAndPaths) {
   EXPECT_EQ(without_particulars("fifo.cpp:12: full"), "fifo.cpp:N: full");
 }
 
-TEST(FailureMessage, DiffersWhereNamesDo) {
+TEST(FailureMessage, DistinguishesNames) {
   EXPECT_EQ(without_particulars("predictor_h0 of expected/got"), "predictor_h0 of expected/got");
   EXPECT_NE(without_particulars("colours: 1 mismatches"),
             without_particulars("pixels: 1 mismatches"));
   EXPECT_EQ(without_particulars("facade decade deadbeef"), "facade decade deadbeef");
 }
 
-TEST(FailingCycle, IsThatOfTheFirstMismatch) {
+TEST(FailingCycle, UsesFirstMismatch) {
   const nlohmann::json result = {
       {"reason", "colours: 2 mismatches\n\n  cycle 812: pixel (3, 4)"},
       {"first_mismatches",
@@ -54,7 +54,7 @@ TEST(FailingCycle, IsThatOfTheFirstMismatch) {
   EXPECT_EQ(failing_cycle(result), 812u);
 }
 
-TEST(FailingCycle, OfADeadlockIsThatOfTheLastMove) {
+TEST(FailingCycle, UsesLastMoveBeforeDeadlock) {
   const nlohmann::json result = {
       {"reason",
        "clock: no link has moved a beat for 20000 cycles, now cycle 25000\n\n"
@@ -67,7 +67,7 @@ TEST(FailingCycle, OfADeadlockIsThatOfTheLastMove) {
   EXPECT_EQ(failing_cycle(result), 612u);
 }
 
-TEST(FailingCycle, IsOneThatTheReasonNamesOrTheLast) {
+TEST(FailingCycle, UsesCycleOfReasonOrTheLast) {
   EXPECT_EQ(failing_cycle({{"reason", "quads: cycle 77: payload changed"}, {"cycles", 90}}), 77u);
   EXPECT_EQ(failing_cycle({{"reason", "status registers: 1 mismatches"}, {"cycles", 90}}), 90u);
 }
@@ -78,7 +78,7 @@ TEST(WaveWindow, SurroundsTheFailure) {
   EXPECT_EQ(wave_window(3).from, 0u);
 }
 
-TEST(DerivedSeed, FollowsFromBaseSeedPointAndPurpose) {
+TEST(DerivedSeed, DependsOnBaseSeedPointAndPurpose) {
   const std::uint64_t seed = derived_seed(20261122, "feature/presets/base/0", "run.seed");
   EXPECT_EQ(derived_seed(20261122, "feature/presets/base/0", "run.seed"), seed);
   const std::set<std::uint64_t> all = {
@@ -88,7 +88,7 @@ TEST(DerivedSeed, FollowsFromBaseSeedPointAndPurpose) {
   EXPECT_EQ(all.size(), 4u);
 }
 
-TEST(SeedOfToday, IsADay) {
+TEST(SeedOfToday, EncodesTheDate) {
   const std::uint64_t seed = seed_of_today();
   EXPECT_GT(seed, 20240000u);
   EXPECT_LE(seed % 10000 / 100, 12u);
@@ -106,7 +106,7 @@ TEST(FeatureResult, HoldsOnlyIfEveryRunPassed) {
   EXPECT_FALSE(result.holds());
 }
 
-TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
+TEST(CoverageResult, PartialPlanNeedsOneBinOfTheGlob) {
   Testplan plan;
   plan.features.resize(1);
   plan.features[0].coverage = {{"texture/cache/*", "plan.yaml:3"}};
@@ -122,7 +122,7 @@ TEST(CoverageResult, OfAPartOfAPlanNeedsOneBinOfTheGlob) {
   EXPECT_FALSE((CoverageResult{part, 0, {}}.met())) << "a glob that names no bin";
 }
 
-TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
+TEST(RequiredCheck, ScalesWithPartOfThePlan) {
   const auto minimum = [](bool random, std::uint64_t seeds, std::uint64_t divisor,
                           std::uint64_t chosen = 0) {
     Testplan plan;
@@ -144,14 +144,14 @@ TEST(RequiredCheck, OfAPartIsItsShareAndOfFewRandomRunsLess) {
   EXPECT_EQ(minimum(true, 100, 100), 5'000u) << "one run";
 }
 
-TEST(CoverageResult, OfAllRunsOfAPartNeedsOneBinOfTheGlob) {
+TEST(CoverageResult, PartialPlanNeedsOneBinOverAllRuns) {
   Testplan plan;
   plan.coverage = {{"texture/*", "plan.yaml:3"}};
   EXPECT_TRUE(part_of(plan, 1).coverage[0].every);
   EXPECT_FALSE(part_of(plan, 2).coverage[0].every);
 }
 
-TEST(RegressionResult, HoldsOnlyIfAllRunsTogetherMeetWhatThePlanDemands) {
+TEST(RegressionResult, HoldsOnlyIfAllRunsMeetThePlan) {
   RegressionResult result;
   EXPECT_TRUE(result.holds());
   result.merged.push_back({{"texture/*", "plan.yaml:3"}, 2, {}});
@@ -173,7 +173,7 @@ Night night(std::uint64_t seed, const std::string& commit = "a") {
           .seconds = 60};
 }
 
-TEST(Trend, SaysWhatIsWorse) {
+TEST(Trend, ReportsWorseFigures) {
   const Night before = night(1);
   Night after = before;
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
@@ -190,7 +190,7 @@ TEST(Trend, SaysWhatIsWorse) {
   EXPECT_THAT(falls_between(before, after), ElementsAre("bins met from 80 of 81 to 80 of 82"));
 }
 
-TEST(Trend, SaysFromAFifthOnThatItIsSlower) {
+TEST(Trend, ReportsSlowdownFromOneFifth) {
   const Night before = night(1);
   Night after = before;
   after.cycles = 4'800'000;
@@ -204,7 +204,7 @@ TEST(Trend, SaysFromAFifthOnThatItIsSlower) {
   EXPECT_THAT(falls_between(after, before), testing::IsEmpty());
 }
 
-TEST(Trend, HasOneNightOfEachSeedAndCommit) {
+TEST(Trend, KeepsOneNightPerSeedAndCommit) {
   std::vector<Night> nights = {night(1), night(2), night(2, "b"), night(3)};
   Night again = night(2);
   again.passed = 7;
@@ -215,7 +215,7 @@ TEST(Trend, HasOneNightOfEachSeedAndCommit) {
   EXPECT_EQ(nights.back().passed, 7u);
 }
 
-TEST(Trend, IsReadAsItWasWritten) {
+TEST(Trend, ReadsBackWrittenTrend) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "trend.jsonl";
   std::filesystem::remove(file);
   EXPECT_THAT(read_trend(file), testing::IsEmpty());

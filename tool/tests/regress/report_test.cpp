@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a regression reports of results that are made by hand: features, checks, coverage, failures,
-// trend.
+// The report of a regression for hand-made results: features, checks, coverage, failures, trend.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -62,7 +61,7 @@ class RegressionReport : public KeptPoints {
     keep("a0", result(100, 0.5, 10,
                       {{"texture/cache/hit", 3}, {"texture/cache/miss", 0}, {"frame/x/y", 1}}));
     keep("a1", result(200, 0.25, 20, {{"texture/cache/hit", 4}, {"texture/cache/miss", 0}}));
-    // What it has compared and met counts for nothing.
+    // Its comparisons and coverage do not count.
     keep("a2", result(1000, 8, 500, {{"texture/cache/miss", 9}, {"frame/x/y", 9}}), "fail");
     fail("a2", "mismatch", "colours: 7 mismatches in 9 <comparisons>");
     keep("b0", result(5, 0.125, 4, {{"texture/cache/hit", 0}, {"texture/cache/miss", 2}}));
@@ -111,7 +110,7 @@ TEST_F(RegressionReport, FeaturesHaveTheirOwnRunsChecksAndBins) {
   EXPECT_FALSE(all.holds());
 }
 
-TEST_F(RegressionReport, CoverageOfAllRunsIsASumByTheEngineOfTheBins) {
+TEST_F(RegressionReport, CoverageOfAllRunsIsSummedByEngine) {
   const RegressionResult all = collected();
   EXPECT_EQ(all.coverage, (std::map<std::string, Bins>{
                               {"frame", {{"frame/x/y", 1}}},
@@ -126,7 +125,7 @@ TEST_F(RegressionReport, CoverageOfAllRunsIsASumByTheEngineOfTheBins) {
 }
 
 // The most frequent first, then by engine, kind and message.
-TEST_F(RegressionReport, FailuresThatAreTheSameAreOneBucket) {
+TEST_F(RegressionReport, EqualFailuresShareOneSignature) {
   write_failure(folder_of("a3"), {"mismatch", "frame: 3 mismatches", false});
   std::vector<std::string> told;
   for (const FailureSignature& signature : collected().signatures) {
@@ -144,7 +143,7 @@ TEST_F(RegressionReport, FailuresThatAreTheSameAreOneBucket) {
   EXPECT_EQ(more.signatures.size(), 4u) << "the same words, another kind";
 }
 
-TEST_F(RegressionReport, TheJsonHasTheCounts) {
+TEST_F(RegressionReport, JsonHoldsTheCounts) {
   EXPECT_THAT(report(), ElementsAre()) << "no night without all of its runs";
   EXPECT_FALSE(std::filesystem::exists(trend_file(place().out, "night")) &&
                !read_trend(trend_file(place().out, "night")).empty());
@@ -185,7 +184,7 @@ TEST_F(RegressionReport, TheJsonHasTheCounts) {
                                    "second/runs/size=3/b2", "second/runs/size=3/b3"}));
 }
 
-TEST_F(RegressionReport, ThePageAndJunitSayTheSame) {
+TEST_F(RegressionReport, PageAndJunitMatch) {
   report();
   const std::string page = read(place().directory / "index.html");
   expect_in(page, "<h1>A &amp; &lt;b&gt; <span class=\"badge fail\">FAILED</span></h1>");
@@ -211,8 +210,8 @@ TEST_F(RegressionReport, ThePageAndJunitSayTheSame) {
   expect_in(junit, "<testsuite name=\"second\" tests=\"6\" failures=\"4\"");
 }
 
-// Of every run, also those that failed; the last one is compared with the one before it.
-TEST_F(RegressionReport, ANightIsWhatAllRunsTook) {
+// Totals over every run, including failed ones; the last night is compared with the previous one.
+TEST_F(RegressionReport, NightSumsAllRuns) {
   fail("a3", "killed", "by somebody");
   const Night night = night_of(collected(), kSeed);
   EXPECT_EQ(std::tuple(night.seed, night.holds, night.runs, night.passed),

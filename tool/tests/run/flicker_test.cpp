@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flicker over the frames of a run: every figure by hand.
+// Flicker over the frames of a run: every figure computed by hand.
 #include "tool/run/flicker.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ tb::Image picture(int left, int right) {
   return image;
 }
 
-// Left and right pixel of what goes in, comes out and is true.
+// Left and right pixel of input, output and reference.
 struct Frame {
   tb::Image before, after, reference;
   std::optional<tb::Mask> drawn{};
@@ -54,9 +54,9 @@ Measured measured(const std::vector<Frame>& frames) {
   return m;
 }
 
-// The picture's steps are -4, 0 and +6, 0 off the reference's, and then 0, 3; what went in is off
-// by 10, 0 and 0, 0 and 0, 20.
-TEST(Flicker, IsOfEachPairOfFramesAgainstItsTruth) {
+// The steps of the output differ from those of the reference by -4, 0 and +6, 0, and then 0, 3;
+// those of the input by 10, 0 and 0, 0 and 0, 20.
+TEST(Flicker, ComparesEachPairOfFramesWithItsReference) {
   const Measured m = measured({{picture(10, 10), picture(10, 20), picture(10, 50)},
                                {picture(30, 10), picture(16, 20), picture(20, 50)},
                                {picture(30, 10), picture(22, 20), picture(20, 50)},
@@ -76,8 +76,8 @@ TEST(Flicker, IsOfEachPairOfFramesAgainstItsTruth) {
   EXPECT_FALSE(m.result.interrupted);
 }
 
-// Without a reference what went in is taken for it, of the frames that have none.
-TEST(Flicker, WithoutATruthIsBeyondWhatWentIn) {
+// Frames without a reference use the input instead.
+TEST(Flicker, UsesInputWithoutReference) {
   const Measured m = measured({{picture(10, 10), picture(10, 10), {}},
                                {picture(20, 10), picture(23, 10), {}},
                                {picture(20, 10), picture(23, 10), picture(20, 10)}});
@@ -88,7 +88,7 @@ TEST(Flicker, WithoutATruthIsBeyondWhatWentIn) {
   ASSERT_EQ(m.result.figures.size(), 1u);
 }
 
-TEST(Flicker, OfNothingHasNoWorstFrame) {
+TEST(Flicker, EmptySequenceHasNoWorstFrame) {
   const Frame still{picture(1, 2), picture(3, 4), picture(5, 6)};
   const Measured m = measured({still, still, still});
   EXPECT_EQ(m.work.at("flicker"), 0);
@@ -97,7 +97,7 @@ TEST(Flicker, OfNothingHasNoWorstFrame) {
   EXPECT_EQ(m.result.terminal[0].text, "0.00/255 over 3 frames, against 0.00 of what went in");
 }
 
-TEST(Flicker, LooksAtWhatIsDrawnAlone) {
+TEST(Flicker, CountsOnlyDrawnPixels) {
   tb::Mask left(2, 1);
   left.at(0, 0) = 1;
   const Measured m = measured({{picture(0, 0), picture(0, 0), picture(0, 0), left},
@@ -105,14 +105,14 @@ TEST(Flicker, LooksAtWhatIsDrawnAlone) {
   EXPECT_DOUBLE_EQ(m.work.at("flicker"), 5);
 }
 
-TEST(Flicker, NeedsFramesOfOneSize) {
+TEST(Flicker, RejectsFramesOfDifferentSizes) {
   const tb::Image wide(3, 1), high(2, 2);
   for (const tb::Image& other : {wide, high})
     EXPECT_THROW(measured({{picture(0, 0), picture(0, 0), picture(0, 0)}, {other, other, other}}),
                  spec::ConfigError);
 }
 
-TEST(Flicker, ThatIsInterruptedHasNoFigures) {
+TEST(Flicker, InterruptedRunHasNoFigures) {
   const tb::ParameterSet set;
   RunContext context("", set, "", 1);
   context.set_quiet(true);
@@ -126,7 +126,7 @@ TEST(Flicker, ThatIsInterruptedHasNoFigures) {
   EXPECT_TRUE(result.figures.empty());
 }
 
-TEST(Flicker, ACameraMovesWhereNoListSaysWhatFramesAre) {
+TEST(Flicker, CameraMovesWithoutListOfFrames) {
   tb::SequenceParameters sequence;
   sequence.motion = tb::Motion::kPan;
   tb::FrameLists lists;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Question: is a file that a parameter of an engine names one of the engine's input files?
+// A file named by a parameter of an engine is one of the engine's input files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -33,11 +33,11 @@ class InputFilesOfEngines : public testing::Test {
   fs::path path_;
 };
 
-// What a parameter needs beside it to be looked at.
+// Other settings that make a parameter effective.
 const std::map<std::string, std::string> kBeside = {{"frame.depth", "frame.source"},
                                                     {"frame.reference", "frame.source"}};
 
-TEST_F(InputFilesOfEngines, AreAllThatParametersName) {
+TEST_F(InputFilesOfEngines, ContainEveryFileNamedByParameters) {
   int parameters = 0;
   for (const std::unique_ptr<Engine>& engine : engines()) {
     const BoundEngine probe(*engine);

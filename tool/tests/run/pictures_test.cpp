@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures and quality of a run, whole or interrupted.
+// Pictures and quality of a run, complete or interrupted.
 #include "tool/run/pictures.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace {
 constexpr Rgba8 kGrey = {128, 128, 128, 255}, kBlack = {0, 0, 0, 255},
                 kWhite = {255, 255, 255, 255};
 
-TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
+TEST(Quality, ComparesBothPicturesWithTheReference) {
   Image reference(8, 8, {100, 100, 100, 255}), before = reference, after = reference;
   before.at(3, 3) = {110, 100, 100, 255};
   after.at(3, 3) = {101, 100, 100, 255};
@@ -45,7 +45,7 @@ TEST(Quality, IsOfBothPicturesWhereThereIsSomethingToCompare) {
   EXPECT_FALSE(same.psnr_edge_db) << "no edge pixels";
 }
 
-TEST(Quality, HasFlipAndSsimOfBothPictures) {
+TEST(Quality, GivesFlipAndSsimOfBothPictures) {
   const Image reference(16, 16, {100, 100, 100, 255});
   Image before = reference, after = reference;
   before.at(3, 8) = {200, 100, 100, 255};
@@ -61,7 +61,7 @@ TEST(Quality, HasFlipAndSsimOfBothPictures) {
   EXPECT_FALSE(measure_quality("x", small, small, small, nullptr).ssim) << "no window fits";
 }
 
-TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
+TEST(Change, CountsPixelsByCodeDifference) {
   const Image before(10, 2, {100, 100, 100, 255});
   Image after = before, reference = before;
   after.at(0, 0)[0] = 102;  // 2: not more than 2
@@ -70,7 +70,7 @@ TEST(Change, CountsPixelsByCodesAndOfTheRightOnes) {
   after.at(3, 0)[0] = 117;  // 17, and this one was wrong
   after.at(4, 0)[3] = 0;    // alpha does not count
   reference.at(3, 0)[0] = 120;
-  reference.at(5, 0)[0] = 98;  // right within 2 codes, and left
+  reference.at(5, 0)[0] = 98;  // right within 2 codes, and bypassed
   tb::Change change = measure_change(before, after, nullptr);
   EXPECT_DOUBLE_EQ(change.small_percent, 15);
   EXPECT_DOUBLE_EQ(change.large_percent, 5);
@@ -96,10 +96,10 @@ class Pictures : public testing::Test {
               ("deburr_pictures_" + std::to_string(::getpid()))) {}
   ~Pictures() override { std::filesystem::remove_all(path_); }
 
-  // Leaves the pictures of a 4 x 3 frame of which so much was delivered.
+  // Writes the pictures of a 4 x 3 frame of which this many pixels were delivered.
   void leave(std::size_t delivered) {
     const Image before(4, 3, {10, 10, 10, 255}), reference(4, 3, {14, 10, 10, 255});
-    Image after(4, 3);  // what was not delivered is not initialised to anything sensible
+    Image after(4, 3);  // pixels that were not delivered have arbitrary values
     for (std::size_t i = 0; i < delivered; ++i) after.pixels[i] = {12, 10, 10, 255};
     Image golden(4, 3, {12, 10, 10, 255});
     golden.at(1, 0) = {13, 10, 10, 255};
@@ -120,7 +120,7 @@ class Pictures : public testing::Test {
   std::filesystem::path path_;
 };
 
-TEST_F(Pictures, OfAWholeFrameCompareEveryPixel) {
+TEST_F(Pictures, WholeFrameComparesEveryPixel) {
   leave(12);
   EXPECT_EQ(picture("after"), Image(4, 3, {12, 10, 10, 255}));
   EXPECT_EQ(picture("error"), Image(4, 3, {8, 0, 0, 255}));
@@ -130,7 +130,7 @@ TEST_F(Pictures, OfAWholeFrameCompareEveryPixel) {
   EXPECT_EQ(difference.at(2, 0), kBlack);
 }
 
-TEST_F(Pictures, OfAnInterruptedRunHideWhatDidNotCome) {
+TEST_F(Pictures, InterruptedFrameHidesMissingPixels) {
   leave(5);
   const Image after = picture("after");
   EXPECT_EQ(after.at(0, 1), (Rgba8{12, 10, 10, 255}));
@@ -146,8 +146,8 @@ TEST_F(Pictures, OfAnInterruptedRunHideWhatDidNotCome) {
   EXPECT_NE(manifest.find("5 of 12 pixels"), std::string::npos);
 }
 
-// One that no engine declared could replace somebody's file.
-TEST_F(Pictures, OfOtherNamesAreNotLeft) {
+// A picture with an undeclared name could replace a user's file.
+TEST_F(Pictures, RejectsUndeclaredNames) {
   tb::ParameterSet parameters;
   RunContext context(path_, parameters, "x", 0);
   context.set_leaves({{"after"}, {"level"}});
@@ -159,13 +159,13 @@ TEST_F(Pictures, OfOtherNamesAreNotLeft) {
                spec::CheckFailed);
 }
 
-TEST(WeightsPicture, IsTwiceAsBrightAndBlueWhereLeftAndRight) {
+TEST(WeightsPicture, DoublesBrightnessAndShowsOverlapInBlue) {
   const Image weights = weights_picture(3, 1, {{40, 10, false}, {200, 3, true}, {}});
   EXPECT_EQ(weights.pixels,
             (std::vector<Rgba8>{{80, 20, 0, 255}, {255, 6, 160, 255}, {0, 0, 0, 255}}));
 }
 
-TEST(DeliveredPart, ReplacesTheRest) {
+TEST(DeliveredPart, FillsTheRestFromAnotherPicture) {
   const Image white(2, 2, kWhite);
   EXPECT_EQ(delivered_part(white, 4, kBlack), white);
   EXPECT_EQ(delivered_part(white, 9, kBlack), white);

@@ -20,19 +20,19 @@ namespace {
 
 class RandomConfiguration : public testing::TestWithParam<std::string> {};
 
-// Every setting is taken, and the engine resolves all of them together.
+// Every setting is accepted, and the engine resolves all of them together.
 void take(BoundEngine& bound, const std::string& engine, std::uint64_t seed) {
   for (const auto& [name, value] : random_configuration(engine, seed))
     bound.set.set(name, value, std::to_string(seed));
   ASSERT_NO_THROW(bound.resolve()) << engine << ", seed " << seed;
 }
 
-// Each renders what its engine is given, which takes long: no more than it takes until every
-// parameter has varied. Sanitizers, which take ten times as long, do without that.
+// Each seed renders the engine's input, which takes long, so the loop ends when every parameter has
+// varied. Sanitizers are ten times slower and skip this check, since they run too few seeds.
 constexpr std::uint64_t kLeastSeeds = tb::kSanitized ? 20 : 40,
                         kMostSeeds = tb::kSanitized ? 20 : 500;
 
-TEST_P(RandomConfiguration, IsAcceptedAndVariesEveryParameterThatIsNotFixed) {
+TEST_P(RandomConfiguration, VariesEveryFreeParameter) {
   const std::string engine = GetParam();
   std::map<std::string, std::set<std::string>> values;
   const std::unique_ptr<Engine> asked = engine_named(engine);
@@ -77,12 +77,12 @@ TEST_P(RandomConfiguration, IsAcceptedByManySeeds) {
   }
 }
 
-TEST_P(RandomConfiguration, IsTheSameForTheSameSeed) {
+TEST_P(RandomConfiguration, SameSeedGivesSameConfiguration) {
   EXPECT_EQ(random_configuration(GetParam(), 7), random_configuration(GetParam(), 7));
   EXPECT_NE(random_configuration(GetParam(), 7), random_configuration(GetParam(), 8));
 }
 
-// What only the model can tell when it is built.
+// Errors that only the model detects when it is built.
 TEST_P(RandomConfiguration, CanBeBuilt) {
   const std::string engine = GetParam();
   for (std::uint64_t seed = 0; seed < (tb::kSanitized ? 10 : 30); ++seed) {
@@ -110,8 +110,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, RandomConfiguration, testing::ValuesIn([] {
                          }()),
                          [](const auto& p) { return p.param; });
 
-// The preset's two directions leave one clock for them, which only the model of the hardware says.
-TEST(RandomConfigurations, GoWithWhatIsGiven) {
+// The preset's two directions leave one cycle for them; only the hardware model reports this.
+TEST(RandomConfigurations, RespectGivenSettings) {
   const std::vector<std::pair<std::string, std::string>> given = {{"texture.preset", "paper"}};
   std::set<std::string> axes;
   for (std::uint64_t seed = 0; seed < (tb::kSanitized ? 30 : 120); ++seed) {
@@ -135,12 +135,12 @@ TEST(RandomConfigurations, GoWithWhatIsGiven) {
       spec::ConfigError);
 }
 
-TEST(RandomConfigurations, KnowEveryEngineAndNoOther) {
+TEST(RandomConfigurations, CoverExactlyTheEngines) {
   EXPECT_THROW(random_configuration("textur", 1), spec::ConfigError);
 }
 
-// Of every memory, and of the engines that it is made of.
-TEST(RandomConfigurations, OfACompositionFixWhatItsPartsFix) {
+// Parameters of every memory, and of the engines that it is made of.
+TEST(RandomConfigurations, CompositionFixesParametersOfItsParts) {
   const std::unique_ptr<Engine> frame = engine_named("frame"), texture = engine_named("texture");
   EXPECT_TRUE(is_fixed(*frame, "frame_memory.error_bytes"));
   EXPECT_FALSE(is_fixed(*frame, "frame_memory.latency"));

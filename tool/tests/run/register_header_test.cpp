@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The C header of the registers, read back and compared with the field rows of every engine: each
-// number is there, each says what its row says, and there is none beside them. Two names that meet
-// in C would lose one. What SystemRDL says is compared with this header (systemrdl_test.py), and
-// some numbers with the contract by hand (c_header_test.py).
+// number exists, matches its row, and there are no others. Two names that are equal in C would lose
+// one. systemrdl_test.py compares SystemRDL with this header, and c_header_test.py compares some
+// numbers with the contract by hand.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -28,7 +28,7 @@ Macros read_back(const std::string& header) {
     at += line.size();
     std::smatch match;
     if (!std::regex_match(line, match, kDefinition)) {
-      // The guard, and macros with parameters, which are tried in C.
+      // The include guard, and macros with parameters, which are tested in C.
       EXPECT_TRUE(line == "#define DEBURR_REGISTERS_H" || line.find('(') < line.find_last_of(' '))
           << line;
       continue;
@@ -80,7 +80,7 @@ Macros of_rows(const rtl::RegisterSection& section) {
   return macros;
 }
 
-TEST(RegisterHeader, ReadBackIsTheFieldRows) {
+TEST(RegisterHeader, MatchesFieldRows) {
   const auto all = engines();
   Macros expected;
   std::size_t sections = 0;
@@ -93,7 +93,7 @@ TEST(RegisterHeader, ReadBackIsTheFieldRows) {
   EXPECT_GE(expected.size(), 300u);
   const std::string header = registers_header(all);
   EXPECT_EQ(read_back(header), expected);
-  // A number that is lost or changed is seen.
+  // A lost or changed number is detected.
   std::string changed = header;
   const std::size_t at = changed.find("_SHIFT 1u");
   ASSERT_NE(at, std::string::npos);
@@ -103,8 +103,8 @@ TEST(RegisterHeader, ReadBackIsTheFieldRows) {
   EXPECT_NE(read_back(changed), expected);
 }
 
-// A program may have engines without any.
-TEST(RegistersPage, OfNoEnginesHasNoSections) {
+// A program may be built without engines.
+TEST(RegistersPage, OmitsSectionsWithoutEngines) {
   const std::string page = registers_page({});
   EXPECT_TRUE(page.starts_with("# Registers\n"));
   EXPECT_EQ(page.find("\n## "), std::string::npos);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A reset in mid-run, of builds and runs as they are drawn at random
-// (tool/run/random_configuration.h): what comes after it is, to the clock, a run without it. Every
-// figure of result.json is compared.
+// A reset in the middle of a run, for random builds and runs (tool/run/random_configuration.h).
+// After the reset the run is cycle-identical to a run without it. Every figure of result.json is
+// compared.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -33,9 +33,10 @@ void flatten(const Json& node, const std::string& path, Figures& figures) {
     figures[path] = node.dump();
 }
 
-// A configuration without what goes on through a reset, random or not: stalls, answers in any
-// order, a memory that is still busy with what was asked before. And without records of the run,
-// which have what was before the reset, too. Units in another order (run.shuffle) change nothing.
+// Excludes everything that continues through a reset, random or not: stalls, out-of-order
+// responses, a memory that is still serving earlier requests. Also excludes recordings of the run,
+// which contain the part before the reset. The evaluation order of units (run.shuffle) has no
+// effect.
 Settings drawn(const std::string& engine, std::uint64_t seed) {
   Settings settings = random_configuration(engine, seed);
   std::erase_if(settings, [](const auto& setting) {
@@ -61,8 +62,8 @@ std::uint64_t frames_of(const Settings& settings) {
   return 1;
 }
 
-// All figures of a run, but those of the host; what was compared before the reset is counted, too,
-// and the reset takes cycles of its own, in which units are idle.
+// All figures of a run except those of the host. Comparisons before the reset are counted too, and
+// the reset takes cycles of its own, in which units are idle.
 struct Run {
   Figures figures;
   std::uint64_t compared = 0;
@@ -97,9 +98,9 @@ Run run(const std::string& engine, const Settings& settings, std::uint64_t reset
 
 class ResetOfDraws : public testing::TestWithParam<std::string> {};
 
-TEST_P(ResetOfDraws, LeavesNothing) {
+TEST_P(ResetOfDraws, LeavesNoStateBehind) {
   const std::string engine = GetParam();
-  int resets = 0;  // that took place after something was compared, which alone shows them
+  int resets = 0;  // after at least one comparison, which is the only evidence of a reset
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Settings settings = drawn(engine, seed);
     const auto [whole, compared] = run(engine, settings, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One golden result for several runs: the same as one of each run's own, where only what is built
-// differs; and where more differs, the comparison with the hardware says so. So a key that forgets
-// a rule cannot pass.
+// One golden result for several runs. It equals each run's own result if only build parameters
+// differ; if more differs, the comparison with the hardware fails. A key that omits a setting is
+// therefore detected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ using golden::morphological::MorphologicalGolden;
 using tb::morphological_system::MorphologicalRunOptions;
 using tb::morphological_system::rendered;
 
-// Every parameter of an engine, and another value for each: the end of its range that it has not.
+// Every parameter of an engine, and a different value for each: the other end of its range.
 template <class P>
 struct Varied {
   P values;
   tb::ParameterSet set;
   explicit Varied(std::string_view prefix) { set.add_engine(prefix, values); }
 
-  // What the parameter takes beside its default.
+  // All other values of the parameter.
   std::vector<std::string> others(const tb::Parameter& p) const {
     std::vector<std::string> all;
     if (const std::size_t dots = p.range.find(".."); dots != std::string::npos) {
@@ -58,7 +58,7 @@ struct Varied {
   }
 };
 
-// What an engine says of itself, and a key that forgets the rest.
+// Changes every parameter: either the key changes, or the golden result stays the same.
 template <class P>
 void every_parameter_is_in_the_key_or_matters_not(
     const tb::EngineTestbench& engine, const std::function<std::string(const P&)>& golden_result) {
@@ -82,7 +82,7 @@ void every_parameter_is_in_the_key_or_matters_not(
       std::string after = before;
       try {
         after = golden_result(varied.values);
-      } catch (const spec::ConfigError&) {  // no such hardware beside the other defaults
+      } catch (const spec::ConfigError&) {  // this value cannot be built with the other defaults
         continue;
       }
       EXPECT_TRUE(after == before) << p.name << " = " << other << " is not in the key";
@@ -107,15 +107,15 @@ std::string bytes_of(const tb::TextureExpectation& all) {
   return text + std::to_string(all.work.bilinears) + " " + std::to_string(all.work.line_fills);
 }
 
-TEST(SharedGolden, OfTheTextureUnitDependsOnItsKeyAlone) {
+TEST(SharedGolden, TextureKeyCoversEveryEffectiveParameter) {
   const TextureScene scene(picture("tunnel", 24), {}, 1);
   every_parameter_is_in_the_key_or_matters_not<spec::texture::Parameters>(
       tb::TextureTestbench(),
       [&](const spec::texture::Parameters& p) { return bytes_of(expected_of(scene, p)); });
 }
 
-// The check above fails where the engine forgets the size of the cache.
-TEST(SharedGolden, OfTheTextureUnitGoesByItsCache) {
+// If the engine omitted the cache size from the key, the check above would fail.
+TEST(SharedGolden, TextureResultDependsOnCacheSize) {
   const TextureScene scene(picture("tunnel", 24), {}, 1);
   spec::texture::Parameters small, plain;
   small.cache_bytes = 512;
@@ -129,7 +129,7 @@ MorphologicalGolden worked_on(const tb::MorphologicalInput& frame,
   return golden;
 }
 
-TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
+TEST(SharedGolden, MorphologicalKeyCoversEveryEffectiveParameter) {
   const tb::MorphologicalInput frame = rendered("cylinders", 64, 48);
   every_parameter_is_in_the_key_or_matters_not<spec::morphological::Parameters>(
       tb::MorphologicalTestbench(), [&](const spec::morphological::Parameters& p) {
@@ -145,7 +145,7 @@ TEST(SharedGolden, OfTheMorphologicalEngineDependsOnItsKeyAlone) {
       });
 }
 
-TEST(SharedGolden, IsWhatATextureRunFindsByItself) {
+TEST(SharedGolden, EqualsTextureRunsOwnResult) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   const tb::TextureOutcome own = simulate(scene, {}, options);
@@ -155,7 +155,7 @@ TEST(SharedGolden, IsWhatATextureRunFindsByItself) {
   EXPECT_EQ(shared.colours.size(), own.colours);
 }
 
-TEST(SharedGolden, TextureRunPassesWithOneOfOtherHardware) {
+TEST(SharedGolden, TextureRunAcceptsOneOfOtherHardware) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.cache_fifo_depth = 40;
@@ -167,7 +167,7 @@ TEST(SharedGolden, TextureRunPassesWithOneOfOtherHardware) {
   EXPECT_EQ(shared.mismatches + shared.traffic_mismatches, 0u);
 }
 
-TEST(SharedGolden, TextureRunFailsWithOneOfOtherRules) {
+TEST(SharedGolden, TextureRunRejectsOneOfOtherConfiguration) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.footprint = spec::texture::FootprintRule::kMax;
@@ -176,7 +176,7 @@ TEST(SharedGolden, TextureRunFailsWithOneOfOtherRules) {
   EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
-TEST(SharedGolden, TextureRunFailsWithOneOfAnotherCache) {
+TEST(SharedGolden, TextureRunRejectsOneOfAnotherCache) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.cache_bytes = 1024;
@@ -185,7 +185,7 @@ TEST(SharedGolden, TextureRunFailsWithOneOfAnotherCache) {
   EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
-TEST(SharedGolden, MorphologicalRunPassesWithOneOfOtherHardware) {
+TEST(SharedGolden, MorphologicalRunAcceptsOneOfOtherHardware) {
   const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =
@@ -198,7 +198,7 @@ TEST(SharedGolden, MorphologicalRunPassesWithOneOfOtherHardware) {
   EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
 }
 
-TEST(SharedGolden, MorphologicalRunFailsWithOneOfOtherRules) {
+TEST(SharedGolden, MorphologicalRunRejectsOneOfOtherConfiguration) {
   const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =
@@ -207,7 +207,7 @@ TEST(SharedGolden, MorphologicalRunFailsWithOneOfOtherRules) {
   EXPECT_THROW(tb::morphological_system::simulate(frames, options), tb::Mismatch);
 }
 
-TEST(SharedInputs, KeepTheLastGoldenResultOnly) {
+TEST(SharedInputs, KeepOnlyTheLastGoldenResult) {
   SharedInputs inputs;
   int made = 0;
   const auto make = [&] { return ++made; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run that fails says of itself, whatever can no longer be left of it.
+// Messages of a failed run, even if its results can no longer be written.
 #include "tool/run/simulate.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Nothing is bound to it, so no simulation with it is elaborated.
+// It has an unbound port, so no simulation with it can be elaborated.
 struct Unbound : sc_core::sc_module {
   explicit Unbound(const sc_core::sc_module_name& name) : sc_module(name) {}
   sc_core::sc_in<bool> nothing{"nothing"};
@@ -55,14 +55,14 @@ std::string error_of(const std::string& engine) {
   });
 }
 
-// Not that of pictures of a frame that was never begun.
-TEST(FailedRun, OfEveryEngineSaysWhatElaborationSays) {
+// Not the error about pictures of a frame that was never started.
+TEST(FailedRun, EveryEngineReportsElaborationError) {
   for (const std::unique_ptr<Engine>& engine : engines())
     EXPECT_THAT(error_of(std::string(engine->name())), HasSubstr("unbound.nothing"))
         << engine->name();
 }
 
-TEST(FailedRun, SaysWhyEvenIfItsPicturesFailToo) {
+TEST(FailedRun, ReportsReasonEvenIfPicturesFail) {
   for (const bool fails : {false, true}) {
     const std::string error = tb::forked_text([&]() -> std::string {
       tb::GeometricSceneParameters p;
@@ -95,14 +95,13 @@ TEST(FailedRun, SaysWhyEvenIfItsPicturesFailToo) {
   }
 }
 
-// ---- what parameters make of a simulation
-// --------------------------------------------------------
+// ---- parameters of a simulation ---------------------------------------------------------------
 
 tb::SimulationOptions options_of(const RunParameters& run, const ParameterSet& set = {}) {
   return simulation_options(run, RunContext("out", set, "", 1));
 }
 
-TEST(SimulationOptions, AreThoseOfTheRun) {
+TEST(SimulationOptions, FollowRunParameters) {
   RunParameters run;
   tb::SimulationOptions o = options_of(run);
   EXPECT_TRUE(o.golden && o.fast_path && o.check_links);
@@ -147,8 +146,8 @@ TEST(SimulationOptions, AreThoseOfTheRun) {
   EXPECT_FALSE(options_of(run).golden);
 }
 
-// Checkers of links look away from a injected fault, unless they were asked for.
-TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
+// Link checkers ignore an injected fault unless they were requested.
+TEST(SimulationOptions, InjectedFaultDisablesLinkCheckers) {
   RunParameters run;
   ParameterSet set;
   set.add("run", tb::ParameterKind::kRun, run);
@@ -159,7 +158,7 @@ TEST(SimulationOptions, OfAFaultAskForNoCheckersOfLinks) {
   EXPECT_TRUE(options_of(run, set).check_links);
 }
 
-TEST(SimulationOptions, ProgramRulesUnlessTheyAreResetValues) {
+TEST(SimulationOptions, ProgramConfigurationUnlessItIsResetValues) {
   tb::ProgramParameters program;
   ParameterSet set;
   set.add("run", tb::ParameterKind::kRun, program);
@@ -168,7 +167,7 @@ TEST(SimulationOptions, ProgramRulesUnlessTheyAreResetValues) {
   EXPECT_FALSE(options_of({}, set).program);
 }
 
-TEST(FromRepository, IsThePathThatUsersKnow) {
+TEST(FromRepository, StripsTheBuildPath) {
   EXPECT_EQ(from_repository("/a/layers/tb/tb/env/x.cpp:7: y"), "tb/env/x.cpp:7: y");
   EXPECT_EQ(from_repository("/a/layers/tool/tool/run/x.cpp:7: y"), "tool/run/x.cpp:7: y");
   EXPECT_EQ(from_repository("/a/layers/studies/studies/papers/x.h"), "studies/papers/x.h");
@@ -178,8 +177,7 @@ TEST(FromRepository, IsThePathThatUsersKnow) {
   EXPECT_EQ(from_repository("elsewhere/x.h"), "elsewhere/x.h");
 }
 
-// ---- rules of what goes in
-// ------------------------------------------------------------------------
+// ---- checks of the input ----------------------------------------------------------------------
 
 std::string rejection(const std::function<void()>& action) {
   try {
@@ -190,7 +188,7 @@ std::string rejection(const std::function<void()>& action) {
   return "";
 }
 
-TEST(InputRules, ASceneDrawsSomething) {
+TEST(InputRules, RejectsSceneThatDrawsNothing) {
   tb::Scene scene;
   scene.name = "s";
   scene.mesh.vertices = {{{1, -2, 3}, {}, {}}, {{-1.5, 4, 0}, {}, {}}};
@@ -209,7 +207,7 @@ TEST(InputRules, ASceneDrawsSomething) {
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(depth, "m.obj"); }), "");
 }
 
-TEST(InputRules, AMemoryIsFasterThanTheWatchdog) {
+TEST(InputRules, RejectsMemorySlowerThanWatchdog) {
   RunParameters run;
   run.watchdog_cycles = 1000;
   ParameterSet set;
@@ -235,7 +233,7 @@ TEST(InputRules, AMemoryIsFasterThanTheWatchdog) {
                                     "2000), or make the memory faster");
 }
 
-TEST(InputRules, WhatAMemoryDoesNotUseIsRejected) {
+TEST(InputRules, RejectsUnusedMemoryParameters) {
   tb::MemoryParameters memory;
   const auto said = [&](const std::vector<std::pair<std::string, std::string>>& given) {
     memory = {};
@@ -257,7 +255,7 @@ TEST(InputRules, WhatAMemoryDoesNotUseIsRejected) {
               HasSubstr("has no effect: memory.error_address names no address"));
 }
 
-TEST(InputRules, ALabelSaysWhatAPresetWouldHaveMadeOtherwise) {
+TEST(InputRules, LabelNamesChangesFromPreset) {
   tb::MemoryParameters memory;
   ParameterSet set;
   add_memory(set, "memory", memory);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Text that a user gives, spoilt: configuration files, definitions of sweeps, injected faults. It
-// is taken, or rejected by a named error; what is taken runs to a named end. In the worst case a
-// fault that is injected breaks the run, never the program.
+// Corrupted user text: configuration files, definitions of sweeps, injected faults. It is accepted,
+// or rejected with a named error; an accepted text runs to a named end. In the worst case an
+// injected fault fails the run, never the program.
 //
-// No libFuzzer here: all of the command stands behind these texts, and SystemC elaborates once a
-// process, so inputs are made by what such texts look like, from seeds.
+// libFuzzer cannot be used: the whole command runs after the parser, and SystemC elaborates once
+// per process. Inputs are therefore generated from seeds with the typical shape of such texts.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -49,7 +49,7 @@ std::string odd(tb::Random& random) {
   return kOddities[random.below(static_cast<std::uint32_t>(kOddities.size()))];
 }
 
-// Lines doubled, lost, exchanged, with odd values, with bytes of anything.
+// Duplicated, lost and exchanged lines, odd values, random bytes.
 std::string spoilt(std::string text, tb::Random& random) {
   std::vector<std::string> lines;
   std::istringstream input(text);
@@ -106,10 +106,10 @@ class TextNoise : public testing::Test {
       fs::temp_directory_path() / ("deburr-text-noise-" + std::to_string(::getpid()));
 };
 
-// Many in a child, since none elaborates.
+// Many per child process, since none elaborates.
 constexpr std::uint64_t kTextsAChild = 40;
 
-TEST_F(TextNoise, Configurations) {
+TEST_F(TextNoise, ConfigurationsAreAcceptedOrRejectedByName) {
   EXPECT_EQ(
       tb::first_complaint(12,
                           [&](std::uint64_t seed) -> std::string {
@@ -135,7 +135,7 @@ TEST_F(TextNoise, Configurations) {
       "");
 }
 
-TEST_F(TextNoise, Sweeps) {
+TEST_F(TextNoise, SweepsAreAcceptedOrRejectedByName) {
   std::vector<std::string> sweeps;
   for (const fs::directory_entry& entry : fs::directory_iterator(tb::source_folder() / "sweeps")) {
     std::ostringstream text;
@@ -163,10 +163,9 @@ TEST_F(TextNoise, Sweeps) {
             "");
 }
 
-// ---- injected faults
-// -----------------------------------------------------------------------------
+// ---- injected faults --------------------------------------------------------------------------
 
-// What comes of a run with this fault: what it said, if it ended by no name.
+// Runs with this fault; returns the message if the run did not end with a named error.
 std::string run_with(const std::string& engine, const std::string& fault, const fs::path& directory,
                      std::string* said = nullptr) {
   const std::unique_ptr<Engine> made = engine_named(engine);
@@ -200,7 +199,7 @@ std::string run_with(const std::string& engine, const std::string& fault, const 
   return "";
 }
 
-// As the rejection of an unknown one lists them.
+// From the list in the message about an unknown link.
 std::vector<std::string> links_of(const std::string& engine, const fs::path& directory) {
   std::istringstream lines(tb::forked_text([&] {
     std::string said;
@@ -213,7 +212,7 @@ std::vector<std::string> links_of(const std::string& engine, const fs::path& dir
   return links;
 }
 
-TEST_F(TextNoise, Faults) {
+TEST_F(TextNoise, FaultsEndByName) {
   std::vector<std::vector<std::string>> links;
   for (const std::string& engine : kEngines) {
     links.push_back(links_of(engine, directory()));

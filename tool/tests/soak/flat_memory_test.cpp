@@ -21,9 +21,9 @@ std::vector<std::uint64_t> steps(std::size_t count, std::uint64_t from, std::uin
   return samples;
 }
 
-TEST(FlatMemory, GrowsWhereTheEndHasMoreThanTheBeginning) {
+TEST(FlatMemory, ReportsGrowthFromBeginningToEnd) {
   EXPECT_EQ(growth(steps(100, 1000, 0), kNone), "");
-  // Of 100 samples the second fifth ends with number 39, the fourth one with number 79.
+  // In 100 samples the second fifth ends with number 39, the fourth with number 79.
   EXPECT_EQ(growth(steps(100, 1000, 1), kNone), "from 1039 to 1079 bytes, 1039 are allowed");
   EXPECT_EQ(growth(steps(100, 1000, 1), {0, 40}), "");
   EXPECT_NE(growth(steps(100, 1000, 1), {0, 39}), "");
@@ -31,14 +31,14 @@ TEST(FlatMemory, GrowsWhereTheEndHasMoreThanTheBeginning) {
   EXPECT_NE(growth(steps(100, 1000, 1), {0.03, 0}), "");
 }
 
-TEST(FlatMemory, MayGrowAtItsBeginningAndItsEnd) {
+TEST(FlatMemory, IgnoresGrowthAtBothEnds) {
   std::vector<std::uint64_t> samples(100, 5000);
   for (std::size_t i = 0; i < 20; ++i) samples[i] = 10 * i;
   for (std::size_t i = 80; i < 100; ++i) samples[i] = 9000;
   EXPECT_EQ(growth(samples, kNone), "");
 }
 
-TEST(FlatMemory, TimeOfAProcessorIsThatOfWork) {
+TEST(FlatMemory, SleepTakesNoProcessorTime) {
   const double before = cpu_seconds(::getpid());
   EXPECT_GT(before, 0);
   ::usleep(100'000);
@@ -47,25 +47,25 @@ TEST(FlatMemory, TimeOfAProcessorIsThatOfWork) {
   }
 }
 
-TEST(FlatMemory, AProcessThatIsGoneHasNoTime) {
+TEST(FlatMemory, FinishedProcessHasNoTime) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);
   EXPECT_EQ(cpu_seconds(child), 0);
 }
 
-TEST(FlatMemory, TooFewSamplesSayNothing) { EXPECT_EQ(growth(steps(49, 0, 100), kNone), ""); }
+TEST(FlatMemory, TooFewSamplesReportNoGrowth) { EXPECT_EQ(growth(steps(49, 0, 100), kNone), ""); }
 
-TEST(FlatMemory, TenthsAreTheLargestOfEach) {
+TEST(FlatMemory, TenthsAreMaxima) {
   EXPECT_THAT(tenths(steps(20, 0, 1)), testing::ElementsAre(1, 3, 5, 7, 9, 11, 13, 15, 17, 19));
 }
 
-TEST(FlatMemory, AProcessIsMeasured) {
+TEST(FlatMemory, MeasuresResidentMemory) {
   EXPECT_GT(resident_bytes(::getpid()), 1'000'000u);
   EXPECT_EQ(resident_bytes(-1), 0u);
 }
 
-TEST(FlatMemory, WhatIsNotGivenBackIsOnTheHeap) {
+TEST(FlatMemory, UnfreedMemoryIsOnTheHeap) {
   if (!kCheckMemory) GTEST_SKIP() << "AddressSanitizer has a heap of its own";
   constexpr std::size_t kBytes = 50'000;
   const std::uint64_t before = heap_bytes();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep shows of results that are made by hand: states, values, fronts, means, tables.
+// What a sweep reports for hand-made results: states, values, fronts, means, tables.
 #include "tool/sweep/collection.h"
 
 #include <gmock/gmock.h>
@@ -55,7 +55,7 @@ Json result(std::uint64_t cycles, double rate, std::uint64_t lines) {
 
 class SweepCollection : public KeptPoints {
  protected:
-  // Names begin with where they are: two digits.
+  // Names begin with two digits, the position of the point.
   void plan(const std::string& yaml, const std::vector<std::pair<std::string, Sample>>& points) {
     sweep_ = read_sweep(write("ways.yaml", yaml));
     plan_ = plan_without_points(sweep_);
@@ -78,12 +78,12 @@ class SweepCollection : public KeptPoints {
                   {"d0fail", {kWide, "2"}}});
     keep("a0fine", result(100, 2.5, 50));
     keep("a1tied", result(100, 2.5, 80));  // equal in every objective
-    keep("a2slow", result(101, 2.5, 10));  // no better in any
+    keep("a2slow", result(101, 2.5, 10));  // better in none
     keep("b0fine", result(300, 1.5, 90));  // worse, but of another picture; at the limit
     keep("b1none", result(310, 1.75, 0));  // divides by zero
     keep("b2less", result(310, 1.5, 40));  // worse in one, equal in the other
-    keep("c0fast", result(50, 9, 91));     // better, but beyond
-    keep("c1edge", result(500, 99, 90));   // at a limit that it must not reach
+    keep("c0fast", result(50, 9, 91));     // better, but beyond the limit
+    keep("c1edge", result(500, 99, 90));   // at a limit that excludes its own value
     write_failure(folder_of("d0fail"), {"deadlock", "nothing, \"moved\"", false});
   }
   Collection collected() { return collect(sweep_, place()); }
@@ -136,7 +136,7 @@ TEST_F(SweepCollection, MetricsHaveTheUnitsOfTheirKeys) {
                           "ratio|cycles / memory.lines_filled||cycles / memory.lines_filled"));
 }
 
-TEST_F(SweepCollection, AFrontIsOfEachPictureAndWithinTheLimits) {
+TEST_F(SweepCollection, FrontIsPerPictureAndWithinLimits) {
   plan_and_keep();
   const Collection all = collected();
   EXPECT_THAT(names_where(all, [](const CollectedPoint& p) { return p.front; }),
@@ -155,8 +155,8 @@ TEST_F(SweepCollection, AFrontIsOfEachPictureAndWithinTheLimits) {
   EXPECT_THAT(values_of(sweep_, folder_of("a1tied")), ElementsAre(100, 2.5, 80, 1.25));
 }
 
-// Over all points with a value, those beyond a limit too, in the order of the axis.
-TEST_F(SweepCollection, EffectsAreMeansOfThePointsWithAValue) {
+// Over all points with a value, including those beyond a limit, in the order of the axis.
+TEST_F(SweepCollection, EffectsAreMeansOfPointsWithAValue) {
   plan_and_keep();
   std::vector<std::string> told;
   for (const MainEffect& effect : collected().effects) {
@@ -182,7 +182,7 @@ TEST_F(SweepCollection, EffectsAreMeansOfThePointsWithAValue) {
               " 1:" + Json((1.25 + 500.0 / 90) / 2).dump() + " 2:" + Json(less).dump()));
 }
 
-TEST_F(SweepCollection, TheTableHasEveryPointAndQuotesWhatIsNoPlainCell) {
+TEST_F(SweepCollection, TableHasEveryPointAndQuotesSpecialCells) {
   plan_and_keep();
   write_collection(sweep_, plan_, place(), collected());
   std::istringstream csv(read(place().directory / "collected.csv"));
@@ -202,7 +202,7 @@ TEST_F(SweepCollection, TheTableHasEveryPointAndQuotesWhatIsNoPlainCell) {
                            folder_of("d0fail").string());
 }
 
-TEST_F(SweepCollection, TheJsonAndThePageSayTheSame) {
+TEST_F(SweepCollection, JsonAndPageMatch) {
   plan_and_keep();
   const Json all = json();
   EXPECT_EQ(all["counts"], Json({{"points", 10},
@@ -242,8 +242,8 @@ TEST_F(SweepCollection, TheJsonAndThePageSayTheSame) {
   expect_in(page, "deadlock: nothing, &quot;moved&quot;</td>");
 }
 
-// With hundreds of points those on the front come first, and no more than 200.
-TEST_F(SweepCollection, TheTableWithoutScriptIsCut) {
+// With hundreds of points, those on the front come first, and at most 200 are shown.
+TEST_F(SweepCollection, TableWithoutScriptIsTruncated) {
   std::vector<std::pair<std::string, Sample>> points;
   for (int i = 0; i < 205; ++i) points.emplace_back(std::to_string(1000 + i), Sample{kWide, "1"});
   plan(kSweep, points);
@@ -263,7 +263,7 @@ TEST_F(SweepCollection, TheTableWithoutScriptIsCut) {
   EXPECT_EQ(page.find("Not every point has a result"), std::string::npos);
 }
 
-TEST_F(SweepCollection, WhatNoResultHasIsAnErrorAndWhatSomeLackIsNot) {
+TEST_F(SweepCollection, RejectsMetricThatEveryResultLacks) {
   const std::string yaml = kSweep;
   plan(yaml, {{"a0", {kWide, "1"}}, {"a1", {kWide, "2"}}});
   keep("a0", result(10, 1, 10));
@@ -282,9 +282,9 @@ TEST_F(SweepCollection, WhatNoResultHasIsAnErrorAndWhatSomeLackIsNot) {
   EXPECT_EQ(collected().missing, 2u) << "nothing has run: no error";
 }
 
-// ---- how far it is ------------------------------------------------------------------------------
+// ---- progress ---------------------------------------------------------------------------------
 
-TEST_F(SweepCollection, TheStatusCountsStatesAndShowsTheFirstFailures) {
+TEST_F(SweepCollection, StatusCountsStatesAndShowsFirstFailures) {
   std::vector<std::pair<std::string, Sample>> points;
   for (int i = 0; i < 14; ++i) points.emplace_back(std::to_string(10 + i), Sample{kWide, "2"});
   plan(kSweep, points);
@@ -303,9 +303,9 @@ TEST_F(SweepCollection, TheStatusCountsStatesAndShowsTheFirstFailures) {
   EXPECT_EQ(status.time_left, "") << "nobody is at it";
 }
 
-// ---- what it was made from ----------------------------------------------------------------------
+// ---- inputs -----------------------------------------------------------------------------------
 
-TEST_F(SweepCollection, APlanIsOfItsFileWhatThatIncludesAndWhatPointsRead) {
+TEST_F(SweepCollection, PlanDependsOnItsFileIncludesAndInputs) {
   const std::filesystem::path file = write("all.yaml", "all"), part = write("part.yaml", "part"),
                               picture = write("picture.png", "picture");
   std::filesystem::create_directories(place().directory);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conditions and objectives of sweeps: what each operator gives, how they bind, what is rejected.
+// Conditions and objectives of sweeps: results of operators, precedence, rejected expressions.
 #include "tool/sweep/expression.h"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-TEST(Expression, HasTheUsualArithmetic) {
+TEST(Expression, EvaluatesArithmetic) {
   EXPECT_EQ(number("a + b.c * 3"), 13);
   EXPECT_EQ(number("(a + b.c) * 3"), 27);
   EXPECT_EQ(number("a - b.c - 1"), 4) << "from the left";
@@ -61,7 +61,7 @@ TEST(Expression, HasTheUsualArithmetic) {
   EXPECT_EQ(number("2.5"), 2.5);
 }
 
-TEST(Expression, Compares) {
+TEST(Expression, EvaluatesComparisons) {
   for (const auto& [text, holds] : std::vector<std::pair<const char*, bool>>{
            {"a < 7", false},          {"a < 7.1", true},         {"a <= 7", true},
            {"a <= 6.9", false},       {"a > 7", false},          {"a > 6.9", true},
@@ -73,7 +73,7 @@ TEST(Expression, Compares) {
     EXPECT_EQ(reference(text), holds) << text;
 }
 
-TEST(Expression, JoinsConditions) {
+TEST(Expression, EvaluatesLogicalOperators) {
   for (const auto& [text, holds] :
        std::vector<std::pair<const char*, bool>>{{"on", true},
                                                  {"not on", false},
@@ -95,8 +95,8 @@ TEST(Expression, JoinsConditions) {
     EXPECT_EQ(reference(text), holds) << text;
 }
 
-// How far from what is demanded, over the right side's size.
-TEST(Expression, SaysHowFarAComparisonIsOff) {
+// Distance from the required value, relative to the right side.
+TEST(Expression, MeasuresViolationOfAComparison) {
   EXPECT_TRUE(made("a < 3").is_comparison());
   EXPECT_TRUE(made("(a < 3)").is_comparison());
   EXPECT_FALSE(made("a == 3").is_comparison());
@@ -122,7 +122,7 @@ TEST(Expression, SaysHowFarAComparisonIsOff) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(Expression, KeepsNamesOnceInTheirOrder) {
+TEST(Expression, ListsEachNameOnceInOrder) {
   const Expression e = made("b.c > 1 and a > b.c or a > 2 and on");
   EXPECT_THAT(e.names(), ElementsAre("b.c", "a", "on"));
   EXPECT_EQ(e.text(), "b.c > 1 and a > b.c or a > 2 and on");
@@ -130,7 +130,7 @@ TEST(Expression, KeepsNamesOnceInTheirOrder) {
   EXPECT_THAT(made("1 < 2").names(), testing::IsEmpty());
 }
 
-TEST(Expression, RejectsWhatIsNone) {
+TEST(Expression, RejectsInvalidExpressions) {
   EXPECT_THAT(complaint("a <"), HasSubstr("here: constraint 'a <': it ends too early"));
   EXPECT_THAT(complaint("(a < 3"), HasSubstr("a ')' is missing"));
   EXPECT_THAT(complaint("a < 3)"), HasSubstr("')' was not expected"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder in which points have results that a test has made by hand.
+// A folder with points whose results are made by a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class KeptPoints : public testing::Test {
   }
   ~KeptPoints() override { std::filesystem::remove_all(out_); }
 
-  // A file in the folder, made of this text.
+  // Writes a file with this text into the folder.
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(out_ / name) << text;
     return out_ / name;

@@ -6,8 +6,8 @@
 namespace deburr::tool::metric_keys_test {
 namespace {
 
-// A * stands for one character or more, dots among them.
-TEST(MetricKeys, OfAPattern) {
+// A * stands for one or more characters, including dots.
+TEST(MetricKeys, MatchPattern) {
   for (const auto& [key, pattern] : {std::pair{"cycles", "cycles"},
                                      {"units.a.busy", "units.*.busy"},
                                      {"units.tag_stage.busy", "units.*.busy"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a search that does not know points: budget, constraints, repetition, and how much it
-// finds of a front that is known.
+// The part of a search that does not depend on points: budget, constraints, repetition, and the
+// part of a known front that it finds.
 #include "tool/sweep/pareto_search.h"
 
 #include <gmock/gmock.h>
@@ -30,8 +30,9 @@ std::string text_of(const Genes& genes) {
   return text;
 }
 
-// A design of four choices, as a filter and its cache are: the first costs cycles for quality, the
-// second has one best value, the third costs bits for cycles, the fourth is good at its first two.
+// A design of four choices, similar to a filter and its cache: the first trades cycles for quality,
+// the second has one best value, the third trades bits for cycles, the fourth is best at its first
+// two values.
 Costs costs_of(const Genes& g) {
   const double off = g[1] - 2.0;
   const double quality = 2.0 * g[0] - off * off;
@@ -107,7 +108,7 @@ double percent_found(const std::set<Costs>& front, const std::set<Costs>& found)
   return 100.0 * static_cast<double>(hits) / static_cast<double>(front.size());
 }
 
-TEST(ParetoSearch, AsksForEachPointOnceAndSpendsTheBudget) {
+TEST(ParetoSearch, RequestsEachPointOnceAndSpendsTheBudget) {
   for (const std::uint64_t runs : {8u, 21u, 100u}) {
     Searched search;
     search.run({runs, 8, 3});
@@ -118,7 +119,7 @@ TEST(ParetoSearch, AsksForEachPointOnceAndSpendsTheBudget) {
   }
 }
 
-TEST(ParetoSearch, SameSeedAsksForTheSamePoints) {
+TEST(ParetoSearch, SameSeedRequestsTheSamePoints) {
   Searched first, second, other;
   first.run({60, 12, 5});
   second.run({60, 12, 5});
@@ -127,7 +128,7 @@ TEST(ParetoSearch, SameSeedAsksForTheSamePoints) {
   EXPECT_NE(first.asked, other.asked);
 }
 
-TEST(ParetoSearch, LeavesOutCombinationsThatAreNotPoints) {
+TEST(ParetoSearch, OmitsInvalidCombinations) {
   Searched search;
   search.space.name = [](const Genes& g) -> std::optional<std::string> {
     if (g[0] + g[2] > 5) return std::nullopt;
@@ -138,8 +139,8 @@ TEST(ParetoSearch, LeavesOutCombinationsThatAreNotPoints) {
   for (const Genes& g : search.genes) EXPECT_LE(g[0] + g[2], 5u);
 }
 
-TEST(ParetoSearch, CountsPointsOfOneNameOnce) {
-  Searched search;  // the last axis has no effect where the first is 0
+TEST(ParetoSearch, CountsPointsOfEqualNameOnce) {
+  Searched search;  // the last axis has no effect if the first is 0
   search.space.name = [](const Genes& g) -> std::optional<std::string> {
     return text_of(g[0] == 0 ? Genes{0, g[1], g[2]} : g);
   };
@@ -148,21 +149,21 @@ TEST(ParetoSearch, CountsPointsOfOneNameOnce) {
               SizeIs(search.asked.size()));
 }
 
-TEST(ParetoSearch, EndsWhereTheSpaceIsExhausted) {
+TEST(ParetoSearch, EndsWhenTheSpaceIsExhausted) {
   Searched search;
   search.space.sizes = {2, 3, 1, 2};
   search.run({1000, 8, 1});
   EXPECT_THAT(search.asked, SizeIs(12));
 }
 
-TEST(ParetoSearch, EndsAtOnceWithoutAnyPoint) {
+TEST(ParetoSearch, EndsAtOnceWithoutPoints) {
   Searched search;
   search.space.name = [](const Genes&) { return std::optional<std::string>(); };
   search.run({100, 8, 1});
   EXPECT_TRUE(search.asked.empty());
 }
 
-TEST(ParetoSearch, FindsMoreOfAFrontThanChance) {
+TEST(ParetoSearch, FindsMoreOfAFrontThanRandomSampling) {
   const std::set<Costs> all = Searched::everything();
   const std::set<Costs> front = front_of(all);
   ASSERT_GT(front.size(), 20u);
@@ -196,7 +197,7 @@ TEST(ParetoSearch, SpendsTheBudgetOnEqualCosts) {
   EXPECT_EQ(asked, 50u);
 }
 
-TEST(Population, SuitsNsga2) {
+TEST(Population, SizeFitsNsga2) {
   for (const std::uint64_t runs : {1u, 30u, 100u, 500u, 1000000u}) {
     EXPECT_EQ(population_for(runs) % Evolution::kGroup, 0u);
     EXPECT_GE(population_for(runs), Evolution::kLeast);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples of axes: every combination, listed ones, random ones, a Latin hypercube.
+// Samples of axes: every combination, listed points, random points, a Latin hypercube.
 #include "tool/sweep/sampling.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ std::vector<std::string> samples_of(const SweepDefinition& sweep) {
   return all;
 }
 
-TEST(Sampling, EveryCombinationWithTheLastAxisFastest) {
+TEST(Sampling, EnumeratesCombinationsWithTheLastAxisFastest) {
   SweepDefinition sweep;
   sweep.axes = {axis("a", {"1", "2"}), axis("b", {"x"}), axis("c", {"p", "q", "r"})};
   EXPECT_THAT(samples_of(sweep), ElementsAre("1 x p", "1 x q", "1 x r", "2 x p", "2 x q", "2 x r"));
@@ -51,7 +51,7 @@ TEST(Sampling, EveryCombinationWithTheLastAxisFastest) {
   EXPECT_THAT(samples_of(sweep), ElementsAre("1"));
 }
 
-TEST(Sampling, MoreCombinationsThanANumberHoldsStayTheLargest) {
+TEST(Sampling, CombinationCountSaturates) {
   SweepDefinition sweep;
   sweep.axes.assign(64, axis("a", {"1", "2"}));
   EXPECT_EQ(sample_bound(sweep), std::numeric_limits<std::uint64_t>::max());
@@ -59,7 +59,7 @@ TEST(Sampling, MoreCombinationsThanANumberHoldsStayTheLargest) {
   EXPECT_EQ(sample_bound(sweep), std::uint64_t{1} << 63);
 }
 
-TEST(Sampling, ListedPointsTakeTheirPlaceOfEachAxis) {
+TEST(Sampling, ListedPointsSelectValuesByIndex) {
   SweepDefinition sweep;
   sweep.sampling = SweepSampling::kListed;
   sweep.axes = {axis("a", {"1", "2", "3"}), axis("b", {"x", "y", "z"})};
@@ -68,7 +68,7 @@ TEST(Sampling, ListedPointsTakeTheirPlaceOfEachAxis) {
 }
 
 // Each stratum of each axis once, whatever the order of the others.
-TEST(Sampling, ALatinHypercubeHitsEachStratumOnce) {
+TEST(Sampling, LatinHypercubeHitsEachStratumOnce) {
   SweepDefinition sweep;
   sweep.sampling = SweepSampling::kLatin;
   sweep.samples = 10;
@@ -108,7 +108,7 @@ TEST(Sampling, ALatinHypercubeHitsEachStratumOnce) {
   EXPECT_NE(other, order);
 }
 
-TEST(Sampling, RandomOnesAreDrawnUntilEnoughCount) {
+TEST(Sampling, DrawsRandomPointsUntilEnoughAreValid) {
   SweepDefinition sweep;
   sweep.sampling = SweepSampling::kRandom;
   sweep.samples = 40;

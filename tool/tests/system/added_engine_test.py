@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A fifth engine (tool/tests/system/added_engine), which the program was built with and nothing else of the
-repository names: it is run, swept, regressed, completed, soaked and held to its baselines like the others. Its edits
-are counted.
+"""A fifth engine (tool/tests/system/added_engine), which the program is built with and the rest of the repository
+does not name: it is run, swept, regressed, completed, soaked and compared with its baselines like the others. The
+edits that it needs are counted.
 
 usage: added_engine_test.py DEBURR SOAK SOURCE"""
 import json
@@ -22,10 +22,11 @@ HERE = pathlib.Path(__file__).resolve().parent / "added_engine"
 NAME = [line for line in (HERE / "engines.txt").read_text(encoding="utf-8").splitlines() if line[:1] != "#"][0]
 FOLDER = HERE / "tb/engines" / NAME
 DEBURR = SOAK = SOURCE = ""
-# Of tests of every engine those that are of no other engine by name.
-TESTS = {"observers": ["Windows.test_every_engine_adds_up", "Timeline.test_obeys_the_rules_and_says_what_windows_say"],
-         "memories": ["Memories.test_no_default_and_no_preset_is_idealised", "Memories.test_totals_are_sums"],
-         "pixel_history": ["PixelHistory.test_who_keeps_none_says_so"]}
+# Of the tests of every engine, those that name no other engine.
+TESTS = {"observers": ["Intervals.test_intervals_of_every_engine_add_up",
+                      "Timeline.test_timeline_obeys_rules_and_matches_intervals"],
+         "memories": ["Memories.test_defaults_and_presets_are_implementable", "Memories.test_totals_are_sums"],
+         "pixel_history": ["PixelHistory.test_engines_without_history_say_so"]}
 
 
 class Added(unittest.TestCase):
@@ -45,7 +46,7 @@ class Added(unittest.TestCase):
     def deburr(self, code, *arguments, says=()):
         return self.call(code, DEBURR, *arguments, says=says)
 
-    def test_run(self):
+    def test_run_passes(self):
         self.deburr(0, "run", NAME, "--size", "31x17", "--bits", "2", "--windows", "50", "--maps", "--timeline", "--set",
                     "run.coverage=true", "--out", "out", says="PASS posteriser: 529 outputs")
         result = json.loads((self.folder / "out/result.json").read_text())
@@ -55,7 +56,7 @@ class Added(unittest.TestCase):
         for file in ("after.png", "change.png", "map_level.pfm", "intervals.json", "timeline.json", "report.html"):
             self.assertTrue((self.folder / "out" / file).exists(), file)
 
-    def test_what_is_wrong_is_found(self):
+    def test_detects_faults(self):
         for fault in ("flip-bit", "wrong-rule", "miscount-pixels", "blind-pixels", "blind-status-registers"):
             self.deburr(1, "run", NAME, "--fault", fault, "--out", "out", says="FAIL mismatch")
         self.deburr(2, "run", NAME, "--fault", "gremlin", says="wrong-rule")
@@ -71,20 +72,20 @@ class Added(unittest.TestCase):
             self.assertEqual(after, getattr(self, "before", after))
             self.before = after
 
-    def test_sweep(self):
+    def test_sweep_passes(self):
         (self.folder / "levels.yaml").write_text(
             f"engine: {NAME}\nbase: {{picture.width: 16}}\naxes:\n  posteriser.bits: [1, 4, 8]\n"
             "  posteriser.rounding: [truncate, nearest]\n", encoding="utf-8")
         self.deburr(0, "sweep", "levels.yaml", "run", says="6 points, 6 done")
 
-    def test_regress(self):
+    def test_regression_passes(self):
         (self.folder / "added.yaml").write_text(
             f"include: [{FOLDER / 'smoke.yaml'}]\nfeatures:\n  - id: random-configurations\n    title: Any\n"
             "    checks: {pixels: 100}\n", encoding="utf-8")
         self.deburr(0, "regress", "added.yaml", "run", "--seed", "1", says="24 points, 24 passed")
 
-    # What its folder has would stand in the repository by the same path; CMakeLists.txt stands for that of the root.
-    def test_it_costs_one_line(self):
+    # Files of its folder mirror the paths of the repository; CMakeLists.txt mirrors the one in the root.
+    def test_adding_it_changes_one_line(self):
         edits = {}
         for file in HERE.rglob("*"):
             path = file.relative_to(HERE).as_posix()
@@ -109,8 +110,8 @@ class Added(unittest.TestCase):
         (root / "tb/engines/engines.txt").write_text("".join(f"{engine}\n" for engine in (*engines_there, NAME)))
         return root
 
-    # By its trials.yaml, of which it may have any part or none.
-    def test_tests_of_every_engine(self):
+    # Selected by its trials.yaml, which may have any part or none.
+    def test_tests_of_every_engine_include_it(self):
         root = self.repository(engines()[0])
 
         def run_tests(name, code=0):
@@ -120,15 +121,15 @@ class Added(unittest.TestCase):
         for name in TESTS:
             run_tests(name)
         entries = root / "tb/engines" / NAME / "trials.yaml"
-        # They do run it: one that cannot be run fails.
+        # They do run it: an engine that cannot run fails.
         entries.write_text(f"watched: {{{NAME}: [--size, 0x0]}}\n")
         run_tests("observers", code=1)
         entries.unlink()
         for name in TESTS:
             run_tests(name)
 
-    # What the declaration leaves out, and works all the same.
-    def test_what_an_engine_may_leave_out(self):
+    # Parts that the declaration omits, with working defaults.
+    def test_optional_declarations_may_be_omitted(self):
         declared = own = ""
         for header, base, file in (("tb/env/engine_testbench.h", "EngineTestbench", f"tb/engines/{NAME}/{NAME}_testbench.h"),
                                    ("tool/run/engine.h", "Engine", f"tool/engines/{NAME}/{NAME}_engine.cpp")):
@@ -142,8 +143,8 @@ class Added(unittest.TestCase):
         self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",
                                                        "pixel_history"})
 
-    # Its parameters say what work is; a comparison knows no engine.
-    def test_compare(self):
+    # Its parameters define the work; a comparison knows no engine.
+    def test_comparison_finds_different_work(self):
         for folder, size in (("a", "31x17"), ("b", "31x18")):
             self.deburr(0, "run", NAME, "--size", size, "--bits", "2" if folder == "a" else "3", "--out", folder)
         done = subprocess.run([DEBURR, "compare", "a", "b"], cwd=self.folder, text=True, capture_output=True, check=False)
@@ -151,8 +152,8 @@ class Added(unittest.TestCase):
         for name in ("picture.width differs", "posteriser.bits differs"):
             self.assertNotIn(name, done.stderr)
 
-    # With one line of the list, and no line of the plan, the repository's own plan has it.
-    def test_regress_of_every_engine(self):
+    # With one line in the list, and none in the plan, the repository's own plan includes it.
+    def test_plan_for_every_engine_includes_it(self):
         os.makedirs(self.folder / "tb/engines")
         os.symlink(os.path.join(SOURCE, "docs"), self.folder / "docs")
         shutil.copytree(os.path.join(SOURCE, "tb/testplan"), self.folder / "tb/testplan")
@@ -164,8 +165,8 @@ class Added(unittest.TestCase):
         points = next(self.folder.rglob("points.jsonl"), None) or next(self.folder.rglob("points*"))
         self.assertIn("posteriser-levels", points.read_text(encoding="utf-8"))
 
-    # By its role alone: behind who draws, behind who smooths along edges, and in every list.
-    def test_in_a_composition(self):
+    # By its role only: after a drawing engine, after an edge smoother, and in every list.
+    def test_joins_compositions(self):
         small = ("--size", "32x24", "--out", "out")
         told = self.deburr(0, "params", "frame")
         values = re.search(r"(\S+(?: \| \S+)+)", told[told.index("frame.smoothing"):])[1].split(" | ")
@@ -183,12 +184,12 @@ class Added(unittest.TestCase):
         self.deburr(1, "run", "frame", *small, "--smoothing", NAME, "--fault", "posteriser.flip-bit", says="FAIL mismatch")
         for smoothing in (NAME, pair):
             self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")
-        # Nobody marks for who looks at no marks.
+        # An engine that reads no marks makes no engine write them.
         self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
         self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
         self.deburr(0, "run", "frame", "--help", says=f" or {pair}")
 
-    def test_parameters_and_pages(self):
+    def test_parameters_and_pages_include_it(self):
         self.deburr(0, "params", NAME, says=["posteriser.bits", "posteriser.link_depth", "must be 1 or an even"])
         for page, says in (("parameters", f"## `deburr run {NAME}`"), ("registers", "## Posteriser\n"),
                            ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`"),
@@ -196,17 +197,17 @@ class Added(unittest.TestCase):
             self.deburr(0, "params", "--markdown", page, says=says)
         self.deburr(0, "params", "--c-header", says="DEBURR_POSTERISER_RULES_BITS_MASK")
 
-    def test_completion(self):
+    def test_completion_includes_it(self):
         script = self.deburr(0, "completion", "bash")
         self.assertIn(f"'deburr run {NAME}:posteriser.rounding') found='truncate nearest'", script)
         self.assertRegex(script, rf"'deburr run {NAME}:--fault'\) found='[^']*wrong-rule")
 
-    def test_soak(self):
+    def test_soak_runs_it(self):
         self.call(0, SOAK, "--engines", NAME, "--runs", "6", "--long-every", "6", says=["long run", "RESULT: PASS"])
         self.call(1, SOAK, "--engines", NAME, "--runs", "2", "--set", "run.fault=flip-bit", "--set",
                   "picture.width=32", "--set", "picture.height=24", says="RESULT: FAIL")
 
-    def test_baselines(self):
+    def test_baselines_include_it(self):
         check = os.path.join(SOURCE, "tb/baselines/check.py")
         self.call(0, check, DEBURR, FOLDER, says="0 differences")
         moved = self.folder / NAME

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Functional coverage that a run leaves: every declared bin of its engines and no other, hits that come to what the
-hardware counted (a hit that is dropped is seen), the same sums where several engines run, nothing unless asked for.
+"""Functional coverage of a run: every declared bin of its engines and no other; hits that match hardware counters (a
+lost hit is detected); the same sums when several engines run; no coverage unless requested.
 
 usage: coverage_test.py DEBURR SOURCE"""
 import json
@@ -20,7 +20,7 @@ SIZE = ("--size", "72x56")
 
 
 def run(*arguments, code=0):
-    """result.json, or what was said where the run must end otherwise."""
+    """result.json, or the error message if the run is expected to fail."""
     with tempfile.TemporaryDirectory(prefix="deburr_coverage_") as out:
         done = subprocess.run([DEBURR, "run", *arguments, "--quiet", "--no-images", "--out", out], text=True,
                               capture_output=True, check=False)
@@ -38,7 +38,7 @@ def covered(*arguments, code=0):
 
 
 def declared(engine):
-    """The names on the page of an engine, but for those that only tests meet."""
+    """The names on the page of an engine, without those that only tests reach."""
     with open(os.path.join(SOURCE, "docs/reference/coverage.md"), encoding="utf-8") as file:
         rows = re.findall(r"^\| `(\w+/[^`]*)` \| ([^|]*) \|", file.read(), re.M)
     directed = trials("directed").get(engine, [])
@@ -52,10 +52,10 @@ def total(bins, group):
 
 
 class Coverage(unittest.TestCase):
-    def test_off(self):
+    def test_off_by_default(self):
         self.assertNotIn("coverage", run("texture", *SIZE))
 
-    def test_texture(self):
+    def test_texture_bins_match_counters(self):
         bins, work = covered("texture", *SIZE, "--scene", "quad")
         self.assertEqual(set(bins), declared("texture"))
         fragments = work["fragments"]
@@ -71,7 +71,7 @@ class Coverage(unittest.TestCase):
             self.assertEqual(total(bins, f"texture/major/{axes}"), 0)
         self.assertEqual(total(bins, "texture/output"), 0)
 
-    def test_texture_of_other_settings(self):
+    def test_texture_with_other_settings_matches(self):
         bins, work = covered("texture", *SIZE, "--scene", "plane", "--format", "srgb8_a8", "--set", "texture.axes=two",
                              "--set", "texture.kernel=tent", "--set", "texture.srgb_output=encoded")
         fragments = work["fragments"]
@@ -81,7 +81,7 @@ class Coverage(unittest.TestCase):
         self.assertEqual(total(bins, "texture/tent"), fragments)
         self.assertGreater(bins["texture/tent/wide"], 0)
 
-    def test_morphological(self):
+    def test_morphological_bins_match_counters(self):
         bins, work = covered("morphological", *SIZE)
         self.assertEqual(set(bins), declared("morphological"))
         self.assertEqual(total(bins, "morphological/decision"), 72 * 56)
@@ -90,7 +90,7 @@ class Coverage(unittest.TestCase):
         self.assertGreater(runs, 0)
         self.assertEqual(total(bins, "morphological/table"), 0)
 
-    def test_without_golden_there_is_none(self):
+    def test_no_coverage_without_golden_model(self):
         self.assertIn("run.coverage", run("texture", *SIZE, "--check", "none", "--set", "run.coverage=true", code=2))
 
 

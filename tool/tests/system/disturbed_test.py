@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What must change no picture of any engine: stalls of every link, late memory, noise in what nobody wrote, the order
-in which units are evaluated, the fast path, a reset in mid-frame, whether rules are registers that software writes
-or reset values. Every engine of engines.txt, with the options by which its trials.yaml has it watched or programmed, or
-none.
+"""Disturbances that must not change a picture of any engine: stalls of every link, late memory, noise in unwritten
+fields, the evaluation order of units, the fast path, a reset in mid-frame, and whether the configuration is
+written to registers or given as reset values. Runs every engine of engines.txt, with the options under `watched`
+or `programmed` in its trials.yaml, or none.
 
 usage: disturbed_test.py DEBURR SOURCE [CLASS]"""
 import itertools
@@ -14,17 +14,17 @@ import sys
 import tempfile
 import unittest
 
-# Clock by clock the same run: all of its result but what the machine took.
+# Cycle-identical runs: the whole result except figures of the host.
 UNSEEN = {"another order of units": ["run.shuffle=true"], "noise": ["run.poison=true"],
           "no fast path": ["run.fast_path=false"], "no checks of links": ["run.check_links=false"],
           "all of them": ["run.shuffle=true", "run.poison=true", "run.fast_path=false"]}
 # The same comparisons in other cycles.
 SLOWER = {"stalls": ["run.stalls=0.3"], "dense stalls": ["run.stalls=0.8", "run.poison=true", "run.shuffle=true"]}
-# Clock by clock the same run, whether rules are written to registers or are reset values.
+# Cycle-identical, whether the configuration is written to registers or given as reset values.
 PROGRAMMED = {"nothing": [], "stalls": ["run.stalls=0.2", "run.poison=true", "run.shuffle=true"],
               "no fast path": ["run.fast_path=false"],
               "a reset": ["run.reset_after=333", "run.poison=true", "run.shuffle=true"]}
-# The first beats of some come late, frames of others are over early.
+# The first beats of some engines come late, frames of others end early.
 RESETS = (1, 40, 333, 2500, 5000)
 
 
@@ -35,7 +35,7 @@ class Disturbed(unittest.TestCase):
         self.out = pathlib.Path(scratch.name)
 
     def run_of(self, *arguments, code=0):
-        """Its result without what the machine took, and its pictures."""
+        """Its result without figures of the host, and its pictures."""
         done = subprocess.run([DEBURR, "run", *arguments, "--quiet", "--out", self.out], text=True, capture_output=True,
                               check=False)
         self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}{done.stderr}")
@@ -46,7 +46,7 @@ class Disturbed(unittest.TestCase):
         return result, pictures
 
     def compare_each(self, disturbances, compare):
-        """Each engine undisturbed, and disturbed in each way."""
+        """Each engine undisturbed, and with each disturbance."""
         for engine in engines():
             for options in trials("watched").get(engine, {"": []}).values():
                 quiet = self.run_of(engine, *options)
@@ -65,13 +65,13 @@ class Disturbed(unittest.TestCase):
 
 class Unseen(Disturbed):
     def test_nothing_changes(self):
-        # Keys alone: a list of all that differs would take minutes.
+        # Only the keys: a list of all differences would take minutes.
         self.compare_each(UNSEEN, lambda quiet, disturbed: self.assertEqual(
             [key for key in {**quiet, **disturbed} if quiet.get(key) != disturbed.get(key)], []))
 
 
 class Slower(Disturbed):
-    def test_stalls_cost_clocks_and_nothing_else(self):
+    def test_stalls_change_only_cycles(self):
         def compare(quiet, disturbed):
             self.assertEqual(self.compared(disturbed), self.compared(quiet))
             self.assertGreater(disturbed["cycles"], quiet["cycles"])
@@ -79,7 +79,7 @@ class Slower(Disturbed):
 
 
 class Reset(Disturbed):
-    def test_a_frame_that_begins_again_is_the_same(self):
+    def test_restarted_frame_is_the_same(self):
         more = []
 
         def compare(quiet, disturbed):
@@ -90,14 +90,14 @@ class Reset(Disturbed):
                 self.assertEqual(disturbed["scoreboards"][name]["mismatches"], mismatches, name)
         self.compare_each({f"reset after {cycles} cycles": [f"run.reset_after={cycles}", "run.poison=true"]
                            for cycles in RESETS}, compare)
-        # What was compared before a reset is all that shows that there was one.
+        # Comparisons before the reset are the only evidence of it.
         while more:
             self.assertGreater(sum(more[:len(RESETS)]), 0, "no reset took place")
             del more[:len(RESETS)]
 
 
 class Programmed(Disturbed):
-    def test_written_rules_give_the_same_run_as_reset_values(self):
+    def test_written_configuration_equals_reset_values(self):
         runs = [(engine, list(itertools.chain(*zip(options, values))))
                 for engine, options in trials("programmed").items() for values in itertools.product(*options.values())]
         self.assertGreater(len(runs), 0)
@@ -115,8 +115,8 @@ class Programmed(Disturbed):
 
 
 class Faulty(Disturbed):
-    def test_a_picture_that_differs_is_seen(self):
-        """What the comparisons above would see of a wrong pixel."""
+    def test_different_picture_is_detected(self):
+        """The comparisons above detect a wrong pixel."""
         for engine, entry in trials("followed").items():
             quiet, pictures = self.run_of(engine, *entry["run"])
             result, faulty = self.run_of(engine, *entry["run"], "--fault", entry["fault"], code=1)

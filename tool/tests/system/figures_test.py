@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Figures of result.json and report.html, read back from runs, against values found by hand or from other figures.
+"""Figures in result.json and report.html of runs, compared with values found by hand or with other figures.
 
-usage: figures_test.py DEBURR
-"""
+usage: figures_test.py DEBURR"""
 import html
 import json
 import math
@@ -58,7 +57,7 @@ class Figures(unittest.TestCase):
             r"<tr[^>]*><td>([^<]*)</td><td class=\"n\">([^<]*)</td><td>([^<]*)</td>", self.page))
 
     def assert_percentiles(self, latency):
-        """Each lies in the bin in which its rank does; no two of them in one."""
+        """Each percentile lies in the bin of its rank; no two share a bin."""
         bins = latency["histogram"]
         width = bins[1]["from"] - bins[0]["from"]
         count = sum(b["count"] for b in bins)
@@ -119,7 +118,7 @@ class Texture(Figures):
         self.assert_tile("Read from memory", f"{64 * lines / 2**20:.2f}", "MiB", f"{lines:,} reads")
         self.assertTrue(f"At 166.67 MHz this is {rate * 166.67:.1f} Mbilinear/s." in self.page)
 
-    def test_cycles_are_those_that_the_run_took(self):
+    def test_cycles_match_the_run(self):
         cycles = self.run_engine(*self.SMALL)["cycles"]
         self.assertEqual(self.run_engine(*self.SMALL, "--max-cycles", str(cycles))["cycles"], cycles)
         short = subprocess.run([DEBURR, "run", *self.SMALL, "--max-cycles", str(cycles - 1), "--out", self.out],
@@ -127,7 +126,7 @@ class Texture(Figures):
         self.assertEqual(short.returncode, 3)
 
     def test_samples_and_requests_of_each_mode(self):
-        """Without anisotropy one sample a fragment; a second request where two levels are mixed."""
+        """Without anisotropy one sample per fragment; a second request where two levels are blended."""
         for mode, levels in (("nearest", 1), ("linear", 1), ("linear_mipmap_nearest", 1), ("linear_mipmap_linear", 2)):
             work = self.run_engine(*self.SMALL, "--mode", mode, "--aniso", "1")["work"]
             self.assertEqual(work["sample_walker_samples"], 1024, mode)
@@ -135,7 +134,7 @@ class Texture(Figures):
             self.assertEqual(work["filter_pipeline_stage_7"], 1024, "a sample passes here once")
             self.assertEqual(work["filter_pipeline_stage_8"], 1024, "a fragment passes here once")
 
-    def test_texels_count_as_many_bytes_as_their_format_has(self):
+    def test_texel_bytes_follow_the_format(self):
         for texel_format, size in (("rgba8", 4), ("rgb565", 2), ("l8", 1)):
             for line in (64, 128):
                 r = self.run_engine(*self.SMALL, "--format", texel_format, "--set", f"texture.cache.line_bytes={line}")
@@ -144,7 +143,7 @@ class Texture(Figures):
                 self.assertEqual(r["memory"]["bytes_read"], line * lines)
                 self.assertEqual(r["work"]["texels_fetched_per_fragment"], lines * line / size / 1024)
 
-    def test_ports_of_memories(self):
+    def test_memory_port_figures(self):
         memories = self.run_engine(*self.SMALL)["memories"]
         ports = {name: memory["ports"] for name, memory in memories.items()}
         self.assertEqual(ports["descriptors"], "3R1W")
@@ -153,10 +152,10 @@ class Texture(Figures):
 
 
 class Morphological(Figures):
-    WIDTH, HEIGHT, ROWS = 40, 24, 32 + 5  # a window of 66 rows, and those of the pipe
+    WIDTH, HEIGHT, ROWS = 40, 24, 32 + 5  # a search range of 66 rows, and those of the pipeline
 
     def step(self, *arguments, lanes=1, width=WIDTH):
-        """White left of a border that moves a pixel to the right every fourth row."""
+        """White to the left of a border that moves right by a pixel every fourth row."""
         with open(self.frame, "wb") as file:
             file.write(png(width, self.HEIGHT, lambda x, y: 255 if x < 10 + y // 4 else 0))
         return self.run_engine("morphological", "--in", self.frame, "--preset", "mlaa-slope", "--lanes", str(lanes),
@@ -168,7 +167,7 @@ class Morphological(Figures):
 
     def test_figures_of_a_frame(self):
         for lanes in (1, 2, 4):
-            width = 40 * lanes  # shorter rows wait for their records
+            width = 40 * lanes  # shorter rows wait for their descriptors
             r = self.step(lanes=lanes, width=width)
             work, cycles = r["work"], self.cycles(width, self.HEIGHT, lanes)
             latency = self.ROWS * 40 + 23
@@ -187,7 +186,7 @@ class Morphological(Figures):
             self.assert_tile("Latency of a pixel", f"{latency:,}", "clk", "= formula")
 
     def test_counts_of_a_frame(self):
-        """Six runs of four left edges, five of one top edge; those at the frame's border are no clean Z."""
+        """Six runs of four left edges, five of one top edge; runs at the frame's border are not clean Z shapes."""
         for lanes in (1, 4):
             work = self.step("--set", "morphological.divider.interval=4", lanes=lanes)["work"]
             expected = {"area_unit_vertical_edges": 24, "area_unit_horizontal_edges": 5, "edge_detector_edge_pixels": 29,
@@ -200,7 +199,7 @@ class Morphological(Figures):
             self.assertAlmostEqual(work["blended_pixels_percent"], 100 * work["blender_blended_pixels"] / 960)
 
     def test_occupancy_of_the_dividers(self):
-        """Divisions x interval over cycles x lanes; idle is a clock without a division under way."""
+        """Divisions x interval over cycles x lanes; a divider is idle in a cycle without a division in progress."""
         for lanes, interval in ((1, 1), (1, 4), (4, 4)):
             r = self.step("--set", f"morphological.divider.interval={interval}", lanes=lanes)
             for name, divisions in (("line_unit_h", 5), ("line_unit_v", 6)):
@@ -209,17 +208,17 @@ class Morphological(Figures):
                 self.assertAlmostEqual(r["work"][name + "_occupancy_percent"],
                                        100 * divisions * interval / (lanes * r["cycles"]))
                 if lanes == 1 and interval == 1:
-                    # No two of them at once: each is under way for the divider's latency and a clock.
+                    # Divisions never overlap: each takes the divider's latency plus one cycle.
                     self.assertEqual(unit["busy"], divisions * 25)
 
-    def test_traffic_and_stalls_of_memory(self):
+    def test_memory_traffic_and_stalls(self):
         r = self.step("--storage", "memory")
         work, cycles = r["work"], self.cycles(self.WIDTH, self.HEIGHT, 1)
-        # 160 bytes a row are three lines; each is written and read.
+        # 160 bytes per row are three lines; each is written and read.
         self.assertEqual((r["memory"]["bytes_written"], r["memory"]["bytes_read"]), (24 * 192, 24 * 192))
         self.assertEqual(r["memory"]["lines_filled"], 24 * 3)
         self.assertEqual(work["memory_bytes_per_pixel"], 2 * 192 / 40)
-        # Rows of 40 pixels are too short for memory: 1080p is as slow in proportion.
+        # Rows of 40 pixels are too short for memory: 1080p is slower in the same proportion.
         self.assertGreater(work["frame_cycles"], cycles)
         hd = work["frame_cycles"] / cycles * 60 * self.cycles(1920, 1080, 1) / 1e6
         self.assertAlmostEqual(work["clock_for_1080p60"], hd)

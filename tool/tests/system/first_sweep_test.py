@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The first sweep of docs/reference/sweeps.md, exactly as it is printed there: its file, its
-commands, what they are said to print, the page that they make.
+"""The first sweep of docs/reference/sweeps.md, exactly as printed there: its file, its commands, their output, and
+the page that they make.
 
 usage: first_sweep_test.py DEBURR ROOT [--write]
 
---write makes the picture of that page anew, docs/images/first_sweep.png.
-"""
+--write updates the picture of that page, docs/images/first_sweep.png."""
 import os
 import re
 import shutil
@@ -31,7 +30,7 @@ def browse(page, *arguments):
 
 
 class FirstSweep(unittest.TestCase):
-    def test_as_printed(self):
+    def test_page_commands_print_what_it_shows(self):
         text = section()
         name, definition = re.search(r"`(\w+\.yaml)`:\n\n```yaml\n(.*?)```", text, re.S).groups()
         commands = [line for language, block in re.findall(r"```(\w*)\n(.*?)```", text, re.S)

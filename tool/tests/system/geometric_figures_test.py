@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Figures, coverage and maps of `deburr run geometric`, against values found by hand or from other figures.
+"""Figures, coverage and maps of `deburr run geometric`, compared with values found by hand or with other figures.
 
-usage: geometric_test.py DEBURR SOURCE"""
+usage: geometric_figures_test.py DEBURR SOURCE"""
 import math
 import os
 import sys
@@ -16,7 +16,7 @@ from coverage_test import SIZE, covered, declared, total
 
 
 class Figures(figures_test.Figures):
-    """A square that faces the eye, 32 pixels a side: its lines are a quarter of a pixel inside columns 17 and 49 and
+    """A square facing the camera, 32 pixels per side: its lines are a quarter of a pixel inside columns 17 and 49 and
     rows 17 and 49, so each cuts 32 pixels, in blocks 4..12 of rows and columns 4 and 12, by 1/4."""
     MESH = """v -0.4609375 0.4609375 0\nv -0.4609375 -0.5390625 0\nv 0.5390625 -0.5390625 0\nv 0.5390625 0.4609375 0
 f 1 2 3\nf 1 3 4\n"""
@@ -40,7 +40,7 @@ f 1 2 3\nf 1 3 4\n"""
                     "coverage_unit_candidates": 128, "depth_test_passed": 128, "resolver_blocks": self.BLOCKS,
                     "resolver_blended_pixels": self.PIXELS, "line_setup_divider_cycles": 4 * 13}
         self.assertEqual({name: work[name] for name in expected}, expected)
-        # From column 17 on in fours: 3, seven times 4, and 1; a look-up each, and a line each of the depth behind it.
+        # From column 17 on in fours: 3, seven times 4, and 1; one lookup each, and one line of depth each.
         self.assertEqual(work["line_walker_groups"], 4 * 9)
         self.assertAlmostEqual(work["columns_per_cycle"], 32 / 9)
         self.assertEqual(work["vertex_hits_percent"], 75, "four vertices are one line")
@@ -61,7 +61,7 @@ f 1 2 3\nf 1 3 4\n"""
         self.assertAlmostEqual(work["port_occupancy_percent"], 100 * (lines + self.BLOCKS) / cycles)
         self.assertAlmostEqual(work["frame_rate"], 250e6 / cycles)
         self.assertAlmostEqual(work["clock_for_60_frames"], 60 * cycles / 1e6)
-        # 256 tags are cleared; 36 groups; two lines of colours a block.
+        # 256 tags are cleared; 36 groups; two lines of colours per block.
         bound = 256 + 36 + 2 * self.BLOCKS
         self.assertEqual(work["frame_cycles_bound"], bound)
         self.assertAlmostEqual(r["throughput"]["bound"], 5 / bound)
@@ -72,30 +72,30 @@ f 1 2 3\nf 1 3 4\n"""
         self.assert_tile("Clock for 60 frames", f"{60 * cycles / 1e6:.4g}", "MHz")
         self.assert_tile("Traffic of a blended pixel", f"{work['bytes_per_blended_pixel']:.4g}", "byte/pixel")
 
-    def test_walkers(self):
+    def test_walker_figures(self):
         for walkers, groups in ((1, 32), (2, 17), (4, 9)):
             work = self.square("--walkers", str(walkers))["work"]
             self.assertEqual(work["line_walker_groups"], 4 * groups)
             self.assertAlmostEqual(work["columns_per_cycle"], 32 / groups)
 
     def test_columns_without_a_candidate(self):
-        """A quarter of a pixel further left, both upright lines lie between two columns of pixels and cover none."""
+        """A quarter of a pixel further left, both vertical lines lie between two columns of pixels and cover none."""
         mesh = self.MESH.replace("v -0.4609375", "v -0.46875").replace("v 0.5390625", "v 0.53125")
         work = self.square(mesh=mesh)["work"]
         self.assertEqual((work["line_walker_columns"], work["coverage_unit_candidates"]), (128, 64))
         self.assertEqual(work["line_walker_groups"], 4 * 9)
         self.assertAlmostEqual(work["columns_per_cycle"], 32 / 9)
 
-    def test_the_first_line_of_an_idle_engine(self):
-        """Two edges a clock wait for nothing but vertices and depth, behind each other: the sum of the units'
-        latencies, a clock for each link, and a memory of one clock twice."""
+    def test_latency_of_the_first_line(self):
+        """Two edges per cycle wait only for vertices and depth, one after the other: the sum of the units' latencies,
+        one cycle per link, and twice a memory of one cycle."""
         r = self.square("--set", "geometric.select=all", "--walkers", "1", depths=("--set", "geometric.depth_test=off"))
-        # 3 classifier, 5 vertices, 22 setup, 1 walker, 3 coverage, 7 depth test, 5 combiner; 31 groups behind the
+        # 3 classifier, 5 vertices, 22 setup, 1 walker, 3 coverage, 7 depth test, 5 combiner; 31 groups after the
         # first one; M + 6 of the vertices.
         self.assertEqual(r["latency"]["min"], 3 + 5 + 22 + 1 + 3 + 7 + 5 + 31 + 7)
 
     def test_traffic_of_rows(self):
-        """A row of 64 pixels is four lines; the lines of depth of a vertical line are a row each."""
+        """A row of 64 pixels is four lines; a vertical line needs one line of depth per row."""
         work = self.square("--layout", "raster")["work"]
         # Rows 16, 17, 48, 49, columns 16..49: lines 1..3; the other rows 18..47: lines 1 and 3.
         self.assertEqual(work["lines_read_depth"], 4 * 3 + 30 * 2)
@@ -111,22 +111,22 @@ f 1 2 3\nf 1 3 4\n"""
 
 
 class Coverage(unittest.TestCase):
-    def test_every_bin(self):
+    def test_every_bin_is_declared_and_reached(self):
         bins, work = covered("geometric", *SIZE)
         self.assertEqual(set(bins), declared("geometric"))
         self.assertEqual(total(bins, "geometric/line"), work["line_setup_lines"])
         self.assertEqual(bins["geometric/look-up/depth/miss"], work["lines_read_depth"])
         self.assertGreater(work["line_setup_lines"], 0)
 
-    # A run that ends with an error leaves what it met until then.
-    def test_an_error_is_met(self):
+    # A run that ends with an error keeps the coverage up to that point.
+    def test_error_is_covered(self):
         bins, _ = covered("geometric", *SIZE, "--set", "memory.error_address=0", code=3)
         self.assertGreater(bins["geometric/error/faces"], 0)
         self.assertEqual(total(bins, "geometric/error"), bins["geometric/error/faces"])
 
 
 class Maps(observers_test.MapSums):
-    def test_counters(self):
+    def test_maps_match_counters(self):
         for more in ((), ("--layout", "raster")):
             with self.subTest(more), tempfile.TemporaryDirectory() as out:
                 observers_test.run(out, *observers_test.ENGINES["geometric"], *more, "--maps")

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Pictures of how-tos are, pixel by pixel, what the program leaves after the command of the page: parts of its pictures
-side by side, enlarged.
+"""Pictures of how-tos equal, pixel by pixel, the output of the command on the page: parts of its pictures side by
+side, enlarged.
 
-usage: guide_pictures_test.py DEBURR ROOT [--write]     --write makes them anew"""
+usage: guide_pictures_test.py DEBURR ROOT [--write]     --write updates them"""
 import dataclasses
 import pathlib
 import re
@@ -14,12 +14,12 @@ import sys
 import tempfile
 import zlib
 
-GAP = 6  # pixels between pictures, white
+GAP = 6  # white pixels between pictures
 
 
 @dataclasses.dataclass
 class Picture:
-    page: str  # of docs/howto/, whose first command that begins so and has --out leaves the pictures
+    page: str  # page of docs/howto/; its first command with this prefix and --out makes the pictures
     command: str
     files: tuple
     part: tuple  # left, top, width, height
@@ -102,7 +102,7 @@ def main():
             continue
         kept = read_png(file)
         differ = len(kept) != len(now) or sum(a != b for old, new in zip(kept, now) for a, b in zip(old, new))
-        # The comparison finds a pixel that is another.
+        # The comparison finds a changed pixel.
         injected = [list(row) for row in now]
         injected[len(now) // 2][3] = (1, 2, 3)
         if differ or injected == kept:

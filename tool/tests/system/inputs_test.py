@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a run reads is what its keys and its manifest say: a file that another file names counts as
-much as one that a parameter names. After a texture, a material file or a buffer that was replaced,
-sweeps, searches and regressions repeat their points, and compare with the reference of the new one; a
-tracer holds the files that the command opens against those that it lists.
+"""The files that a run reads are in its keys and its manifest: a file named by another file counts like one named by
+a parameter. After a texture, a material file or a buffer is replaced, sweeps, searches and regressions repeat
+their points, and use the reference of the new file. A tracer compares the files that the command opens with those
+it lists.
 
-usage: inputs_test.py DEBURR [CLASS]
-"""
+usage: inputs_test.py DEBURR [CLASS]"""
 import base64
 import glob
 import json
@@ -25,7 +24,7 @@ import zlib
 
 
 def png(shade, width=16, height=16):
-    """Stripes of 4 pixels, whose light ones have this shade."""
+    """Stripes of 4 pixels; the light ones have this shade."""
     rows = b"".join(b"\0" + b"".join(bytes(3 * [shade if (x // 4 + y // 4) % 2 else 20])
                                      for x in range(width)) for y in range(height))
 
@@ -77,7 +76,7 @@ class InputsTest(unittest.TestCase):
             file.write(content if isinstance(content, bytes) else content.encode())
 
     def write_obj(self):
-        """A mesh in a folder of its own, with materials and a texture in another one."""
+        """A mesh in its own folder, with materials and a texture in another one."""
         self.write("meshes/m.obj", "mtllib none.mtl m.mtl\n" + SQUARE)
         self.write("meshes/m.mtl", "newmtl wood\nKd 1 1 1\nmap_Kd ../pictures/wood grain.png\n")
         self.write("pictures/wood grain.png", png(90))
@@ -98,7 +97,7 @@ class InputsTest(unittest.TestCase):
             return json.load(file)
 
 
-# What runs of each engine have, and an axis that changes no picture.
+# Options for runs of each engine, and an axis that changes no picture.
 ENGINES = trials("inputs")
 
 
@@ -118,7 +117,7 @@ class Replaced(InputsTest):
         self.assertIn(f"({ran} in this run)", self.deburr("sweep", "s.yaml", "run", "-j2"))
 
     def figures(self):
-        """Of all points of the sweep by name, without what the host took."""
+        """Results of all points of the sweep by name, without figures of the host."""
         self.deburr("sweep", "s.yaml", "collect")
         results = {}
         for point in self.load("out/sweeps/s/collected.json")["points"]:
@@ -129,7 +128,7 @@ class Replaced(InputsTest):
         return results
 
     def check_against_fresh_runs(self):
-        """Each point is what its command gives alone, which shares nothing; returns their quality."""
+        """Each point equals a separate run of its command, which shares nothing; returns their quality."""
         quality = []
         for result, manifest in self.figures().values():
             command = manifest["command"].replace("deburr", f"'{DEBURR}'", 1) + " --out alone"
@@ -145,7 +144,7 @@ class Replaced(InputsTest):
         return quality
 
     def check_replaced(self, engine, mesh, file, content):
-        """A file that the mesh names becomes another one, and then what it was."""
+        """A file that the mesh names is replaced, and then restored."""
         self.write_sweep(engine, mesh, 2)
         self.run_sweep(2)
         self.run_sweep(0)
@@ -168,21 +167,21 @@ class Replaced(InputsTest):
         self.assertEqual(self.figures(), before)
         self.assertEqual(self.load("out/sweeps/s/collected.json")["inputs"], inputs)
 
-    # Of each kind of file an engine: that all of them list these, Traced holds.
-    def test_textures_of_an_obj(self):
+    # One engine per kind of file: class Traced checks that all engines list these.
+    def test_replaced_texture_of_obj_repeats_points(self):
         self.write_obj()
         self.check_replaced(list(ENGINES)[len(ENGINES) // 2], "meshes/m.obj", "pictures/wood grain.png", png(220))
 
-    def test_textures_of_a_gltf(self):
+    def test_replaced_texture_of_gltf_repeats_points(self):
         self.write_gltf()
         self.check_replaced(list(ENGINES)[0], "meshes/m.gltf", "pictures/wood grain.png", png(220))
 
-    def test_buffers_of_a_gltf(self):
+    def test_replaced_buffer_of_gltf_repeats_points(self):
         self.write_gltf()
         self.check_replaced(list(ENGINES)[-1], "meshes/m.gltf", "meshes/b.bin", buffer_of(2))
 
-    def test_materials_that_come_later(self):
-        """The first of two names is not there, and then it is."""
+    def test_materials_that_appear_later_repeat_points(self):
+        """The first of two named files is missing, and then appears."""
         self.write_obj()
         self.write_sweep("texture", "meshes/m.obj", 2)
         self.run_sweep(2)
@@ -197,7 +196,7 @@ class Replaced(InputsTest):
         os.remove(self.path("meshes/none.mtl"))
         self.run_sweep(0)
 
-    def test_a_missing_texture_fails_its_points_until_it_is_there(self):
+    def test_missing_texture_fails_points_until_it_exists(self):
         self.write_obj()
         os.remove(self.path("pictures/wood grain.png"))
         self.write_sweep("texture", "meshes/m.obj", 2)
@@ -206,7 +205,7 @@ class Replaced(InputsTest):
         self.run_sweep(2)
         self.check_against_fresh_runs()
 
-    def test_a_link_that_points_elsewhere(self):
+    def test_redirected_link_repeats_points(self):
         self.write_obj()
         self.write("pictures/other.png", png(220))
         os.rename(self.path("pictures/wood grain.png"), self.path("pictures/old.png"))
@@ -218,13 +217,13 @@ class Replaced(InputsTest):
         self.run_sweep(2)
         self.check_against_fresh_runs()
 
-    def test_a_file_that_a_scene_is_called_by_is_no_input(self):
+    def test_file_named_like_a_scene_is_no_input(self):
         self.write("tunnel", "not the scene")
         self.write("brick", "not the texture")
         self.deburr("run", "texture", "--scene", "tunnel", "--texture", "brick", "--size", "16x16")
         self.assertEqual(self.load("out/texture/manifest.json")["inputs"], [])
 
-    def test_searches(self):
+    def test_search_repeats_points(self):
         self.write_obj()
         axis, values = (ENGINES["texture"][key] for key in ("axis", "values"))
         self.write("s.yaml", self.base("texture", "meshes/m.obj")
@@ -248,7 +247,7 @@ class Replaced(InputsTest):
         self.run_sweep(0)
         self.check_against_fresh_runs()
 
-    def test_regressions(self):
+    def test_regression_repeats_runs(self):
         self.write_obj()
         self.write("docs/p.md", "# Stalls\n")
         base = self.base("frame", "meshes/m.obj").split("\n")[1]
@@ -280,8 +279,8 @@ class Replaced(InputsTest):
                           "meshes/none.mtl": None, "meshes/m.mtl": None,
                           "meshes/../pictures/wood grain.png": None})
 
-    def test_comparisons(self):
-        """What differs is named, of runs and of sweeps, and nothing else is."""
+    def test_comparison_names_different_inputs(self):
+        """Only inputs that differ are named, for runs and for sweeps."""
         self.write_obj()
         self.write_sweep("texture", "meshes/m.obj", 2)
 
@@ -307,7 +306,7 @@ class Replaced(InputsTest):
                 self.assertIn("(B is C here)", warning[0])
                 self.assertNotIn("m.obj", warning[0])
 
-    def test_a_configuration_is_listed_and_changes_no_key(self):
+    def test_configuration_is_listed_and_changes_no_key(self):
         self.write("one.yaml", "scene: {width: 16, height: 16}\n")
         self.write("two.yaml", "# as the other\nscene: {width: 16, height: 16}\n")
         for name in ("one", "two"):
@@ -318,15 +317,15 @@ class Replaced(InputsTest):
         self.assertEqual(one["golden"], two["golden"])
         self.assertNotIn("warning", self.deburr("compare", "one", "two"))
 
-    def test_a_mesh_that_names_a_file_of_the_results(self):
+    def test_rejects_mesh_that_names_a_result_file(self):
         """It would be another mesh in the next run."""
         self.write_obj()
         self.write("meshes/m.mtl", "newmtl wood\nmap_Kd ../out/texture/after.png\n")
         self.write("out/texture/after.png", png(90))
         self.deburr("run", "texture", "--in", "meshes/m.obj", "--size", "16x16", code=2)
 
-    def test_pipes_and_folders_are_rejected_at_once(self):
-        """A pipe would be waited for, and read once."""
+    def test_rejects_pipes_and_folders_at_once(self):
+        """A pipe would block, and can be read only once."""
         self.write_obj()
         os.remove(self.path("meshes/m.mtl"))
         for make in (os.mkfifo, os.mkdir):
@@ -340,8 +339,8 @@ class Replaced(InputsTest):
         os.mkfifo(self.path("meshes/b.bin"))
         self.assertIn("'meshes/b.bin'", self.deburr("run", "texture", "--in", "meshes/m.gltf", code=5))
 
-    def test_standard_input(self):
-        """A file that is redirected is one; a pipe is none."""
+    def test_standard_input_may_be_a_file(self):
+        """Redirected input is a file; a pipe is not."""
         self.write("f.png", png(90))
         command = [DEBURR, "run", "morphological", "--in", "/dev/stdin", "--no-images"]
         with open(self.path("f.png")) as file:
@@ -363,7 +362,7 @@ RESUMED = re.compile(r"^(?P<process>\d+) <\.\.\. \w+ resumed>(?P<rest>.*)$")
 
 
 def whole_calls(log):
-    """The calls of a trace, a line each: strace cuts one in two where another process comes between."""
+    """The calls of a trace, one per line: strace splits a call if another process interrupts it."""
     begun = {}
     for line in log:
         line = line.strip()
@@ -376,8 +375,8 @@ def whole_calls(log):
 
 
 def differences(listed, opened, once=()):
-    """What is wrong with these names of files, where a file is opened to be read and to be listed; once where what
-    was read is what is listed."""
+    """Differences between listed and opened files. A file is opened once to read it and once to list it; files in
+    `once` are listed from what was read."""
     wrong = [f"opened and not listed: {path}" for path in sorted(set(opened) - set(listed))]
     return wrong + [f"listed and not read: {path}" for path in sorted(set(listed))
                     if opened.count(path) < (1 if path in once else 2)]
@@ -398,7 +397,7 @@ class Traced(InputsTest):
             self.skipTest(f"no tracing here: {tried.stderr.strip()}")
 
     def opened(self, *arguments):
-        """The files of this folder, but for those of out/, that the command opens, as often as it does."""
+        """The files of this folder, without those of out/, that the command opens, once per open call."""
         self.deburr(*arguments, tracer=self.tracer)
         paths = []
         with open(self.log) as log:
@@ -410,7 +409,7 @@ class Traced(InputsTest):
         return [path for path in own if not path.startswith(self.path("out/"))]
 
     def listed(self, inputs):
-        """Those that are there, by where they really are."""
+        """Existing files, by their real paths."""
         for entry in inputs:
             self.assertEqual("sha256" in entry, os.path.isfile(self.path(entry["file"])), entry)
         return [os.path.realpath(self.path(entry["file"])) for entry in inputs if "sha256" in entry]
@@ -420,7 +419,7 @@ class Traced(InputsTest):
         once = self.listed([entry for entry in inputs if entry.get("role") == "configuration"])
         self.assertEqual(differences(listed, opened, once), [])
         self.assertGreaterEqual(len(listed), least)
-        # Faults that it finds: a file that nobody lists, and one that nobody reads.
+        # Faults that it finds: a file that is read but not listed, and one that is listed but not read.
         for missing in range(len(listed)):
             cut = listed[:missing] + listed[missing + 1:]
             self.assertEqual(differences(cut, opened, once), [f"opened and not listed: {listed[missing]}"])
@@ -430,14 +429,14 @@ class Traced(InputsTest):
         opened = self.opened("run", engine, *arguments, "--out", "out/run")
         self.check(self.load("out/run/manifest.json")["inputs"], opened, least)
 
-    def test_calls_that_are_cut_in_two(self):
+    def test_split_calls_are_joined(self):
         cut = ['7 openat(AT_FDCWD</w>, "a", O_RDONLY <unfinished ...>', '8 open("b", O_RDONLY) = 3</w/b>',
                "7 <... openat resumed>) = 4</w/a>", '9 open("c", O_RDONLY <unfinished ...>',
-               "9 <... open resumed>)             = 5</w/c>"]  # strace aligns what stands after short calls
+               "9 <... open resumed>)             = 5</w/c>"]  # strace aligns the text after short calls
         self.assertEqual([OPENED.search(call)["path"] for call in whole_calls(cut)],
                          ["/w/b", "/w/a", "/w/c"])
 
-    def test_meshes_of_every_engine(self):
+    def test_lists_meshes_of_every_engine(self):
         self.write_obj()
         self.write_gltf()
         os.symlink("m.mtl", self.path("meshes/link.mtl"))
@@ -449,7 +448,7 @@ class Traced(InputsTest):
                 with self.subTest(f"{engine} {mesh}"):
                     self.check_run(engine, "--in", f"meshes/{mesh}", "--size", "16x16", least=least)
 
-    def test_textures_and_configurations(self):
+    def test_lists_textures_and_configurations(self):
         self.write_obj()
         self.write("t.png", png(220))
         self.write("c.yaml", "run.seed: 3\n")
@@ -459,25 +458,25 @@ class Traced(InputsTest):
                     self.check_run(engine, scene, "--size", "16x16", "--texture", "t.png", "--truth",
                                    "--config", "c.yaml", least=1)
 
-    def test_fragments(self):
+    def test_lists_fragments(self):
         self.write_obj()
         self.deburr("run", "texture", "--in", "meshes/m.obj", "--size", "16x16", "--fragment-trace",
                     "text", "--out", "out/traced")
         shutil.copy(self.path("out/traced/fragments.trace"), self.path("f.trace"))
         self.check_run("texture", "--in", "meshes/m.obj", "--fragments", "f.trace", least=4)
 
-    def test_frames(self):
+    def test_lists_frames(self):
         for name, shade in (("f", 90), ("t", 100), ("d", 30), ("m", 200)):
             self.write(f"frames/{name}.png", png(shade))
         files = [word for name, option in (("f", "--in"), ("t", "--truth"), ("d", "--depth"), ("m", "--mask"))
                  for word in (option, f"frames/{name}.png")]
         self.check_run("morphological", *files, "--set", "morphological.edges.source=depth", least=4)
 
-    def test_sequences(self):
+    def test_lists_sequences(self):
         self.write_obj()
         self.check_run("texture", "--in", "meshes/m.obj", "--size", "16x16", "--frames", "2", least=3)
 
-    def test_a_file_is_looked_into_once_however_many_points_there_are(self):
+    def test_file_is_read_once_for_all_points(self):
         self.write_obj()
         self.write_gltf()
         times = []
@@ -504,7 +503,7 @@ class Traced(InputsTest):
                      for entry in self.load(path)["inputs"]]
         self.assertEqual(set(of_points), {entry["file"] for entry in inputs if "role" not in entry})
 
-    def test_points(self):
+    def test_points_list_their_files(self):
         self.write_obj()
         self.write_gltf()
         base = "{scene: {width: 16, height: 16}, run.reference: true, run.images: false}"

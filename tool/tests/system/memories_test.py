@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What runs say of the memories that the hardware is built from: no default and no preset of any engine has one
-that no technology offers, the totals are the sums, and the texture unit's page names what there is.
+"""Memories that runs report for the hardware: every default and preset of every engine uses implementable memories,
+totals are sums, and the texture unit's page names the memories.
 
 usage: memories_test.py DEBURR DOCS"""
 import itertools
@@ -33,7 +33,7 @@ class Memories(unittest.TestCase):
             with open(os.path.join(out, "result.json")) as file:
                 return done.stdout + done.stderr, json.load(file)
 
-    def test_no_default_and_no_preset_is_idealised(self):
+    def test_defaults_and_presets_are_implementable(self):
         for arguments in runs():
             with self.subTest(arguments):
                 said, result = self.result(*arguments)
@@ -67,7 +67,7 @@ class Memories(unittest.TestCase):
                 self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
         self.assertGreater(min(with_memories, with_registers, with_links), 0)
 
-    def test_the_page_of_the_texture_unit_names_what_there_is(self):
+    def test_texture_page_names_its_memories(self):
         with open(os.path.join(DOCS, "reference/texture/hardware.md"), encoding="utf-8") as file:
             table = file.read().split("\n## Memories\n")[1].split("\n## ")[0]
         page = {}

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a run leaves of its time and of its picture: intervals that add up to the result, a timeline that obeys the
-rules of the Trace Event format and says the same as the intervals, maps that come to the counters.
+"""Recordings of a run over time and over the picture: intervals that add up to the result, a timeline that obeys the
+rules of the Trace Event format and matches the intervals, maps that add up to the counters.
 
 usage: observers_test.py DEBURR [CLASS]"""
 import array
@@ -18,7 +18,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from engine_list import trials  # noqa: E402
 
 DEBURR = "deburr"
-# By name: an engine, and with what options it is run.
+# By name: an engine, and the options for its run.
 ENGINES = {name: (engine, *options)
            for engine, watched in trials("watched").items() for name, options in watched.items()}
 
@@ -53,9 +53,9 @@ def at(node, key):
 
 class Intervals(unittest.TestCase):
     def check(self, intervals, result):
-        """Every sum over windows is what the result has."""
+        """Every sum over intervals equals the result."""
         series = dict(flat(intervals["series"]))
-        self.assertGreater(len(series), 10)  # an engine of one unit has as many
+        self.assertGreater(len(series), 10)  # an engine with one unit has as many
         for key, values in series.items():
             self.assertEqual(len(values), len(intervals["cycles"]), key)
             if not key.startswith("ports.") and not key.endswith(".most"):
@@ -66,7 +66,7 @@ class Intervals(unittest.TestCase):
         for end, begin in zip(map(sum, zip(intervals["from"], intervals["cycles"])), intervals["from"][1:]):
             self.assertEqual(end, begin)
 
-    def test_every_engine_adds_up(self):
+    def test_intervals_of_every_engine_add_up(self):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 run(out, *arguments, "--windows", "300", "--stalls", "0.1")
@@ -82,7 +82,7 @@ class Intervals(unittest.TestCase):
                     self.assertGreater(sum(at(intervals["series"], rate["key"])), 0)
                     if rate["bound"]:
                         for count, cycles in zip(at(intervals["series"], rate["key"]), intervals["cycles"]):
-                            # What a FIFO held back may come in the window behind.
+                            # A beat held in a FIFO may arrive in the next interval.
                             self.assertLessEqual(count, (cycles + 1) * rate["bound"] * 1.001)
 
     def test_links_have_histograms(self):
@@ -99,7 +99,7 @@ class Intervals(unittest.TestCase):
                     self.assertAlmostEqual(link["mean"], link["occupancy"] / result["cycles"])
                     self.assertAlmostEqual(link["full_percent"], 100 * link["histogram"][-1] / result["cycles"])
 
-    def test_they_change_nothing_and_are_off_by_default(self):
+    def test_intervals_change_nothing_and_are_off_by_default(self):
         with tempfile.TemporaryDirectory() as out:
             plain, watched = os.path.join(out, "plain"), os.path.join(out, "watched")
             run(plain, *ENGINES["texture"])
@@ -111,12 +111,12 @@ class Intervals(unittest.TestCase):
             for key in ("cycles", "units", "work", "latency", "memory", "verdict"):
                 self.assertEqual(before[key], after[key], key)
             self.assertNotIn("links", before)
-            # The next run takes away what it does not make.
+            # The next run removes files that it does not write.
             run(watched, *ENGINES["texture"])
             for name in ("intervals.json", "timeline.json", "map_samples.png", "map_samples.pfm"):
                 self.assertFalse(os.path.exists(os.path.join(watched, name)), name)
 
-    def test_a_long_run_has_no_more_windows_than_fit(self):
+    def test_long_run_limits_the_number_of_intervals(self):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--windows", "1", "--check", "none")
             intervals, result = load(out, "intervals.json"), load(out)
@@ -125,7 +125,7 @@ class Intervals(unittest.TestCase):
             self.assertEqual(intervals["interval_cycles"] & intervals["interval_cycles"] - 1, 0)
             self.check(intervals, result)
 
-    def test_a_lost_window_is_noticed(self):
+    def test_lost_interval_is_detected(self):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 said = run(out, *arguments, "--windows", "300", "--fault", "lose-window", code=3)
@@ -144,7 +144,7 @@ KEYS = {"X": {"name", "cat", "ts", "dur"}, "b": {"name", "cat", "id", "ts"}, "e"
 
 
 def problems(trace):
-    """What breaks the rules of the format."""
+    """Violations of the rules of the format."""
     if not isinstance(trace, dict) or not isinstance(trace.get("traceEvents"), list):
         return ["no list of traceEvents"]
     found, last, busy, open_events, named, seen, counted = [], 0, {}, {}, set(), set(), {}
@@ -203,7 +203,7 @@ class Timeline(unittest.TestCase):
             str(self.FROM), "--timeline-to", str(self.TO))
         return load(out, "timeline.json"), load(out, "intervals.json")
 
-    def test_obeys_the_rules_and_says_what_windows_say(self):
+    def test_timeline_obeys_rules_and_matches_intervals(self):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 trace, intervals = self.trace(out, *arguments)
@@ -240,7 +240,7 @@ class Timeline(unittest.TestCase):
                 self.check_levels(events, intervals["series"], inside, load(out)["links"])
 
     def check_levels(self, events, series, inside, links):
-        """A counter of each FIFO and of each port, whose area is what the windows say."""
+        """A counter per FIFO and port, whose area matches the intervals."""
         areas, at = {}, {}
         for event in [e for e in events if e["ph"] == "C"] + [None]:
             for name, (since, value) in at.items() if event is None else [(event["name"], at.get(event["name"], (0, 0)))]:
@@ -253,7 +253,7 @@ class Timeline(unittest.TestCase):
         self.assertTrue(links)
         self.assertEqual(areas, {name: sum(values[i] for i in inside) for name, values in expected.items()})
 
-    def test_the_checker_finds_what_is_wrong(self):
+    def test_checker_finds_violations(self):
         with tempfile.TemporaryDirectory() as out:
             good, _ = self.trace(out, *ENGINES["texture"])
         self.assertEqual(problems(good), [])
@@ -295,7 +295,7 @@ class Timeline(unittest.TestCase):
                 fault(bad)
                 self.assertTrue(problems(bad))
 
-    def test_rejects_windows_that_hold_nothing_or_too_much(self):
+    def test_rejects_empty_and_too_long_timelines(self):
         with tempfile.TemporaryDirectory() as out:
             for arguments, says in ((("--timeline", "--timeline-from", "9", "--timeline-to", "9"), "leave no cycle"),
                                     (("--timeline", "--timeline-to", "100001"), "at most 100000"),
@@ -320,7 +320,7 @@ def values(out, name):
 
 class MapSums(unittest.TestCase):
     def sums(self, out):
-        """By map: sum of its values, and pixels above zero."""
+        """By map: sum of its values, and number of pixels above zero."""
         result = load(out)
         found = {}
         for name, figures in result["maps"].items():
@@ -336,7 +336,7 @@ class MapSums(unittest.TestCase):
 
 
 class Maps(MapSums):
-    def test_texture(self):
+    def test_texture_maps_match_counters(self):
         with tempfile.TemporaryDirectory() as out:
             run(out, *ENGINES["texture"], "--maps")
             maps, work = self.sums(out)
@@ -349,7 +349,7 @@ class Maps(MapSums):
             fractions = sum(v % 1 != 0 for v in values(out, "level")[2] if not math.isnan(v))
             self.assertEqual(fractions, work["level_unit_two_levels"])
 
-    def test_morphological(self):
+    def test_morphological_maps_match_counters(self):
         for more in ((), ("--lanes", "4"), ("--preset", "mlaa")):
             with self.subTest(more), tempfile.TemporaryDirectory() as out:
                 run(out, *ENGINES["morphological"], *more, "--maps")

@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The history of a pixel (deburr run ENGINE --pixel X,Y): of every engine whose trials.yaml has `followed`.
+"""The history of a pixel (deburr run ENGINE --pixel X,Y), for every engine whose trials.yaml has `followed`.
 
-usage: pixel_history_test.py DEBURR
-"""
+usage: pixel_history_test.py DEBURR"""
 import json
 import os
 import re
@@ -43,7 +42,7 @@ class PixelHistory(unittest.TestCase):
             with self.subTest(engine=engine):
                 yield engine, entry["run"], "{},{}".format(*entry["pixel"]), entry
 
-    def test_both_sides_of_every_step(self):
+    def test_every_step_has_both_sides(self):
         for engine, run, pixel, entry in self.followed():
             result = self.run_engine(engine, *run, "--no-images", "--pixel", pixel)
             history = result["pixel"]
@@ -65,7 +64,7 @@ class PixelHistory(unittest.TestCase):
             waves = re.search(r'id="pixel-waves">(.*?)</pre>', self.page).group(1)
             self.assertIn(f"--trace-from {min(cycles)} --trace-to {max(cycles) + 2}", waves)
 
-    def test_it_changes_nothing(self):
+    def test_history_changes_nothing(self):
         for engine, run, pixel, _ in self.followed():
             plain = self.run_engine(engine, *run, "--no-images")
             self.assertNotIn("pixel", plain)
@@ -74,15 +73,15 @@ class PixelHistory(unittest.TestCase):
             for key in ("cycles", "work", "units", "memory", "checks"):
                 self.assertEqual(plain[key], watched[key], key)
 
-    def test_without_golden_the_hardware_alone(self):
+    def test_without_golden_only_hardware_steps(self):
         for engine, run, pixel, entry in self.followed():
             steps = self.run_engine(engine, *run, "--no-images", "--check", "none", "--pixel", pixel)["pixel"]["steps"]
             seen = {step["step"] for step in steps if step["hardware"]}
             self.assertLessEqual(set(entry["steps"]), seen)
             self.assertFalse(any(step["differs"] for step in steps))
 
-    # The row of a mismatch leads to its pixel, and there the step that is wrong is marked.
-    def test_a_mismatch_leads_to_its_pixel(self):
+    # The row of a mismatch leads to its pixel, where the wrong step is marked.
+    def test_mismatch_leads_to_its_pixel(self):
         for engine, run, _, entry in self.followed():
             fault = ["--fault", entry["fault"]]
             result = self.run_engine(engine, *run, *fault, code=1)
@@ -96,9 +95,9 @@ class PixelHistory(unittest.TestCase):
             self.assertIn('<tr class="differs">', self.page)
             self.assertIn('<a href="#pixel">below</a>', self.page)
 
-    # What one side lacks is marked as well. Records after one that was added are compared with their neighbours, so
-    # the first mismatch names both pixels: the one that was expected, and the one that came.
-    def test_what_is_lost_or_added_differs(self):
+    # Steps missing on one side are marked as well. After an added record, records are compared with their neighbours,
+    # so the first mismatch names both pixels: the expected one and the actual one.
+    def test_lost_and_added_records_differ(self):
         for engine, run, _, entry in self.followed():
             for fault in entry["lost_or_added"]:
                 with self.subTest(fault=fault):
@@ -112,7 +111,7 @@ class PixelHistory(unittest.TestCase):
                     self.assertTrue([step for step in steps
                                      if step["differs"] and not (step["golden"] and step["hardware"])], steps)
 
-    def test_a_pixel_outside(self):
+    def test_pixel_outside_the_frame(self):
         for engine, run, _, _ in self.followed():
             for given, says in (("100000,3", ["run.pixel = 100000,3 is outside of the picture of", "a column of 0.."]),
                                 ("12", ["run.pixel: expected X,Y", "got '12'"])):
@@ -121,8 +120,8 @@ class PixelHistory(unittest.TestCase):
                     for word in says:
                         self.assertIn(word, self.said)
 
-    # Those that the program takes --pixel of are those that the tests above follow.
-    def test_who_keeps_one_is_followed(self):
+    # The program accepts --pixel for exactly the engines that these tests follow.
+    def test_engines_with_history_are_tested(self):
         kept = set()
         for engine in engines():
             done = subprocess.run([DEBURR, "run", engine, "--size", "32x32", "--pixel", "3,4", "--show-config"], text=True,
@@ -134,7 +133,7 @@ class PixelHistory(unittest.TestCase):
         self.assertTrue(kept)
         self.assertEqual(kept, {*trials("followed"), *trials("followed_in_parts")})
 
-    def test_who_keeps_none_says_so(self):
+    def test_engines_without_history_say_so(self):
         for engine in set(engines()) - set(trials("followed")):
             with self.subTest(engine=engine):
                 of_parts = trials("followed_in_parts").get(engine, False)
@@ -144,8 +143,8 @@ class PixelHistory(unittest.TestCase):
                 else:
                     self.assertIn(f"the engine {engine} keeps no history of a pixel", self.said)
 
-    # Each part's steps, and a fault in one of them leaves the others as they are.
-    def test_parts(self):
+    # Steps of each part; a fault in one part leaves the others unchanged.
+    def test_parts_are_independent(self):
         for engine, entry in trials("followed_in_parts").items():
             run, pixel = [engine, *entry["run"]], "{},{}".format(*entry["pixel"])
             history = self.run_engine(*run, "--no-images", "--pixel", pixel)["pixel"]
@@ -159,8 +158,8 @@ class PixelHistory(unittest.TestCase):
             history = self.run_engine(*run, *fault, "--pixel", wrong, code=1)["pixel"]
             self.assertEqual({step["part"] for step in history["steps"] if step["differs"]}, {entry["fault"].split(".")[0]})
 
-    # The look-ups are those of another instrument.
-    def test_look_ups_are_those_of_the_trace(self):
+    # The lookups come from another instrument.
+    def test_lookups_match_the_trace(self):
         steps = self.run_engine("texture", "--size", "32x32", "--no-images", "--pixel", "9,20", "--line-trace", "text",
                                 "--set", "run.line_trace_lookups=true")["pixel"]["steps"]
         with open(os.path.join(self.out, "lines.trace"), encoding="utf-8") as file:
@@ -171,8 +170,8 @@ class PixelHistory(unittest.TestCase):
             address, outcome = step["hardware"].split()
             self.assertIn((str(step["clock"]), outcome, f"{int(address, 16):#010x}"), trace)
 
-    # Why a history is not whole, or has no weights.
-    def test_notes(self):
+    # Reasons for an incomplete history, or one without weights.
+    def test_notes_give_reasons(self):
         for engine, run, _, entry in self.followed():
             for note in entry["notes"]:
                 with self.subTest(engine=engine, note=note["says"]):
@@ -182,8 +181,8 @@ class PixelHistory(unittest.TestCase):
                     self.assertTrue(history["note"].startswith(note["says"]), history["note"])
                     self.assertEqual(history["differences"], 0)
 
-    # All of a pixel's fragments, the hidden ones too; none where there is none.
-    def test_fragments(self):
+    # All fragments of a pixel, including hidden ones; none if there is none.
+    def test_lists_all_fragments(self):
         run = ["--scene", "object", "--size", "64x64", "--no-images", "--set", "scene.visibility=overdraw"]
         parts = set()
         for pixel in ("32,32", "30,20", "36,40"):

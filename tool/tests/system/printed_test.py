@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What README, tutorial and how-tos print below a command of theirs is what the command prints today. A line that ends with
-... may go on, a line of ... alone stands for others. Sweeps run where the page prints their file.
+"""The output that README, tutorial and how-tos show below a command is the command's current output. A line that ends
+with ... may continue, a line with only ... stands for several lines. Sweeps run where the page prints their file.
 
 usage: printed_test.py DEBURR ROOT [unittest options]"""
 import os
@@ -25,7 +25,7 @@ FILE = re.compile(r"`(\w+\.(?:yaml|obj))`")
 
 
 def parts_of(text):
-    """("file", name, text) and ("run", commands, lines that are printed), in order."""
+    """("file", name, text) and ("run", commands, printed lines), in order."""
     commands, end = [], 0
     for block in BLOCK.finditer(text):
         before, (language, inside), end = text[end:block.start()], block.groups(), block.end()
@@ -48,7 +48,7 @@ def parts_of(text):
 
 
 def not_printed(lines, said):
-    """The lines of a page that no line of a program begins with, or is."""
+    """Lines of a page that match no line of the output, or its beginning."""
     squeezed = [" ".join(line.split()) for line in said.splitlines()]
     for line in lines:
         wanted = " ".join(line.split())
@@ -77,7 +77,7 @@ class Printed(unittest.TestCase):
                               capture_output=True, timeout=600, check=False)
         return done.stdout + done.stderr
 
-    def test_pages(self):
+    def test_pages_show_current_output(self):
         for page, least in PAGES.items():
             held = 0
             for kind, what, lines in parts_of((ROOT / f"docs/{page}.md").read_text(encoding="utf-8")):
@@ -86,7 +86,7 @@ class Printed(unittest.TestCase):
                     continue
                 files = re.findall(r"deburr sweep (\S+)", " ".join(what))
                 if not all((self.folder / file).exists() for file in files):
-                    continue  # the first sweep, which has a test of its own
+                    continue  # the first sweep, which has its own test
                 said = "".join(self.call(command) for command in what)
                 with self.subTest(page=page, commands=what):
                     self.assertEqual(list(not_printed(lines, said)), [], said)
@@ -94,7 +94,7 @@ class Printed(unittest.TestCase):
             with self.subTest(page=page):
                 self.assertGreaterEqual(held, least)
 
-    def test_lines_that_nothing_prints_are_found(self):
+    def test_wrong_lines_are_found(self):
         said = "rate   7 of 8\nRESULT: PASS\n"
         self.assertEqual(list(not_printed(["rate 7 ...", "...", "RESULT: PASS"], said)), [])
         self.assertEqual(list(not_printed(["rate 6 ...", "RESULT: PAS", "7 ..."], said)),

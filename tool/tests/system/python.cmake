@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The Python module of this build, where there is one (python/CMakeLists.txt).
+# The Python module of this build, if there is one (python/CMakeLists.txt).
 if(TARGET deburr_python)
   add_dependencies(deburr_system_tests deburr_python)
   set(modules "${PROJECT_BINARY_DIR}/python")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Golden models and what is ideal through the Python module: the contract's vectors as its pages have them, the
-picture of examples/c, bad calls, threads, and what a user is told.
+"""Golden models and ideal filters through the Python module: the contract's test vectors from its pages, the picture
+of examples/c, bad calls, threads, and documentation.
 
 usage: python_golden_test.py MODULES DOCS [CLASS]"""
 import ctypes
@@ -95,9 +95,9 @@ def settings(cell):
 
 
 class Vectors(unittest.TestCase):
-    """The tables of the contract: what C++ computes is what comes through Python."""
+    """The contract's tables: results through Python equal those of C++."""
 
-    def test_morphological(self):
+    def test_morphological_vectors(self):
         rows = table("reference/morphological/vectors.md", ["vector", "image", "preset"])
         self.assertGreater(len(rows), 35)
         columns = {"edges": "edge_pixels", "long": "long_runs", "z": "z_runs", "extended": "extended_runs",
@@ -114,8 +114,8 @@ class Vectors(unittest.TestCase):
                     self.assertEqual(frame.work.horizontal_runs + frame.work.vertical_runs, int(row["runs"]))
                     self.assertEqual(numpy.count_nonzero(frame.edges), frame.work.edge_pixels)
 
-    def test_what_is_between(self):
-        """Planes agree with each other, and with what is counted."""
+    def test_intermediate_planes_agree(self):
+        """Planes agree with each other, and with the counters."""
         frame = golden.morphological(vector_image("blocks"), preset="deburr-line", detail=True)
         self.assertEqual(frame.pixels.shape, (80, 90, 4))
         self.assertEqual(frame.probes.shape, (80, 90))
@@ -132,11 +132,11 @@ class Vectors(unittest.TestCase):
         self.assertEqual(int(runs["line"]["left_steps"].sum() + runs["line"]["right_steps"].sum()), frame.work.steps)
         self.assertEqual(sum(hits for name, hits in frame.coverage.items() if name.startswith("decision/")), 80 * 90)
         self.assertTrue((numpy.unique(frame.decisions) < 8).all())
-        # Edges of someone else, the engine's own, give the same frame.
+        # The engine's own edges, given as input, lead to the same frame.
         again = golden.morphological(vector_image("blocks"), edges=frame.edges, preset="deburr-line")
         self.assertTrue((again.pixels == frame.pixels).all())
 
-    def test_a_frame_with_gaps_and_without_alpha(self):
+    def test_frame_with_gaps_and_without_alpha(self):
         whole = vector_image("line")
         wide = numpy.full((150, 210, 4), 77, dtype=numpy.uint8)
         wide[:, 5:205] = whole
@@ -144,7 +144,7 @@ class Vectors(unittest.TestCase):
         for other in (wide[:, 5:205], whole[:, :, :3], numpy.asfortranarray(whole), whole[::-1][::-1]):
             self.assertTrue((golden.morphological(other, preset="mlaa").pixels == expected).all())
 
-    def test_memory(self):
+    def test_memory_lines(self):
         image = vector_image("line")
         plain = golden.morphological(image, storage="memory")
         self.assertGreater(plain.traffic.size, 0)
@@ -155,8 +155,8 @@ class Vectors(unittest.TestCase):
         self.assertFalse((failing.pixels == plain.pixels).all())
         self.assertEqual(golden.morphological(image).traffic.size, 0)
 
-    def test_depth(self):
-        """float32 and codes are one depth, which finds edges."""
+    def test_depth_formats_agree(self):
+        """float32 and codes are the same depth, which gives edges."""
         y, x = numpy.mgrid[0:40, 0:60]
         depth = numpy.where(2 * x + y > 60, numpy.float32(0.75), numpy.float32(0.125))
         codes = numpy.floor(depth.astype(numpy.float64) * 0xFFFFFF + 0.5).astype(numpy.uint32)
@@ -195,7 +195,7 @@ class Vectors(unittest.TestCase):
 
     @staticmethod
     def special_cases():
-        """The same page, "Special cases", but for bits that memory ignores and an array has not."""
+        """The same page, "Special cases", without bits that memory ignores and an array does not have."""
         random = (int(r) for r in random_numbers(2 * 61 * 45 + 600 + 50 + 2000))
         r = numpy.array([next(random) for _ in range(61 * 45)]).reshape(45, 61)
         pixels = numpy.stack([r >> 24, r >> 16 & 255, r >> 8 & 255, r & 255], axis=2).astype(numpy.uint8)
@@ -238,7 +238,7 @@ class Vectors(unittest.TestCase):
             edges[i] = (v0, v1, f0, 0xFFFFFF if flags & 1 else f1, flags | 0xF0)
         return pixels, depth, {"vertices": vertices, "edges": edges, "facing": facing}
 
-    def test_geometric(self):
+    def test_geometric_vectors(self):
         bases = {"edges": 0x10000, "vertices": 0x20000, "facing": 0x30000, "depth": 0x40000, "colour": 0x50000,
                  "weights": 0x60000, "copy": 0x70000}
         hashes = table("reference/geometric/vectors.md", ["", "preset", "beside it"])
@@ -314,19 +314,19 @@ class Texture(unittest.TestCase):
         s, t, covered = floor()
         self.quads = golden.quads_of(s, t, covered)
 
-    def test_the_picture_of_the_example_in_c(self):
+    def test_picture_of_the_c_example(self):
         colours = self.unit.filter(self.quads)
         picture = golden.image_of(self.quads, colours, (HEIGHT, WIDTH))
         picture[~floor()[2]] = (120, 170, 230, 255)
         smooth = golden.morphological(picture, preset="deburr")
         self.assertEqual(fnv(smooth.pixels.tobytes(), 14695981039346656037), PICTURE)
-        # The function is a unit of its own.
+        # The function has its own unit.
         again, unit = golden.texture(self.quads, golden.mip_levels(checkerboard()), fields=FIELDS, axes="eight")
         self.assertTrue((again == colours).all())
         self.assertEqual(unit.work.as_dict().keys(), self.unit.work.as_dict().keys())
         self.assertEqual(unit.work.fragments, numpy.count_nonzero(floor()[2]))
 
-    def test_work_fills_and_what_is_decided(self):
+    def test_work_fills_and_decisions(self):
         colours = self.unit.filter(self.quads)
         work, fills = self.unit.work, self.unit.fills
         self.assertEqual(work.fragments, colours.size)
@@ -338,7 +338,7 @@ class Texture(unittest.TestCase):
         covered = (self.quads["coverage"][:, None] >> numpy.arange(4) & 1).astype(bool)
         self.assertEqual(int(decided["lod"]["samples"][covered].sum()), work.samples)
         self.assertEqual(self.unit.work.fragments, work.fragments, "analyse() changes nothing")
-        # The cache goes on between calls, until it is emptied.
+        # The cache keeps its contents between calls, until it is emptied.
         self.unit.filter(self.quads)
         warm = self.unit.fills.size
         self.unit.invalidate()
@@ -373,7 +373,7 @@ class Texture(unittest.TestCase):
         self.assertTrue((self.unit.filter(quads)["rgba"] == 0).all())
         self.assertIsNotNone(self.unit.describe(5)["fault"])
 
-    def test_quads(self):
+    def test_quads_match(self):
         s = numpy.array([[0.5, 200], [-1, math.nan]])
         quads = golden.quads_of(s, numpy.zeros((2, 2)))
         self.assertEqual(quads["s"][0].tolist(), [1 << 23, (1 << 31) - 1, -(1 << 24), 0])
@@ -383,8 +383,8 @@ class Texture(unittest.TestCase):
 
 
 class Ideal(unittest.TestCase):
-    def test_filters(self):
-        """A slanted edge, whose reference is known: each filter comes nearer to it; what has no edge stays."""
+    def test_filters_approach_the_reference(self):
+        """A slanted edge with a known reference: each filter comes closer to it; a frame without edges is unchanged."""
         reference = ideal.half_plane(0.25, -1, 10.3, 96, 64)
         jagged = numpy.where(reference > 0.5, 255, 0)
         frame = opaque(jagged, jagged, jagged)
@@ -400,11 +400,11 @@ class Ideal(unittest.TestCase):
             self.assertTrue((one(flat) == flat).all())
         self.assertFalse((ideal.fxaa(frame, steps=12) == ideal.fxaa(frame, steps=39)).all())
 
-    def test_coverage(self):
+    def test_coverage_is_exact(self):
         self.assertAlmostEqual(float(ideal.disc(20, 20, 7.5, 40, 40).sum()), math.pi * 7.5 ** 2, places=6)
         self.assertAlmostEqual(float(ideal.half_plane(1, 0, -3.25, 8, 4).sum()), 4 * (8 - 3.25), places=9)
 
-    def test_smaa(self):
+    def test_smaa_weights(self):
         reference = ideal.half_plane(0.25, -1, 10.3, 96, 64)
         luma = numpy.where(reference > 0.5, 1.0, 0.0)
         edges = ideal.smaa_edges(luma)
@@ -414,8 +414,8 @@ class Ideal(unittest.TestCase):
         self.assertTrue((weights[(edges & 2) == 0][:, :2] == 0).all())
         self.assertGreater(numpy.count_nonzero(weights), 100)
 
-    def test_textures(self):
-        """The golden model is near to what it approximates, and an average of one colour is that colour."""
+    def test_textures_approach_the_ideal(self):
+        """The golden model is close to its ideal, and the average of one colour is that colour."""
         s, t, covered = floor()
         covered &= numpy.arange(HEIGHT)[:, None] >= 96
         quads = golden.quads_of(s, t, covered)
@@ -431,8 +431,8 @@ class Ideal(unittest.TestCase):
             self.assertTrue(numpy.allclose(one(flat, footprints[:50].copy()), 50))
         self.assertEqual(ideal.psnr(numpy.full((3, 4), 7.0), numpy.full((3, 4), 7, dtype=numpy.uint8)), math.inf)
 
-    def test_lines(self):
-        """A horizontal edge a quarter into its pixels' row: a quarter of the neighbour."""
+    def test_line_coverage(self):
+        """A horizontal edge a quarter into its row of pixels: a quarter of the neighbour."""
         lines = numpy.zeros(1, dtype=ideal.SCREEN_LINE)
         lines[0] = ((0.0, 4.25, 0.5), (16.0, 4.25, 0.5), False)
         weights = ideal.line_weights(lines, numpy.full((8, 16), 0.5))
@@ -443,7 +443,7 @@ class Ideal(unittest.TestCase):
 
 
 def laid_out(array, random):
-    """The same values at other distances: axes in any order and direction, gaps of any number of bytes."""
+    """The same values with other strides: axes in any order and direction, gaps of any number of bytes."""
     strides, reach, start = [0] * array.ndim, array.itemsize, 0
     order = random.permutation(array.ndim) if random.integers(2) else range(array.ndim - 1, -1, -1)
     for axis in order:
@@ -459,10 +459,10 @@ def laid_out(array, random):
 
 
 class Layouts(unittest.TestCase):
-    """Of every array that is given, the values alone matter."""
+    """For every array argument, only the values matter."""
 
     def calls(self):
-        """Function, arrays by name, what is given with them, and what is compared of the result."""
+        """Function, arrays by name, other arguments, and the compared part of the result."""
         pixels, depth, drawn = Vectors.random_edges()
         codes, line = depth, numpy.arange(0, 4096, 64, dtype=numpy.uint32)
         own = golden.morphological(pixels).edges
@@ -502,7 +502,7 @@ class Layouts(unittest.TestCase):
             yield unit(name, "quads"), {"quads": quads}, {}, lambda result: [result[1]]
         yield unit("set_error_lines", "lines"), {"lines": line // 64}, {}, filtered
 
-    def test_values_alone_matter(self):
+    def test_only_values_matter(self):
         random, tried = numpy.random.default_rng(1), set()
         for function, arrays, others, compared in self.calls():
             tried |= {(function.__name__, name) for name in arrays}
@@ -522,7 +522,7 @@ class Layouts(unittest.TestCase):
 
 
 class BadCalls(unittest.TestCase):
-    """Each is an error that says what, and the next call works as if it had not been."""
+    """Each is an error with a clear message, and does not affect the next call."""
 
     def rejected(self, words, function, *arguments, error=ValueError, **named):
         with self.assertRaises(error) as caught:
@@ -530,7 +530,7 @@ class BadCalls(unittest.TestCase):
         for word in [words] if isinstance(words, str) else words:
             self.assertIn(word, str(caught.exception))
 
-    def test_frames(self):
+    def test_rejects_bad_frames(self):
         image = vector_image("noise")
         good = golden.morphological(image, preset="mlaa").pixels.copy()
         rejected = self.rejected
@@ -573,7 +573,7 @@ class BadCalls(unittest.TestCase):
         rejected("", golden.morphological, error=TypeError)
         self.assertTrue((golden.morphological(image, preset="mlaa").pixels == good).all())
 
-    def test_meshes(self):
+    def test_rejects_bad_meshes(self):
         image, depth = vector_image("noise"), numpy.zeros((61, 97), numpy.float32)
         mesh = {"vertices": numpy.zeros(4, golden.VERTEX), "edges": numpy.zeros(3, golden.EDGE),
                 "facing": numpy.zeros(2, bool)}
@@ -586,11 +586,11 @@ class BadCalls(unittest.TestCase):
         self.rejected("unknown region of memory 'face'", golden.geometric, image, depth, bases={"face": 0}, **mesh)
         self.rejected("is not a multiple of 64", golden.geometric, image, depth, bases={"edges": 8}, **mesh)
         self.rejected("bases", golden.geometric, image, depth, bases=7, **mesh)
-        # Indices out of range are what the contract says: dropped.
+        # Indices out of range are dropped, as the contract says.
         mesh["edges"]["v0"] = 0xFFFFFFFF
         self.assertEqual(golden.geometric(image, depth, **mesh).work.invalid_edges, 3)
 
-    def test_textures(self):
+    def test_rejects_bad_textures(self):
         unit = golden.TextureUnit(cache_bytes=2048)
         unit.load(golden.mip_levels(checkerboard()), **FIELDS)
         s, t, covered = floor()
@@ -612,7 +612,7 @@ class BadCalls(unittest.TestCase):
         rejected("bytes: uint8 of (n,)", unit.write, 0, b"1234")
         rejected("levels: ", unit.load, None)
         rejected("levels: ", unit.load, [])
-        for texture in (0, 1):  # one that is there stays as it is
+        for texture in (0, 1):  # an existing texture is unchanged
             rejected("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
         rejected("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
         rejected("sides that are powers of two", golden.mip_levels, vector_image("noise"))
@@ -623,7 +623,7 @@ class BadCalls(unittest.TestCase):
         unit.reset()
         self.assertTrue((unit.filter(quads) == good).all())
 
-    def test_ideal(self):
+    def test_rejects_bad_ideal_calls(self):
         image = vector_image("noise")
         self.rejected("steps = 13 wants one of 12, 29, 39", ideal.fxaa, image, steps=13)
         self.rejected("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
@@ -640,14 +640,14 @@ def thread_that_raises(function, results):
     def work():
         try:
             results.append(function())
-        except Exception as error:  # what the test looks for
+        except Exception as error:  # the pattern that the test looks for
             results.append(error)
     return threading.Thread(target=work)
 
 
 class Threads(unittest.TestCase):
-    def test_the_interpreter_goes_on_while_a_model_runs(self):
-        """While one thread smooths large frames, another one counts; with the lock held it could not."""
+    def test_interpreter_continues_while_a_model_runs(self):
+        """While one thread smooths large frames, another one counts; if the GIL were held, it could not."""
         noise = numpy.random.default_rng(1).integers(0, 256, (1080, 1920, 4), dtype=numpy.uint8)
         inside, counted, results = threading.Event(), [], []
 
@@ -664,7 +664,7 @@ class Threads(unittest.TestCase):
         self.assertGreater(results[0], 0)
         self.assertGreater(len(counted), 20)
 
-    def test_frames_in_threads_are_those_of_one(self):
+    def test_threads_give_the_same_frames(self):
         images = [vector_image(name) for name in ("noise", "line", "blocks", "shades")]
         presets = ["mlaa", "smaa", "deburr-line", "deburr"]
         expected = [[golden.morphological(image, preset=preset).pixels.tobytes() for preset in presets] for image in images]
@@ -677,8 +677,8 @@ class Threads(unittest.TestCase):
             thread.join()
         self.assertEqual(results, 6 * [expected])
 
-    def test_two_threads_on_one_unit(self):
-        """One of them is told; nothing of the other's is lost."""
+    def test_two_threads_cannot_share_a_unit(self):
+        """One of them gets an error; the other's results are complete."""
         unit = golden.TextureUnit()
         unit.load(golden.mip_levels(checkerboard()), **FIELDS)
         s, t, _ = floor()
@@ -693,7 +693,7 @@ class Threads(unittest.TestCase):
                 if not thread.is_alive() or results:
                     break
                 try:
-                    # Between this look and the call the other one may be done: then calls change what they change.
+                    # Between this check and the call, the other thread may finish: then the calls change the unit.
                     if call() is not None and not results:
                         continue
                 except RuntimeError as error:
@@ -714,7 +714,7 @@ class Threads(unittest.TestCase):
         quads = numpy.tile(once, 400)
         expected = unit.filter(once)
         main = threading.main_thread().ident
-        # A job in the background is started with Ctrl-C ignored.
+        # A background job starts with Ctrl-C ignored.
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
 
         def interrupt():
@@ -731,7 +731,7 @@ class Threads(unittest.TestCase):
 
 
 class Declarations(unittest.TestCase):
-    """Signatures and docstrings are those of the parameters' declarations."""
+    """Signatures and docstrings follow the parameters' declarations."""
 
     def test_every_parameter_is_in_its_signature(self):
         page = (DOCS / "reference/parameters.md").read_text(encoding="utf-8")
@@ -760,7 +760,7 @@ class Declarations(unittest.TestCase):
                 if not name.startswith("_") and name != "detail":
                     self.assertTrue(getattr(kind, name).__doc__, f"{kind.__name__}.{name}")
 
-    def test_version(self):
+    def test_version_matches(self):
         changes = (DOCS.parent / "CHANGELOG.md").read_text(encoding="utf-8")
         self.assertIn(f"## {deburr.__version__}\n", changes)
 

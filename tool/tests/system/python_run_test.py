@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Runs and sweeps of the hardware models through the Python module: figures, arrays and tables of what the files have,
-the golden model's picture as the hardware's, errors in the command's words, Ctrl-C.
+"""Runs and sweeps of the hardware models through the Python module: figures, arrays and tables from the result files,
+the golden model's picture equal to the hardware's, errors in the command's words, Ctrl-C.
 
 usage: python_run_test.py MODULES [CLASS]"""
 import builtins
@@ -46,7 +46,7 @@ class Scratch(unittest.TestCase):
 
 
 class Runs(Scratch):
-    def test_figures_are_those_of_the_file(self):
+    def test_figures_equal_the_file(self):
         run = deburr.run("texture", **TINY, memory_latency=50, intervals=500, maps=True, out="out")
         file = json.loads((self.folder / "out/result.json").read_text(encoding="utf-8"))
         self.assertEqual(run.cycles, file["cycles"])
@@ -57,7 +57,7 @@ class Runs(Scratch):
         self.assertIn("misses_per_texel", run.work)
         self.assertIn("[line/texel]", run.explain("work.misses_per_texel"))
         self.assertEqual(run.directory, (self.folder / "out").absolute())
-        # Windows add up to the run.
+        # Intervals add up to the run.
         intervals = run.intervals
         self.assertEqual(int(intervals.cycles.sum()), run.cycles)
         self.assertEqual(int(intervals["series.work.derivative_unit_fragments"].sum()), run.work.fragments)
@@ -70,7 +70,7 @@ class Runs(Scratch):
         self.assertEqual(int(histogram[:, 1].sum()), run.work.fragments)
         for link in run.links.values():
             self.assertEqual(int(link.histogram.sum()), run.cycles)
-        # Maps come to what is counted.
+        # Maps add up to the counters.
         self.assertEqual(set(run.maps), set(file["maps"]))
         misses = run.maps["misses"]
         self.assertEqual(misses.shape, (48, 48))
@@ -85,8 +85,8 @@ class Runs(Scratch):
             run.cicles
         self.assertIn("cycles", str(caught.exception))
 
-    def test_arrays_go_in_and_come_out(self):
-        """What the hardware makes of a frame of ours is what the golden model makes of it here."""
+    def test_arrays_are_input_and_output(self):
+        """The hardware model's output for a frame from an array equals the golden model's output."""
         y, x = numpy.mgrid[0:60, 0:80]
         disc = (x - 40.3) ** 2 + (y - 30.2) ** 2 < 400
         image = numpy.zeros((60, 80, 4), dtype=numpy.uint8)
@@ -103,7 +103,7 @@ class Runs(Scratch):
                 if name in run.work:
                     self.assertEqual(run.work[name], value, name)
 
-    def test_names(self):
+    def test_parameter_names(self):
         """A parameter by each of its names."""
         cycles = {deburr.run("texture", **TINY, no_images=True, **one).cycles for one in (
             {"memory_latency": 300}, {"memory.latency": 300}, {"memory_latency": numpy.int64(300)},
@@ -116,14 +116,14 @@ class Runs(Scratch):
         self.assertEqual(deburr.engines(), engines())
         self.assertIn("texture.cache.bytes", [row["name"] for row in deburr.parameters("texture")])
 
-    def test_files_go_with_the_run(self):
+    def test_files_are_removed_with_the_run(self):
         run = deburr.run("texture", **TINY)
         directory = run.directory
         self.assertTrue((directory / "report.html").exists())
         del run
         self.assertFalse(directory.exists())
 
-    def test_several_at_a_time(self):
+    def test_parallel_runs(self):
         found = {}
 
         def work(latency):
@@ -144,7 +144,7 @@ class Errors(Scratch):
         self.assertIn(words, str(caught.exception))
         return caught.exception
 
-    def test_words_are_the_commands(self):
+    def test_errors_have_the_commands_words(self):
         for given, words in (
                 ({"texture_cache_bites": 5}, "unknown parameter 'texture_cache_bites'"),
                 ({"texture.cache.bites": 5}, "did you mean 'texture.cache.bytes'"),
@@ -177,7 +177,7 @@ class Errors(Scratch):
         error = self.rejected("", ValueError, "texture", **{"texture.cache.bites": 5})
         self.assertIn(str(error), said)
 
-    def test_failures_have_their_results(self):
+    def test_failures_keep_their_results(self):
         error = self.rejected("FAIL mismatch", deburr.RunError, "texture", **TINY, fault="flip-bit")
         self.assertEqual(error.code, 1)
         self.assertGreater(error.result.checks.mismatches, 0)
@@ -185,7 +185,7 @@ class Errors(Scratch):
         error = self.rejected("FAIL simulation", deburr.RunError, "texture", **TINY, max_cycles=100)
         self.assertEqual((error.code, error.result.cycles > 0), (3, True))
 
-    def test_a_command_that_is_not_there(self):
+    def test_missing_command_is_an_error(self):
         program = _program._build.PROGRAM
         self.addCleanup(setattr, _program._build, "PROGRAM", program)
         _program._build.PROGRAM = "nowhere/deburr"
@@ -194,7 +194,7 @@ class Errors(Scratch):
         os.environ["PATH"] = str(self.folder)
         self.rejected("install it", FileNotFoundError, "texture")
 
-    def test_pictures(self):
+    def test_pictures_are_arrays(self):
         for shape in ((5, 7), (5, 7, 3), (5, 7, 4)):
             array = numpy.random.default_rng(3).integers(0, 256, shape, dtype=numpy.uint8)
             (self.folder / "a.png").write_bytes(_pictures.png_of(array))
@@ -207,7 +207,7 @@ class Errors(Scratch):
 
 class Interrupted(Scratch):
     def test_ctrl_c_ends_a_run_and_its_process(self):
-        """Sent to Python alone, and to both as a terminal does."""
+        """Sent only to Python, and to both as a terminal does."""
         program = textwrap.dedent(f"""
             import signal
             import sys
@@ -244,7 +244,7 @@ class Sweeps(Scratch):
     def rows(self, table):
         return table if isinstance(table, list) else table.to_dict("records")
 
-    def test_a_table_of_points(self):
+    def test_sweep_is_a_table_of_points(self):
         table = deburr.sweep("texture", self.AXES, **TINY, run_images=False, out="out", jobs=2,
                              metrics={"cycles": "cycles", "bits": "memory_bits.total.physical"},
                              minimise=["cycles", "bits"], for_each="memory_latency")
@@ -259,7 +259,7 @@ class Sweeps(Scratch):
             self.assertEqual(row["front"], line["front"] == "1")
         self.assertEqual(sorted((row["texture.cache.bytes"], row["memory.latency"]) for row in rows),
                          [(size, latency) for size in (1024, 2048, 4096) for latency in (50, 100)])
-        # One of the points is a run of its own; what is there is not run again.
+        # A point equals a separate run; existing results are not run again.
         alone = deburr.run("texture", **TINY, run_images=False, texture_cache_bytes=2048, memory_latency=100)
         self.assertIn(alone.cycles, [row["cycles"] for row in rows if row["texture.cache.bytes"] == 2048])
         results = {file: file.stat().st_mtime_ns for file in pathlib.Path("out/points").rglob("result.json")}
@@ -288,7 +288,7 @@ class Sweeps(Scratch):
             self.skipTest("pandas is not installed: scripts/install python")
         self.assertIsInstance(table, pandas.DataFrame)
 
-    def test_a_file_and_what_is_wrong(self):
+    def test_sweep_file_and_its_errors(self):
         file = self.folder / "cache.yaml"
         file.write_text("engine: texture\nbase: {scene: {source: tunnel, width: 48, height: 48, texture_size: 64}}\n"
                         "axes: {memory.latency: [50, 100]}\nmetrics: {cycles: cycles}\n", encoding="utf-8")
@@ -306,7 +306,7 @@ class Sweeps(Scratch):
                 deburr.sweep(*arguments, **named)
             self.assertIn(words, str(caught.exception))
 
-    def test_points_that_fail_are_rows(self):
+    def test_failed_points_are_rows(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             table = deburr.sweep("texture", {"max_cycles": [100, 10_000_000]}, **TINY)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Types of the Python module as mypy --strict reads them: it accepts the program of the page and one more, and finds
+"""Types of the Python module as mypy --strict reads them: it accepts the page's program and another one, and finds
 each mistake in a third.
 
 usage: python_stubs_test.py MODULES DOCS"""
@@ -37,7 +37,7 @@ MISTAKES = ("golden.morphologic(frame)", "golden.morphological(frame, detail='ye
 
 class Types(unittest.TestCase):
     def lines_with_errors(self, text):
-        """Without the package's own, as if it were installed for all."""
+        """Line numbers of mypy errors; the package is treated as installed, so its own errors are not reported."""
         with tempfile.TemporaryDirectory() as folder:
             program = pathlib.Path(folder) / "program.py"
             program.write_text(text, encoding="utf-8")
@@ -48,7 +48,7 @@ class Types(unittest.TestCase):
         self.assertIn(done.returncode, (0, 1), done.stdout + done.stderr)
         return done.stdout, [int(line) for line in re.findall(r"^program\.py:(\d+): error", done.stdout, re.M)]
 
-    def test_the_program_of_the_page_is_accepted(self):
+    def test_program_of_the_page_is_accepted(self):
         page = (DOCS / "reference/python.md").read_text(encoding="utf-8")
         said, errors = self.lines_with_errors(re.search(r"```python\n(.*?)```", page, re.S)[1])
         self.assertEqual(errors, [], said)

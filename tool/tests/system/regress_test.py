@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Regressions: a injected fault is found, put into a signature, reproduced and waved; seeds follow from
+"""Regressions: an injected fault is found, put into a signature, reproduced and recorded as a wave; seeds follow from
 names; kill -9 loses nothing.
 
-usage: regress_test.py DEBURR [CLASS]
-"""
+usage: regress_test.py DEBURR [CLASS]"""
 import glob
 import json
 import os
@@ -96,8 +95,8 @@ class RegressTest(unittest.TestCase):
                 for path in glob.glob(self.path("out/points/*/*/result.json"))}
 
     def check_fault(self, passed):
-        """Signatures, the line that reproduces each, its waves, the page and JUnit of FAULT, whose three
-        runs fail while `passed` others pass."""
+        """Signatures, the command that reproduces each, its waves, the page and JUnit of FAULT, whose three runs fail
+        while `passed` others pass."""
         collected = self.collected()
         signatures = {b["kind"]: b for b in collected["signatures"]}
         self.assertEqual({kind: b["runs"] for kind, b in signatures.items()}, {"mismatch": 2, "deadlock": 1})
@@ -126,7 +125,7 @@ class RegressTest(unittest.TestCase):
         self.assertEqual(root.get("failures"), "4", "three runs, and colours of the feature")
 
     def check_waves(self, file, kind, result):
-        """Something changes in the window, and the window holds the failure."""
+        """Signals change in the interval, and the interval contains the failure."""
         period = round(1e6 / result["clock_mhz"])
         times, changes = [], 0
         with open(file) as vcd:
@@ -186,15 +185,15 @@ class Passing(RegressTest):
         other = self.points(seed="8")
         self.assertEqual([p[3:7] for p in self.points()], [p[3:7] for p in other])
         self.assertFalse({p[0] for p in self.points()} & {p[0] for p in other})
-        # A feature in front moves no seed.
+        # A new first feature changes no seed.
         alone = TESTPLAN[:TESTPLAN.index("  - id: filtering")] + TESTPLAN[TESTPLAN.index("  - id: anything"):]
         self.write("plans/alone.yaml", alone)
         self.regress("plan", name="alone")
         self.assertEqual([p[0] for p in self.points(name="alone")],
                          [p[0] for p in self.points() if p[3] == "anything"])
 
-    def test_a_part_is_of_the_whole(self):
-        """One of two seeds: their runs are the whole plan's, and less must be compared."""
+    def test_partial_plan_has_runs_of_the_whole(self):
+        """One seed in two: the runs are a subset of the whole plan's, and fewer comparisons are required."""
         self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 2000"))
         said = self.regress("-j2", "--divide", "2")
         self.assertIn("regression small-of-2 --seed 7: 6 points, 6 passed", said)
@@ -209,7 +208,7 @@ class Passing(RegressTest):
             self.assertEqual(collected["divisor"], divisor)
             self.assertEqual(collected["features"][0]["checks"][0]["minimum"], minimum)
 
-    def test_a_changed_plan_keeps_what_is_as_before(self):
+    def test_changed_plan_keeps_unchanged_runs(self):
         self.regress("-j2")
         before = self.inodes()
         self.write("plans/small.yaml", TESTPLAN.replace("seeds: 3", "seeds: 4"))
@@ -220,7 +219,7 @@ class Passing(RegressTest):
         collected = self.regress("collect", code=3)
         self.assertIn(changed + "points that are as before keep their results", collected)
         self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 signatures, 3 missing", collected)
-        # Nothing failed, and what there is was checked and covered: it is the missing runs that count.
+        # No run failed, and the results are checked and covered: only the missing runs count.
         report = self.collected()
         self.assertEqual([report["counts"][k] for k in ("failed", "failed_checks", "holes")], [0, 0, 0])
         self.assertEqual([(f["missing"], f["holds"]) for f in report["features"]], [(2, False), (1, False)])
@@ -235,7 +234,7 @@ class Passing(RegressTest):
         self.assertEqual(len(after), POINTS + 3)
         self.assertEqual({path: after[path] for path in before}, before, "what was there stayed")
 
-    def test_another_model_leaves_the_report_of_the_last_one(self):
+    def test_other_model_keeps_the_last_report(self):
         self.regress("-j2")
         report = self.collected()
         path = self.path("out/regressions/small-7/plan.json")
@@ -249,7 +248,7 @@ class Passing(RegressTest):
         self.assertIn("no result of before counts", self.regress("run"))
         self.regress("collect")
 
-    def test_all_runs_together_meet_what_the_plan_demands(self):
+    def test_all_runs_together_meet_the_plan(self):
         alone = TESTPLAN[:TESTPLAN.index("  - id: anything")]
         formats = [f"texture/format/{name}" for name in ("l8", "rgb565", "rgba4444", "srgb8_a8")]
         demand = "coverage: ['texture/format/*', texture/cache/hit]\n"
@@ -266,9 +265,9 @@ class Passing(RegressTest):
         self.assertEqual([(suite.get("name"), suite.get("failures")) for suite in root], [("filtering", "0"), ("all runs", "1")])
         with open(self.path("out/regressions/small-7/index.html")) as file:
             self.assertIn("texture/format/*: 1 of 5 bins, not met:", file.read())
-        # Of a part of the seeds one bin is enough.
+        # For part of the seeds one bin is enough.
         self.regress("-j2", "--divide", "3")
-        # What is excepted is named with its reason, and nothing else is.
+        # Only exceptions are named, with their reasons.
         unmet = "unmet:\n" + "".join(f"  - {{bins: {name}, reason: No scene has it.}}\n" for name in formats[1:])
         self.write("plans/small.yaml", alone + demand + unmet)
         self.assertIn(f"1 of 2 bins were not met: {formats[0]}\n", self.regress(code=1))
@@ -286,7 +285,7 @@ class Passing(RegressTest):
         with open(self.path("out/regressions/small-7/index.html")) as file:
             self.assertIn("texture/format/l8: No scene has that.", file.read())
 
-    def test_a_file_of_a_plan_adds_what_all_runs_must_meet(self):
+    def test_included_file_adds_requirements_on_all_runs(self):
         start = TESTPLAN.index("  - id: filtering")
         part = ("features:\n" + TESTPLAN[start:TESTPLAN.index("  - id: anything")] +
                 "coverage: ['texture/format/*']\nunmet: [{bins: texture/format/l8, reason: None.}]\n")
@@ -296,7 +295,7 @@ class Passing(RegressTest):
         self.write("plans/part.yaml", part)
         self.assertIn("broken      all runs: texture/format/*: 3 of 4 bins", self.regress("-j2", code=1))
 
-    def test_a_night_is_a_line_of_the_trend(self):
+    def test_night_is_a_line_of_the_trend(self):
         self.regress("-j2")
         night, = self.nights()
         report = self.collected()
@@ -329,7 +328,7 @@ class Passing(RegressTest):
         with open(self.path(f"out/regressions/{name}.jsonl")) as file:
             return [json.loads(line) for line in file]
 
-    def test_too_little_is_no_pass(self):
+    def test_too_few_checks_fail(self):
         self.write("plans/small.yaml", TESTPLAN.replace("colours: 1000", "colours: 1000000"))
         self.assertRegex(self.regress(code=1), r"colours: 2,\d\d\d comparisons of 1,000,000")
         self.write("plans/small.yaml", TESTPLAN.replace("texture/cache/hit,", "texture/tent/*,"))
@@ -340,19 +339,19 @@ class Passing(RegressTest):
 
 
 class Failing(RegressTest):
-    def test_a_fault_is_found_sorted_reproduced_and_waved(self):
+    def test_fault_is_found_sorted_reproduced_and_recorded(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         out = self.regress("-j2", code=1)
         self.assertIn(f"{POINTS} passed, 3 failed in 2 signatures, 0 missing", out)
         self.check_fault(POINTS)
-        # The line that shows it again is the example of the largest signature, and no other run.
+        # The command that reproduces it is the example of the largest signature, and of no other.
         repro = out[out.index("REPRO: "):].splitlines()[0].removeprefix("REPRO: ")
         self.assertEqual(repro.removeprefix(DEBURR), self.collected()["signatures"][0]["example"]["command"].removeprefix("deburr"))
         before = self.inodes()
         self.regress("run", code=1)
         self.assertEqual(self.inodes(), before, "neither failures nor waves are made again")
 
-    def test_a_night_that_is_worse_than_the_one_before_says_so(self):
+    def test_worse_night_is_reported(self):
         self.assertNotIn("fell", self.regress("-j2", seed="6"))
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         said = self.regress("-j2", code=1)
@@ -368,8 +367,8 @@ class Failing(RegressTest):
         self.assertEqual([night["passed"] for night in drawn], [100, 75])
         self.assertEqual([night["passed"] for night in self.collected()["trend"]], [POINTS, POINTS])
 
-    def test_the_page_has_no_dead_links_and_no_empty_sections(self):
-        """A run that cannot read its texture leaves no result, and no coverage."""
+    def test_page_has_no_dead_links_and_no_empty_sections(self):
+        """A run that cannot read its texture has no result and no coverage."""
         self.write("bad.png", "no picture")
         unread = """  - id: unread
     title: A texture that cannot be read
@@ -400,7 +399,7 @@ class Failing(RegressTest):
         self.assertNotRegex(page, r"<(ul|tbody|section)[^>]*>\s*</")
         return page
 
-    def test_what_failed_is_run_again_by_one_command(self):
+    def test_failed_runs_are_repeated_by_one_command(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         self.regress("-j2", code=1)
         failed = {point[0] for point in self.points() if point[3] == "broken"}
@@ -411,7 +410,7 @@ class Failing(RegressTest):
         changed = {os.path.basename(os.path.dirname(path)) for path, inode in self.inodes().items()
                    if before.get(path) != inode}
         self.assertEqual(changed, failed)
-        # Where other runs have no result the report is that of before, and the verdict of these runs alone.
+        # If other runs have no result, the report is the previous one, and the verdict covers only these runs.
         os.remove(next(path for path in before if os.path.basename(os.path.dirname(path)) not in failed
                        and os.path.basename(os.path.dirname(path)) in {point[0] for point in self.points()}))
         report = self.collected()
@@ -419,7 +418,7 @@ class Failing(RegressTest):
         self.assertRegex(again, r"RESULT: FAIL regression small --seed 7: 0 of 3 runs that had failed pass now, 3 fail; other")
         self.assertRegex(again, r"(?m)^failed      broken/fault/base/0: mismatch: ")
         self.assertEqual(self.collected(), report)
-        # Without the fault they are other points, of the same names.
+        # Without the fault they are other points with the same names.
         self.write("plans/small.yaml", TESTPLAN + FAULT.replace(", run.fault: flip-bit", "")
                    .replace(", run.fault: stuck-ready", ""))
         again = self.rerun()
@@ -428,7 +427,7 @@ class Failing(RegressTest):
         self.assertIn("rerun       0 of 0 runs that had failed pass now, 0 fail\n", self.rerun())
         self.assertEqual(self.collected()["counts"]["failed"], 0)
 
-    def test_what_is_mended_makes_the_report_hold(self):
+    def test_fixed_runs_make_the_report_pass(self):
         mended = FAULT.replace(", run.fault: flip-bit", "").replace(", run.fault: stuck-ready", "")
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         self.regress("-j2", code=1)
@@ -438,7 +437,7 @@ class Failing(RegressTest):
         self.assertIn(f"RESULT: PASS regression small --seed 7: {POINTS + 3} points, {POINTS + 3} passed, 0 failed", again)
         self.assertTrue(self.collected()["holds"])
 
-    def test_the_last_report_is_meant(self):
+    def test_rerun_uses_the_last_report(self):
         self.write("plans/small.yaml", TESTPLAN + FAULT)
         for seed in ("9", "7"):
             self.regress("-j2", code=1, seed=seed)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Pages as a person has them, from disk and without a network: charts and pictures are there, no script fails, the
-colour scheme is obeyed; nothing wider than a phone, a text for each chart, ticks at round numbers, no dead link, the
-keyboard. Each page is opened in headless Chromium, in frames as wide as a phone and a screen, with a probe added to
-copies of it. Skipped where there is no Chromium.
+"""Pages as a user sees them, from disk and without a network: charts and pictures are shown, no script fails, the
+colour scheme is followed; nothing is wider than a phone, each chart has a text, ticks are at round numbers, there
+is no dead link, and the keyboard works. Each page is opened in headless Chromium, in frames as wide as a phone and
+a screen, with a probe added to copies of it. Skipped without Chromium.
 
 usage: report_pages_test.py DEBURR [CLASS]
-DEBURR_KEEP_SCREENSHOTS=DIR leaves a picture of each page in DIR, 1280 and 390 pixels wide."""
+  DEBURR_KEEP_SCREENSHOTS=DIR writes a picture of each page to DIR, 1280 and 390 pixels wide."""
 import array
 import html
 import itertools
@@ -28,11 +28,11 @@ DEBURR = "deburr"
 BROWSER = next((b for b in ("chromium", "chromium-browser", "google-chrome") if shutil.which(b)), None)
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run",
          "--hide-scrollbars", "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"]
-PHONE, DESKTOP = 390, 1280  # wide
-SCREEN = 844  # the height of a phone
+PHONE, DESKTOP = 390, 1280  # width
+SCREEN = 844  # height of a phone
 LIGHT, DARK = "rgb(246, 245, 242)", "rgb(19, 21, 24)"  # --page of page.css
 
-# Runs in the page, and tells the page around it.
+# Runs in the page, and reports to the enclosing page.
 PROBE = """
 const probe_page = async () => {
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -113,8 +113,8 @@ def is_number(text):
 
 
 def steps_are_round(labels):
-    """Ticks at even steps, each a multiple of its step, which is 1, 2, 2.5, 4 or 5 times a power of ten
-    (4: every other tick of 2, on a low chart)."""
+    """Ticks at even steps, each a multiple of its step, which is 1, 2, 2.5, 4 or 5 times a power of ten (4: every
+    other tick of 2, on a low chart)."""
     values = [float(text.replace(",", "").replace("\u2212", "-")) for text in labels if is_number(text)]
     if len(values) < 2:
         return True
@@ -129,7 +129,7 @@ def steps_are_round(labels):
 
 
 def apart(one, other):
-    """How far two colours #rrggbb are from each other, 0 to 442."""
+    """Distance of two colours #rrggbb, 0 to 442."""
     return math.dist(*(bytes.fromhex(colour[1:]) for colour in (one, other)))
 
 
@@ -137,7 +137,7 @@ class PagesTest(unittest.TestCase):
     def setUp(self):
         if not BROWSER:
             self.skipTest("no Chromium here (Debian package chromium)")
-        self.rows = set()  # of the legends of a phone
+        self.rows = set()  # of the legends on a phone
         scratch = tempfile.TemporaryDirectory(prefix="deburr_pages_")
         self.addCleanup(scratch.cleanup)
         self.directory = scratch.name
@@ -159,7 +159,7 @@ class PagesTest(unittest.TestCase):
         return done.stdout
 
     def all_probed(self, page, *frames, more=()):
-        """What the probe tells of a page below the directory, in a frame for each (width, keys, anchor)."""
+        """The probe's report on a page below the directory, in a frame for each (width, keys, anchor)."""
         folder, name = os.path.split(self.path(page))
         around, copies, boxes = os.path.join(folder, "around_" + name), [], ""
         with open(self.path(page), encoding="utf-8") as file:
@@ -203,7 +203,7 @@ class PagesTest(unittest.TestCase):
             os.remove(around)
 
     def check(self, page, title, charts, keys=""):
-        """Every demand that holds for all pages; gives what the probe told."""
+        """Checks the requirements on all pages; returns the probe's report."""
         told, desktop = self.all_probed(page, (PHONE, keys, ""), (DESKTOP, "", ""))
         self.assertEqual((told["width"], told["page"]), (PHONE, LIGHT))
         self.assertEqual(told["wide"], [], title)
@@ -225,7 +225,7 @@ class PagesTest(unittest.TestCase):
                 self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(window|follow)-[0-9,]+$", link), f"{title}: {link}")
             else:
                 self.assertTrue(os.path.exists(os.path.join(os.path.dirname(self.path(page)), link)), f"{title}: {link}")
-        # What a chart draws keeps its height, however many rows its legend has.
+        # The plot area of a chart keeps its height, however many rows its legend has.
         for (name, low, rows), (_, high, _) in zip(told["charts"], desktop["charts"]):
             self.assertGreater(low, 0.75 * high, f"{title}: {name} with {rows} rows of a legend")
             self.rows.add(rows)
@@ -244,7 +244,7 @@ class PagesTest(unittest.TestCase):
         return told
 
 
-# Cells of a row of these tables that stand beside each other for a reader, and end where their box does or before.
+# In these tables, adjacent cells of a row must end within their box.
 SEEN_TOGETHER = """
 window.probe_keys = async () => [...document.querySelectorAll('%s')].map((table) => {
   const rows = [...table.rows].map((row) => [...row.cells].slice(0, %d)), end = table.closest('.scroll').getBoundingClientRect().right;
@@ -253,7 +253,7 @@ window.probe_keys = async () => [...document.querySelectorAll('%s')].map((table)
 });
 """
 
-# Points at a pixel with the keys, zooms, and comes back; the first map of the page is on the right.
+# Selects a pixel with the keys, zooms, and returns; the first map of the page is on the right.
 KEYS_OF_A_RUN = """
 window.probe_keys = async (wait) => {
   const view = document.getElementById('view'), right = document.getElementById('right'), said = [];
@@ -309,7 +309,7 @@ class Runs(PagesTest):
         self.assertEqual((zoomed, fitted), (True, True))
         self.assertTrue(command.endswith("--pixel 3,1"), command)
 
-    def test_every_engine(self):
+    def test_pages_of_every_engine(self):
         self.axes = 0
         for engine, arguments in trials("report_page").items():
             with self.subTest(engine):
@@ -317,8 +317,8 @@ class Runs(PagesTest):
         self.assertGreater(self.axes, 1, "no page with traffic of memory")
         self.assertGreater(max(self.rows), 3, "no legend of several rows: the heights say nothing")
 
-    def test_each_cause_has_a_colour_of_its_own(self):
-        """More causes than colours chosen by hand: the same one in every chart, and none near another."""
+    def test_each_cause_has_its_own_colour(self):
+        """More causes than predefined colours: the same colour in every chart, and none close to another."""
         self.assertTrue(trials("causes"))
         for engine, arguments in trials("causes").items():
             self.deburr("run", engine, *arguments, "--windows", "1000", "--no-images", "--out", "causes")
@@ -331,7 +331,7 @@ class Runs(PagesTest):
             for (one, a), (other, b) in itertools.combinations(colours.items(), 2):
                 self.assertGreater(apart(a, b), 20, f"{one} and {other}")
 
-    def test_both_sides_of_a_pixel_on_a_phone(self):
+    def test_pixel_page_shows_both_sides_on_a_phone(self):
         for engine, entry in trials("followed").items():
             self.deburr("run", engine, *entry["run"], "--pixel", "{},{}".format(*entry["pixel"]), "--out", engine)
             told = self.check(f"{engine}/report.html", f"{engine}_pixel", 1, SEEN_TOGETHER % ("table.history", 5))
@@ -342,8 +342,8 @@ class Runs(PagesTest):
             self.assertLessEqual(beyond, 0, engine)
             self.assertEqual(cut, [], engine)
 
-    def test_stills(self):
-        """All are of the frame, however small or narrow it is: of a map the map, not the paper of its scale."""
+    def test_stills_show_the_frame(self):
+        """All show the frame, however small or narrow it is: for a map the map itself, not its colour scale."""
         self.deburr("run", "texture", "--size", "40x32", "--maps", "--out", "small")
         for told in self.all_probed("small/report.html", (PHONE, "", ""), (DESKTOP, "", "")):
             self.assertGreater(len(told["stills"]), 5)
@@ -363,8 +363,8 @@ class Runs(PagesTest):
                 self.assertAlmostEqual(scale[1], down, delta=0.02 * down, msg=f"{name}: {role}")
             self.screenshots(f"{name}/report.html", name)
 
-    def test_a_column_that_nothing_stands_in(self):
-        """What figures are compared with: not where no figure is."""
+    def test_empty_columns_are_hidden(self):
+        """The reference column is hidden if no figure has a reference."""
         columns = set()
         for engine in trials("report_page"):
             self.deburr("run", engine, "--size", "32x32", "--no-images", "--out", engine)
@@ -375,10 +375,10 @@ class Runs(PagesTest):
             columns.add(column)
         self.assertEqual(columns, {False, True})
 
-    # The page's text once its scripts have run.
+    # The page's text after its scripts have run.
     TEXT = "window.probe_keys = async () => document.body.innerHTML;"
 
-    def test_a_window_of_a_run(self):
+    def test_interval_link_gives_the_wave_command(self):
         """Its link gives the command that writes its waves."""
         self.deburr("run", "texture", "--size", "128x128", "--windows", "1000", "--maps", "--trace", "colours", "--trace-to",
                     "9", "--out", "run")
@@ -393,8 +393,8 @@ class Runs(PagesTest):
         (dark,) = self.all_probed("run/report.html", (DESKTOP, "", ""), more=("--force-dark-mode",))
         self.assertEqual(dark["page"], DARK)
 
-    def test_the_pixel_of_a_mismatch(self):
-        """Its link gives the command that follows it."""
+    def test_mismatch_link_gives_the_pixel_command(self):
+        """Its link gives the command that follows the pixel."""
         self.deburr("run", "texture", "--size", "64x48", "--fault", "flip-bit", "--pixel", "36,0", "--out", "run", codes=(1,))
         text = self.probed("run/report.html", PHONE, self.TEXT, "#follow-7,9")["keys"]
         self.assertIn('<h2 id="pixel">What happened to pixel 36,0</h2>', text)
@@ -402,9 +402,8 @@ class Runs(PagesTest):
         self.assertRegex(text, "--fault flip-bit --out run --pixel 7,9</pre>")
         self.assertRegex(text, r"--pixel 36,0 --trace '\*' --trace-from [0-9]+")
 
-    def test_what_the_checks_look_for(self):
-        """A script that fails, a page that is too wide, an empty chart, charts without words and links that lead nowhere
-        are noticed."""
+    def test_checks_detect_broken_pages(self):
+        """Detects a failing script, a page that is too wide, an empty chart, charts without text and dead links."""
         for body in ("<script>undefined_function();</script>", "<canvas id=c></canvas>", "<img src=none.png>"):
             with open(self.path("broken.html"), "w", encoding="utf-8") as file:
                 file.write(f"<!doctype html><body>{body}</body>")
@@ -477,7 +476,7 @@ class Sweeps(PagesTest):
     def pages(self, directory):
         return [os.path.join(directory, f) for f in os.listdir(self.path(directory)) if f.endswith(".html")]
 
-    def test_sweep(self):
+    def test_sweep_page(self):
         directory = self.make("fronts", SWEEP)
         (page,) = self.pages(directory)
         told = self.check(page, "sweep", 3, KEYS_OF_A_SWEEP)
@@ -491,11 +490,11 @@ class Sweeps(PagesTest):
         self.assertEqual(len({line[2] for line in keys["lines"]}), 2, "the fronts look alike")
         for source in ("tunnel", "plane"):
             self.assertIn(f"scene.source = {source}: ", keys["fronts"])
-        # Without a script there is a table of all points.
+        # Without scripts there is a table of all points.
         with open(self.path(page), encoding="utf-8") as file:
             without = "".join(re.findall(r"<noscript>(.*?)</noscript>", file.read(), re.S))
         self.assertEqual(without.count("<tr"), 1 + 18)
-        # Those beyond a limit look like no other.
+        # Points beyond a limit have a distinct look.
         with open(self.path(f"{directory}/collected.json"), encoding="utf-8") as file:
             bits = sorted(point["values"][1] for point in json.load(file)["points"])
         (page,) = self.pages(self.make("limited", SWEEP + f"limits: [bits <= {bits[5]}]\n"))
@@ -503,13 +502,13 @@ class Sweeps(PagesTest):
         self.assertEqual(sum(beyond), sum(each > bits[5] for each in bits))
         self.assertEqual([style != "circle" for style in styles], beyond)
 
-    def test_comparison_of_sweeps(self):
+    def test_page_comparing_sweeps(self):
         first = self.make("before", SWEEP)
         second = self.make("after", SWEEP.replace("run.images: false", "run.images: false\n  memory.latency: 30"))
         self.deburr("compare", first, second, "--html", "page.html", codes=(0, 1))
         self.check("page.html", "comparison_of_sweeps", 1)
 
-    def test_comparison_of_runs(self):
+    def test_page_comparing_runs(self):
         for name, more in (("small", ["--set", "texture.cache.bytes=1024"]), ("large", [])):
             self.deburr("run", "texture", "--size", "64x48", "--truth", "--out", name, *more)
         self.deburr("compare", "small", "large", "--html", "page.html", codes=(0, 1))
@@ -541,7 +540,7 @@ features:
     checks: {colours: 1}
 """
 
-    def test_regression(self):
+    def test_regression_page(self):
         os.makedirs(self.path("docs"))
         for name, text in (("docs/unit.md", "# Unit\n"), ("pages.yaml", self.PLAN)):
             with open(self.path(name), "w", encoding="utf-8") as file:

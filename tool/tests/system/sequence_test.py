@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Frames in a row, as a list or a pattern of images, meshes or cameras, through every engine: the flicker that a run
-says is the one that is computed here from the pictures of a run a frame.
+"""Sequences of frames, as a list or a pattern of images, meshes or cameras, through every engine: the reported
+flicker equals the one computed here from the pictures of one run per frame.
 
 usage: sequence_test.py DEBURR [CLASS]"""
 import json
@@ -32,7 +32,7 @@ def write_png(path, rows):
 
 
 def read_png(path):
-    """Pixels of R, G, B, without alpha; 8 bits a channel."""
+    """Pixels of R, G, B, without alpha; 8 bits per channel."""
     with open(path, "rb") as file:
         data = file.read()
     at, packed = 8, b""
@@ -69,7 +69,7 @@ def read_png(path):
 
 
 def flicker(pictures, references, drawn=None):
-    """(mean, worst, the worst pair's second frame), as docs/reference/run.md defines flicker."""
+    """(mean, worst, second frame of the worst pair), as docs/reference/texture/index.md says."""
     squares = []
     for i in range(1, len(pictures)):
         total = count = 0
@@ -116,7 +116,7 @@ class SequenceTest(unittest.TestCase):
         return [read_png(self.path(f"{name}{i}/after.png")) for i in range(count)]
 
     def write_box(self, name, shift):
-        """A slanted box, which casts edges on all sides; the camera follows where it is, so it slants more or less."""
+        """A slanted box with edges in all directions; the camera follows its position, so its slant varies."""
         corners = [(x, y + (0.23 + shift) * x, z) for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)]
         faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
         with open(self.path(name), "w", encoding="utf-8") as file:
@@ -126,9 +126,9 @@ class SequenceTest(unittest.TestCase):
 
 
 class Images(SequenceTest):
-    """Of the engine that takes picture files."""
+    """The engine that takes picture files."""
     (ENGINE,) = trials("sequence_of_images")
-    NAMES = ("f1.png", "f2.png", "f10.png")  # as numbers, and not as letters, have it
+    NAMES = ("f1.png", "f2.png", "f10.png")  # order as numbers, not as text
 
     def setUp(self):
         super().setUp()
@@ -139,7 +139,7 @@ class Images(SequenceTest):
             write_png(self.path("t_" + name), [[max(0, min(255, round(255 * (x + 1 + .23 * y - 12 - k / 3))))
                                                 for x in range(size)] for y in range(size)])
 
-    def test_without_a_truth_against_what_went_in(self):
+    def test_flicker_without_reference_uses_the_input(self):
         result = self.result(self.ENGINE, "all", "--in", "f*.png")
         for i, name in enumerate(self.NAMES):
             self.result(self.ENGINE, f"one{i}", "--in", name)
@@ -151,18 +151,18 @@ class Images(SequenceTest):
         said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f*.png", "--out", "all"], cwd=self.directory,
                               text=True, capture_output=True, check=True).stdout
         self.assertRegex(said, f"flicker +{result['work']['flicker']:.2f}/255 over 3 frames .*, beyond what went in\n")
-        # All of them are inputs: a run of other files is another run.
+        # All of them are inputs: a run with other files is another run.
         with open(self.path("all/manifest.json"), encoding="utf-8") as file:
             self.assertEqual([i["file"] for i in json.load(file)["inputs"]], list(self.NAMES))
 
-    def test_nothing_flickers(self):
+    def test_still_sequence_has_no_flicker(self):
         work = self.result(self.ENGINE, "still", "--in", "f1.png;f1.png;f1.png")["work"]
         self.assertEqual((work["flicker"], work["flicker_worst"], work["flicker_worst_frame"]), (0, 0, None))
         said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f1.png;f1.png", "--out", "still"],
                               cwd=self.directory, text=True, capture_output=True, check=True).stdout
         self.assertRegex(said, r"flicker +0\.00/255 over 2 frames, beyond what went in\n")
 
-    def test_with_references(self):
+    def test_flicker_with_references(self):
         result = self.result(self.ENGINE, "all", "--in", "f*.png", "--truth", "t_f*.png")
         for i, name in enumerate(self.NAMES):
             self.result(self.ENGINE, f"one{i}", "--in", name)
@@ -171,7 +171,7 @@ class Images(SequenceTest):
         with open(self.path("all/report.html"), encoding="utf-8") as file:
             self.assertIn("Flicker over the frames", file.read())
 
-    def test_a_list_in_a_configuration_is_that_of_the_command_line(self):
+    def test_list_in_configuration_equals_command_line(self):
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {source: [f10.png, f1.png], reference: [t_f10.png, t_f1.png]}\n")
         given = self.result(self.ENGINE, "given", "--in", "f10.png; f1.png", "--truth", "t_f10.png;t_f1.png")
@@ -180,7 +180,7 @@ class Images(SequenceTest):
         again = self.result(self.ENGINE, "again", "--config", "given/manifest.json")
         self.assertEqual(given["work"], again["work"])
 
-    def test_rejects_what_is_no_sequence(self):
+    def test_rejects_invalid_sequences(self):
         write_png(self.path("small.png"), [[0] * 16] * 16)
         for says, *arguments in (
                 ("no file matches 'g*.png'", "--in", "g*.png"),
@@ -204,8 +204,8 @@ class Meshes(SequenceTest):
     EYES = ("0.4,0.5,2.5", "0.5,0.5,2.5")
 
     def check_engine(self, engine, *arguments, drawn=""):
-        """Two meshes, and two cameras on one mesh; both in the same words for every engine that draws. `drawn`: the map
-        that has a value where something is drawn, if the others do not count."""
+        """Two meshes, and two cameras on one mesh; the messages are the same for every engine that draws. `drawn`:
+        the map whose value is above zero in drawn pixels, if the others do not count."""
         for i in range(2):
             self.write_box(f"m{i}.obj", 0.03 * i)
         settings = [f"scene.eye={eye}" for eye in self.EYES]
@@ -229,19 +229,19 @@ class Meshes(SequenceTest):
                            *([read_png(self.path(f"{kind}{i}/{name}.png")) for i in range(2)]
                              for name in ("before", "reference")), masks or None)
 
-    def test_every_engine(self):
+    def test_mesh_sequences_of_every_engine(self):
         for engine, given in trials("sequence_of_meshes").items():
             for arguments in given["runs"]:
                 with self.subTest(engine=engine, arguments=arguments):
                     self.check_engine(engine, *arguments, drawn=given.get("drawn", ""))
 
-    def test_a_mesh_is_known_by_its_extension_in_capitals_too(self):
+    def test_mesh_extension_may_be_in_capitals(self):
         self.write_box("BOX.OBJ", 0)
         for engine in trials("moving_camera"):
             with self.subTest(engine):
                 self.deburr(engine, "--in", "BOX.OBJ", *self.SIZE, "--out", engine)
 
-    def test_a_moving_camera_moves_in_every_engine(self):
+    def test_camera_moves_in_every_engine(self):
         scenes = trials("moving_camera")
         self.assertEqual(set(scenes), set(trials("sequence_of_meshes")) | set(trials("sequence_of_images")))
         for engine, source in scenes.items():
@@ -252,7 +252,7 @@ class Meshes(SequenceTest):
                 still = self.result(engine, engine, "--scene", source, *self.SIZE)
                 self.assertNotIn("flicker", still["work"])
 
-    def test_a_trace_of_fragments_is_one_frame(self):
+    def test_fragment_trace_is_one_frame(self):
         self.write_box("m0.obj", 0)
         self.write_box("m1.obj", 1)
         self.result("texture", "first", "--in", "m0.obj", *self.SIZE, "--fragment-trace", "text")

@@ -1,11 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Sweeps on a Slurm of two nodes that this test starts on this machine and stops again: an array, a
-killed task, a killed node, resume, and errors; and a regression. Needs root,
-Debian's slurm-wlm and munge; no systemd.
+"""Sweeps and a regression on a Slurm cluster of two nodes that this test starts and stops on this machine: an array,
+a killed task, a killed node, resume, and errors. Needs root, Debian's slurm-wlm and munge; no systemd.
 
-usage: slurm_test.py DEBURR
-"""
+usage: slurm_test.py DEBURR"""
 import glob
 import json
 import os
@@ -37,7 +35,7 @@ PORT = 17000 + os.getpid() % 900 * 10
 
 
 class Cluster:
-    """munged, slurmctld and two slurmd, in the foreground, in a directory of their own."""
+    """munged, slurmctld and two slurmd, in the foreground, in their own directory."""
 
     def __init__(self, directory):
         self.directory = directory
@@ -99,7 +97,7 @@ PartitionName=test Nodes=n1,n2 Default=YES MaxTime=INFINITE State=UP
         self.start("slurmd", "-D", "-N", node, "-f", self.conf, label=node)
 
     def kill_node(self, node):
-        """As a machine that loses its power: the daemon, and the tasks it had."""
+        """Like a power failure: kills the daemon and its tasks."""
         self.processes[node].kill()
         self.processes[node].wait()
         for name in os.listdir("/proc"):
@@ -152,7 +150,7 @@ def setUpModule():
 
 
 class OnCluster:
-    """What tests of one cluster have in common; `write` and `directory` are theirs."""
+    """Common part of the tests of one cluster; subclasses have `write` and `directory`."""
 
     def profile(self, **more):
         settings = {"conf": self.cluster.conf, "partition": "test", "time": '"00:10:00"', "cpus": 1,
@@ -191,7 +189,7 @@ class Slurm(OnCluster, unittest.TestCase):
         return sweep_test.results_in(self.directory)
 
     def check_complete(self, kept):
-        """All is there, what was there before was not run again, and it is what a local run gives."""
+        """All results exist, earlier results were not run again, and they equal those of a local run."""
         after = self.results()
         self.assertEqual(len(after), POINTS)
         self.assertEqual({name: after[name] for name in kept}, kept)
@@ -202,7 +200,7 @@ class Slurm(OnCluster, unittest.TestCase):
             del content["host"]
             self.assertEqual(content, after[os.path.basename(os.path.dirname(path))][1])
 
-    def test_array(self):
+    def test_array_runs_all_points(self):
         job = self.submit()
         self.assertIn(f"job {job}", self.sweep("status"))
         self.assertIn(f"job {job} still has", self.sweep("run", code=5))
@@ -211,7 +209,7 @@ class Slurm(OnCluster, unittest.TestCase):
         self.check_complete({})
         self.assertIn("(0 in this run)", self.sweep("run", "--slurm", "profile.yaml"))
 
-    def test_killed_task(self):
+    def test_killed_task_is_reported_and_resumed(self):
         job = self.submit()
         self.cluster.wait_for(lambda: self.done() >= 1, "a point")
         self.cluster.ask("scancel", "--signal=KILL", "--full", f"{job}_0")
@@ -222,7 +220,7 @@ class Slurm(OnCluster, unittest.TestCase):
         self.wait_until_over(self.submit())
         self.check_complete(kept)
 
-    def test_killed_node(self):
+    def test_killed_node_requeues_its_points(self):
         job = self.submit()
         self.cluster.wait_for(lambda: self.done() >= 1, "a point")
         self.cluster.kill_node("n2")
@@ -231,7 +229,7 @@ class Slurm(OnCluster, unittest.TestCase):
                               "the node to be missed")
         self.cluster.start_node("n2")
         self.cluster.ask("scontrol", "update", "NodeName=n2", "State=RESUME")
-        # What was on it is queued again, after a while of Slurm's own choice.
+        # Its tasks are queued again, after a delay chosen by Slurm.
         for row in self.cluster.ask("squeue", "-h", "-r", "-j", job, "-t", "PD", "-o", "%i").split():
             self.cluster.ask("scontrol", "update", f"JobId={row}", "StartTime=now")
         self.wait_until_over(job)
@@ -239,8 +237,8 @@ class Slurm(OnCluster, unittest.TestCase):
             self.wait_until_over(self.submit())
         self.check_complete(kept)
 
-    def test_killed_controller(self):
-        """Tasks go on without it; once it is back, nothing was lost or is run again."""
+    def test_killed_controller_loses_nothing(self):
+        """Tasks continue without it; once it is back, nothing was lost or is run again."""
         self.profile(tasks=2)
         job = self.submit()
         self.cluster.wait_for(lambda: self.done() > 0, "a first point")
@@ -256,7 +254,7 @@ class Slurm(OnCluster, unittest.TestCase):
             self.wait_until_over(self.submit())
         self.check_complete(kept)
 
-    def test_held_and_drained(self):
+    def test_held_and_drained_jobs_are_reported(self):
         self.profile(options="[--hold]")
         job = self.submit()
         self.cluster.ask("scontrol", "update", "NodeName=n1", "State=DRAIN", "Reason=test")
@@ -269,8 +267,8 @@ class Slurm(OnCluster, unittest.TestCase):
         self.wait_until_over(job)
         self.check_complete({})
 
-    def test_search(self):
-        """Each generation is a job that the search waits for; it asks for what a local one does."""
+    def test_search_equals_local_search(self):
+        """Each generation is a job that the search waits for; it requests the same points as a local search."""
         self.write("sweep.yaml", SWEEP.replace("160", "32") +
                    "objectives: {minimise: [cycles, memory_bits]}\n")
         search = [DEBURR, "search", "sweep.yaml", "--runs", "12", "--population", "8"]
@@ -285,7 +283,7 @@ class Slurm(OnCluster, unittest.TestCase):
                 asked.append(file.read())
         self.assertEqual(*asked)
 
-    def test_wrong_profile(self):
+    def test_rejects_wrong_profile(self):
         def rejected(*says, code=2, **settings):
             self.profile(**settings)
             text = self.sweep("run", "--slurm", "profile.yaml", code=code)
@@ -302,7 +300,7 @@ class Slurm(OnCluster, unittest.TestCase):
                 conf="/nonexistent/slurm.conf")
         self.assertLess(time.monotonic() - begin, 10, "clients hang for a minute")
 
-    def test_unreachable(self):
+    def test_unreachable_controller_is_reported(self):
         with open(self.cluster.conf) as file:
             other = file.read().replace(f"SlurmctldPort={PORT}", f"SlurmctldPort={PORT + 9}")
         self.write("other.conf", other)
@@ -312,9 +310,9 @@ class Slurm(OnCluster, unittest.TestCase):
 
 
 class Regress(OnCluster, regress_test.RegressTest):
-    def test_a_fault_is_found_on_nodes(self):
-        """Runs of a killed task are submitted again, and only they; signatures, waves and the page are
-        those of a run on this machine."""
+    def test_fault_is_found_on_nodes(self):
+        """Only runs of a killed task are submitted again; signatures, waves and the page equal those of a run on this
+        machine."""
         self.write("plans/small.yaml",
                    regress_test.TESTPLAN.replace("seeds: 3", "seeds: 40", 1) + regress_test.FAULT)
         self.profile(tasks=2)

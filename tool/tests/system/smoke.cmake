@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Does every engine run with defaults on a small scene, and do whole testplans hold?
+# Every engine runs with defaults on a small scene, and whole testplans pass.
 add_dependencies(deburr_smoke_tests deburr)
 foreach(engine ${DEBURR_ENGINES})
   add_test(NAME smoke_${engine}
@@ -7,7 +7,7 @@ foreach(engine ${DEBURR_ENGINES})
   set_tests_properties(smoke_${engine} PROPERTIES LABELS smoke TIMEOUT 60
                        PASS_REGULAR_EXPRESSION "RESULT: PASS" FAIL_REGULAR_EXPRESSION " 0 cycles")
 endforeach()
-# smoke.yaml in every ctest, and coverage.yaml, which takes a minute, with what takes long.
+# smoke.yaml in every ctest; coverage.yaml, which takes a minute, with the long tests.
 foreach(plan IN ITEMS smoke coverage)
   add_test(NAME ${plan}_testplan
            COMMAND deburr regress tb/testplan/${plan}.yaml run --seed 1 --out ${CMAKE_CURRENT_BINARY_DIR}/${plan}_testplan

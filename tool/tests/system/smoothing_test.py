@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A whole frame with each choice of what smooths it: checked by golden models, quality and figures that belong together;
-its coverage and maps are those of its engines.
+"""A whole frame with each choice of smoothing engines: checked by golden models, quality and consistent figures; its
+coverage and maps are those of its engines.
 
-usage: frame_test.py DEBURR SOURCE
-"""
+usage: smoothing_test.py DEBURR SOURCE"""
 import json
 import os
 import subprocess
@@ -50,12 +49,12 @@ class Smoothing(unittest.TestCase):
         for measure in ("psnr_edge_db", "psnr_silhouette_db"):
             self.assertGreater(quality["geometric"][measure], quality["morphological"][measure] + 1)
             self.assertGreaterEqual(quality["geometric-morphological"][measure], quality["geometric"][measure])
-        # With its own edges the second engine takes the texture for edges.
+        # With its own edges, the second engine takes texture detail for edges.
         own = self.run_frame("--smoothing", "geometric-morphological", "--truth", "--preset", "deburr", "--set",
                              "morphological.edges.source=colour")["quality"]
         self.assertLess(own["psnr_edge_db"], quality["geometric"]["psnr_edge_db"] - 1)
 
-    def test_engines_one_after_the_other_add_up(self):
+    def test_cycles_of_sequential_engines_add_up(self):
         geometric = self.run_frame("--smoothing", "geometric")["work"]
         result = self.run_frame("--smoothing", "geometric-morphological")
         work = result["work"]
@@ -63,14 +62,14 @@ class Smoothing(unittest.TestCase):
         self.assertAlmostEqual(
             result["cycles"], work["texturing_cycles"] + work["drawing_cycles"] + work["smoothing_cycles"], delta=20)
         self.assertLessEqual(work["engine_cycles_bound"], result["cycles"])
-        # A marked pixel makes no edge, so none has a share to lose; with marked it has.
-        self.assertEqual(work["morphological_blender_bypassed_pixels"], 0)
+        # By default a marked pixel makes no edge, so no pixel is bypassed; with bypass = marked some are.
+        self.assertEqual(work["morphological_blender_left_pixels"], 0)
         marked = self.run_frame("--smoothing", "geometric-morphological", "--set", "morphological.bypass=marked")["work"]
-        self.assertGreater(marked["morphological_blender_bypassed_pixels"], 0)
-        # Whoever is marked was blended.
-        self.assertLessEqual(marked["morphological_blender_bypassed_pixels"], work["geometric_resolver_blended_pixels"])
+        self.assertGreater(marked["morphological_blender_left_pixels"], 0)
+        # Every marked pixel was blended by the first engine.
+        self.assertLessEqual(marked["morphological_blender_left_pixels"], work["geometric_resolver_blended_pixels"])
 
-    def test_rules_that_are_given_stay(self):
+    def test_given_settings_are_kept(self):
         def configuration(*given):
             self.run_frame("--smoothing", "geometric-morphological", *given)
             with open(os.path.join(self.out, "manifest.json")) as file:
@@ -84,16 +83,16 @@ class Smoothing(unittest.TestCase):
         given = configuration("--set", "morphological.bypass=beside", "--set", "morphological.edges.source=luma")
         self.assertEqual(given["morphological.bypass"], "beside")
         self.assertEqual(given["morphological.edges.source"], "luma")
-        # A dynamic threshold has no depth beside it.
+        # A dynamic threshold cannot be combined with depth.
         self.assertEqual(configuration("--preset", "smaa-dynamic")["morphological.edges.source"], "luma")
 
-    def test_every_preset_of_either_engine(self):
+    def test_every_preset_of_either_engine_passes(self):
         for edges in ("gpaa", "gpaa-optimised"):
             for smoothing in ("mlaa", "smaa", "smaa-dynamic"):
                 self.run_frame("--smoothing", "geometric-morphological", "--preset", smoothing, "--set",
                                f"geometric.preset={edges}")
 
-    def test_what_does_not_smooth_takes_no_parameters(self):
+    def test_unused_engine_takes_no_parameters(self):
         self.command(2, "--set", "geometric.layout=raster", says="has no geometric engine")
         self.command(2, "--set", "geometric_memory.latency=9", says="has no geometric engine")
         self.command(2, "--smoothing", "geometric", "--preset", "mlaa", says="has no morphological engine")
@@ -108,7 +107,7 @@ class Smoothing(unittest.TestCase):
         for fault, code in (("geometric.drop-line", 1), ("geometric.flip-weight", 1), ("wrong-rule", 1),
                             ("geometric.memory-error", 3), ("geometric.misdecode-rules-layout", 1),
                             ("morphological.misdecode-rules-linear-light", 1), ("misdecode-texture0-mode-layout", 1)):
-            # Of the edges that are left no run is extended or blended here, which a wrong rule would change.
+            # No run of the remaining edges is extended or blended here, so a wrong setting would change nothing.
             marks = ("--set", "morphological.bypass=none") if fault.split(".")[-1] in unmarked else ()
             self.command(code, "--smoothing", "geometric-morphological", "--fault", fault, *marks)
 
@@ -126,7 +125,7 @@ class Coverage(unittest.TestCase):
 class Maps(observers_test.MapSums):
     def test_maps_are_those_of_its_engines(self):
         with tempfile.TemporaryDirectory() as out:
-            # As it is set, what is blended has no edge left.
+            # With these settings, blended pixels have no edge left.
             observers_test.run(out, *observers_test.ENGINES["frame"], "--set", "morphological.bypass=none", "--maps")
             maps, work = self.sums(out)
             self.assertEqual(maps["texture_samples"][0], work["texture_sample_walker_samples"])

@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Sweeps and searches: points are named by what they depend on, run once, survive kill -9, and are
-collected.
+"""Sweeps and searches: the name of a point depends on everything that its result depends on; points run once, survive
+kill -9, and are collected.
 
-usage: sweep_test.py DEBURR [CLASS]
-"""
+usage: sweep_test.py DEBURR [CLASS]"""
 import csv
 import glob
 import json
@@ -34,7 +33,7 @@ objectives: {minimise: [cycles, bits]}
 
 
 def results_in(directory):
-    """Inode and content of every result: what was simulated again has another inode."""
+    """Inode and content of every result: a result that was simulated again has another inode."""
     found = {}
     for path in glob.glob(os.path.join(directory, "out/points/*/*/result.json")):
         with open(path) as file:
@@ -88,7 +87,7 @@ class SweepTest(unittest.TestCase):
 
 
 class Points(SweepTest):
-    def test_plan_run_status_collect(self):
+    def test_plan_run_status_and_collect(self):
         self.write("cache.yaml", SWEEP)
         self.assertIn("12 points over 1 input, 0 of them done", self.run_sweep("cache.yaml", "plan"))
         self.assertIn("12 done (12 in this run), 0 failed", self.run_sweep("cache.yaml", "run", "-j2"))
@@ -109,7 +108,8 @@ class Points(SweepTest):
             self.assertEqual(row["front"], "0" if dominated else "1")
 
     def test_metrics_of_several_keys_and_limits(self):
-        """Expressions by hand from the results; beyond a limit nothing is on the front, also of a search."""
+        """Expressions computed by hand from the results; no point beyond a limit is on the front, including in a
+        search."""
         text = SWEEP.split("metrics:")[0] + """
 metrics:
   hits: work.lookup_hits_percent
@@ -148,8 +148,8 @@ objectives: {minimise: [kib, cycles_a_fragment]}
         self.search("limits.yaml", "--runs", str(POINTS), "--population", "8")
         self.assertEqual({row["point"] for row in self.rows("limits", command="search") if row["front"] == "1"}, front)
 
-    def test_a_front_of_a_few_points_is_printed(self):
-        """Each with its axes and metrics; more are left to the page. Of a search too."""
+    def test_small_front_is_printed(self):
+        """Each point with its axes and metrics; larger fronts are only on the page. The same for a search."""
         text = SWEEP.replace("metrics: {", "metrics: {none: cycles / (work.fragments - work.fragments), ")
         self.write("front.yaml", text)
         self.run_sweep("front.yaml", "run")
@@ -170,8 +170,8 @@ objectives: {minimise: [kib, cycles_a_fragment]}
         said = self.said("front.yaml", "--runs", str(POINTS), "--population", "8", command="search")
         self.assertCountEqual([line for line in said if line.startswith("front ")], lines)
 
-    def test_the_table_without_script(self):
-        """Every point with its values, the front first, and links to what is there."""
+    def test_table_without_script_has_every_point(self):
+        """Every point with its values, the front first, and links to existing files."""
         self.write("cache.yaml", SWEEP + "reports: false\n")
         self.run_sweep("cache.yaml", "run")
         rows = self.rows("cache")
@@ -192,7 +192,7 @@ objectives: {minimise: [kib, cycles_a_fragment]}
         data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
         self.assertFalse(data["reports"], "so the script links no report")
 
-    def test_a_point_is_what_its_command_runs(self):
+    def test_point_equals_a_run_of_its_command(self):
         self.write("cache.yaml", SWEEP)
         self.run_sweep("cache.yaml", "run")
         row = self.rows("cache")[5]
@@ -208,7 +208,7 @@ objectives: {minimise: [kib, cycles_a_fragment]}
         del alone["host"], point["host"]
         self.assertEqual(alone, point)
 
-    def test_nothing_is_run_twice_across_sweeps_too(self):
+    def test_nothing_runs_twice_across_sweeps(self):
         self.write("cache.yaml", SWEEP)
         self.run_sweep("cache.yaml", "run")
         before = self.results()
@@ -238,7 +238,7 @@ constraints: [morphological.lanes == 1 or {source}.width > 24]
             self.assertEqual({row["picture"] for row in rows}, {"small", "wide"})
             self.assertEqual(rows[0]["state"], "done")
 
-    def test_samples(self):
+    def test_samples_are_repeatable(self):
         """A Latin hypercube hits each stratum once; samples are the same every time."""
         text = SWEEP.split("axes:")[0] + """
 axes:
@@ -262,7 +262,7 @@ sample: {SAMPLE: 8, seed: 3}
         self.assertEqual(len(latencies), 8)
         self.assertTrue(all(x <= 40 and x % 2 == 0 for x in latencies), latencies)
 
-    def test_an_axis_is_given_where_it_has_an_effect(self):
+    def test_axis_applies_only_where_it_has_an_effect(self):
         self.write("when.yaml", """
 engine: morphological
 base: {frame: {width: 24, height: 16, reference_samples: 1}, run.images: false}
@@ -287,7 +287,7 @@ axes:
             if given != "-":
                 self.assertEqual(str(manifest["configuration"]["morphological.steps"]), given)
 
-    def test_an_input_that_changes_makes_other_points(self):
+    def test_changed_input_makes_other_points(self):
         triangle = "v 0 0 0\nv {} 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"
         self.write("mesh.obj", triangle.format(1))
         self.write("mesh.yaml", "engine: texture\n"
@@ -303,7 +303,7 @@ axes:
         self.assertEqual({n: e for n, e in self.results().items() if n in first}, first)
 
     def identical_pictures(self):
-        """One colour everywhere is its own reference; a chessboard is not."""
+        """A uniform frame is its own reference; a chessboard is not."""
         for name, pixels in (("flat.pgm", [200] * 64),
                              ("chess.pgm", [255 * ((i + i // 8) % 2) for i in range(64)])):
             with open(os.path.join(self.directory, name), "wb") as file:
@@ -321,7 +321,7 @@ metrics: {psnr: quality.psnr_db, edges: quality.psnr_edge_db, bits: memory_bits.
 objectives: {maximise: [psnr], minimise: [bits]}
 """)
 
-    def test_an_identical_picture_is_the_best_and_not_missing(self):
+    def test_identical_picture_is_best_and_not_missing(self):
         self.identical_pictures()
         self.run_sweep("picture.yaml", "run")
         rows = self.rows("picture")
@@ -334,7 +334,7 @@ objectives: {maximise: [psnr], minimise: [bits]}
             self.assertEqual(quality["identical"]["psnr_db"], flat)
             self.assertEqual(quality["psnr_db"] is None, flat)
             self.assertEqual((row["psnr"] == "inf", point["values"][0] is None), (flat, flat))
-            # It has no edges: no value, and not an identical one.
+            # It has no edges, so no value, and it does not count as identical.
             self.assertEqual(point.get("identical", []), ["psnr"] if flat else [])
             self.assertEqual(row["edges"] == "", flat)
         # The smallest memory with the best picture beats all others.
@@ -342,7 +342,7 @@ objectives: {maximise: [psnr], minimise: [bits]}
         for row in rows:
             best = row["psnr"] == "inf" and int(row["bits"]) == least
             self.assertEqual(row["front"], "1" if best else "0", row)
-        # A search takes it for the best as well, and a comparison for equal to itself.
+        # A search also treats it as the best, and a comparison as equal to itself.
         self.search("picture.yaml", "--runs", "8")
         self.assertEqual({(row["psnr"], int(row["bits"])) for row in
                           self.rows("picture", command="search") if row["front"] == "1"},
@@ -353,10 +353,10 @@ objectives: {maximise: [psnr], minimise: [bits]}
         loose = ("--cycles-percent", "1000", "--throughput-percent", "99")
         self.assertIn("worse: quality.psnr_db, quality.flip, quality.ssim;",
                       self.run_compare(flat, chess, *loose, code=1) + ";")
-        # The edges, that it has no more, are missed; the picture is not.
+        # Its edge quality, which no longer exists, is missing; the picture quality is not.
         self.assertIn("worse: quality.psnr_edge_db,", self.run_compare(chess, flat, *loose, code=1))
 
-    def test_it_says_where_a_metric_has_no_value_and_why(self):
+    def test_missing_metric_values_are_explained(self):
         self.identical_pictures()
         self.write("none.yaml", """
 engine: texture
@@ -420,7 +420,7 @@ objectives: {minimise: [inverse, cycles]}
     def run_compare(self, *arguments, code=0):
         return self.run_sweep(*arguments, code=code, command="compare")
 
-    def test_a_damaged_cache_is_made_again(self):
+    def test_damaged_cache_is_rebuilt(self):
         text = SWEEP.replace("run.images: false", "run.images: false\n  run.reference: true")
         self.write("reference.yaml", text.replace("metrics: {", "metrics: {psnr: quality.psnr_db, "))
         self.run_sweep("reference.yaml", "run")
@@ -459,9 +459,9 @@ SEARCH = SWEEP.replace("bytes: [1024, 2048, 4096]", "bytes: [1024, 2048, 4096, 8
 
 
 class Searched(SweepTest):
-    """48 points, of which a search asks for some."""
+    """48 points, of which a search requests some."""
 
-    def test_results_are_those_of_the_sweep(self):
+    def test_search_results_equal_the_sweep(self):
         self.write("wide.yaml", SEARCH)
         self.assertIn("20 points, 20 done (20 in this run)",
                       self.search("wide.yaml", "--runs", "20", "-j2"))
@@ -477,7 +477,7 @@ class Searched(SweepTest):
         self.assertEqual(self.rows("wide", "search"), found, "the same points in the same order")
         self.assertIn("48 done (28 in this run)", self.run_sweep("wide.yaml", "run", "-j2"))
         self.assertEqual({n: e for n, e in self.results().items() if n in before}, before)
-        # A search of all points finds the whole front; one of less stays on its own points.
+        # A search of all points finds the whole front; a smaller one stays on its own points.
         everything = self.rows("wide")
         self.assertIn("48 points, 48 done (0 in this run)",
                       self.search("wide.yaml", "--runs", "90", "--population", "8"))
@@ -489,7 +489,7 @@ class Searched(SweepTest):
         self.assertEqual({r["point"]: (r["cycles"], r["bits"]) for r in found},
                          {r["point"]: values[r["point"]] for r in found})
 
-    def test_it_depends_on_the_seed_alone(self):
+    def test_search_depends_only_on_the_seed(self):
         self.write("wide.yaml", SEARCH)
         asked = {}
         for seed, out in (("1", "a"), ("1", "b"), ("2", "a")):
@@ -500,7 +500,7 @@ class Searched(SweepTest):
         self.assertEqual(asked["1a"], asked["1b"])
         self.assertNotEqual(asked["1a"], asked["2a"])
 
-    def test_constraints_and_fronts_of_their_own(self):
+    def test_constraints_and_separate_fronts(self):
         self.write("wide.yaml", SEARCH.replace(
             "minimise: [cycles, bits]", "minimise: [cycles, bits], for_each: [memory.latency]")
             + "constraints: [texture.cache.ways == 1 or texture.cache.bytes > 1024]\n")
@@ -520,7 +520,7 @@ class Searched(SweepTest):
         self.assertEqual(len(states), 16)
         self.assertIn("failed", states)
 
-    def test_stopped_and_gone_on_with(self):
+    def test_stopped_search_resumes(self):
         self.write("wide.yaml", SEARCH.replace("width: 24, height: 24", "width: 160, height: 160"))
         for victim in (signal.SIGTERM, signal.SIGKILL):
             before = len(self.results())
@@ -530,7 +530,7 @@ class Searched(SweepTest):
                 time.sleep(0.02)
             process.send_signal(victim)
             self.assertEqual(process.wait(), 130 if victim == signal.SIGTERM else -victim)
-            time.sleep(1)  # the workers go with it
+            time.sleep(1)  # the workers end with it
         kept = self.results()
         self.assertGreaterEqual(len(kept), 6)
         self.assertIn("points done", self.search("wide.yaml", "status"))
@@ -546,14 +546,14 @@ class Searched(SweepTest):
 
 
 class Failing(SweepTest):
-    """A failure stays one, whoever else was at the point and whoever died over it."""
+    """A failed point stays failed, whichever other process ran the point or was killed while running it."""
 
     def setUp(self):
         super().setUp()
         self.faulty = SWEEP.replace("  run.images: false", "  run: {images: false, fault: flip-bit}")
         self.write("faulty.yaml", self.faulty)
 
-    def test_killed_before_it_could_say_why(self):
+    def test_failure_without_reason_is_run_again(self):
         self.assertIn("0 done (0 in this run), 12 failed", self.run_sweep("faulty.yaml", "run", "-j2", code=1))
         reasons = glob.glob(os.path.join(self.directory, "out/points/*/*/failure.json"))
         self.assertEqual(len(reasons), POINTS)
@@ -564,7 +564,7 @@ class Failing(SweepTest):
         for reason in reasons:
             self.assertTrue(os.path.exists(reason))
 
-    def test_the_command_that_shows_a_failure_again_runs_that_point(self):
+    def test_repro_command_runs_the_failed_point(self):
         for command in ("sweep", "search"):
             done = subprocess.run([DEBURR, command, "faulty.yaml", "run", "-j2"], cwd=self.directory, text=True,
                                   capture_output=True)
@@ -581,7 +581,7 @@ class Failing(SweepTest):
             for key in ("configuration", "golden"):
                 self.assertEqual(alone[key], point[key])
 
-    def test_two_at_the_same_points(self):
+    def test_two_sweeps_share_points(self):
         self.write("other.yaml", self.faulty)
         for process in [self.start_sweep(name, "-j2") for name in ("faulty.yaml", "other.yaml")]:
             self.assertEqual(process.wait(), 1)
@@ -589,11 +589,11 @@ class Failing(SweepTest):
 
 
 class Killed(SweepTest):
-    """kill -9 of a point, a worker, Ninja and the command: nothing is lost, no half point counts."""
+    """kill -9 of a point, a worker, Ninja and the command: nothing is lost, no partial point counts."""
 
     def setUp(self):
         super().setUp()
-        # Points of half a second each, so that every victim is met alive.
+        # Points of half a second each, so that every process is still alive when it is killed.
         self.write("slow.yaml", SWEEP.replace("width: 48, height: 48", "width: 160, height: 160"))
 
     def victims(self, process, name):
@@ -615,7 +615,7 @@ class Killed(SweepTest):
         self.fail(f"no living {name}")
 
     def check_resumed(self, kept):
-        """A further run does what is missing, and only that."""
+        """A further run executes only the missing points."""
         self.run_sweep("slow.yaml", "run", "-j2")
         after = self.results()
         self.assertEqual(len(after), POINTS)
@@ -640,24 +640,24 @@ class Killed(SweepTest):
                 pass
         return process
 
-    def test_a_point(self):
+    def test_killed_point_loses_nothing(self):
         process = self.kill("point", "-j1")
         self.assertEqual(process.wait(), 1)
         self.assertIn("11 of 12 points done", self.run_sweep("slow.yaml", "status"))
         self.check_resumed(self.results())
 
-    def test_a_worker(self):
+    def test_killed_worker_loses_nothing(self):
         process = self.kill("worker", "-j1")
         self.assertIn(process.wait(), (0, 3))
         self.check_resumed(self.results())
 
-    def test_ninja(self):
+    def test_killed_ninja_loses_nothing(self):
         process = self.kill("ninja", "-j2")
         self.assertEqual(process.wait(), 3)
-        time.sleep(1)  # the workers go with it
+        time.sleep(1)  # the workers end with it
         self.check_resumed(self.results())
 
-    def test_the_command(self):
+    def test_killed_command_loses_nothing(self):
         process = self.start_sweep("slow.yaml", "-j2")
         self.victims(process, "point")
         process.kill()
@@ -667,7 +667,7 @@ class Killed(SweepTest):
         self.assertLess(len(kept), POINTS)
         self.check_resumed(kept)
 
-    def test_interrupted(self):
+    def test_interrupted_run_loses_nothing(self):
         process = self.start_sweep("slow.yaml", "-j2")
         self.victims(process, "point")
         process.send_signal(signal.SIGTERM)
@@ -678,7 +678,7 @@ class Killed(SweepTest):
             self.assertNotIn("interrupted", content)
         self.check_resumed(kept)
 
-    def test_a_second_run_is_rejected(self):
+    def test_second_run_is_rejected(self):
         process = self.start_sweep("slow.yaml", "-j1")
         self.victims(process, "point")
         self.assertIn("is being run by another process", self.run_sweep("slow.yaml", "run", code=5))

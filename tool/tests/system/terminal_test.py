@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What `deburr` says on a terminal and to programs, and what completes its command line.
+"""Output of `deburr` on a terminal and to programs, and completion of its command line.
 
-usage: terminal_test.py DEBURR [CLASS]
-"""
+usage: terminal_test.py DEBURR [CLASS]"""
 import fcntl
 import json
 import os
@@ -66,7 +65,7 @@ class Terminal(unittest.TestCase):
         with open(os.path.join(self.out, "result.json")) as file:
             return json.load(file)
 
-    def test_it_ends_with_rate_bound_bottleneck_and_quality(self):
+    def test_run_ends_with_rate_bound_bottleneck_and_quality(self):
         lines = self.run_texture("--truth").stdout.splitlines()
         result = self.result()
         rate = result["throughput"]
@@ -90,7 +89,7 @@ class Terminal(unittest.TestCase):
         self.assertEqual(len(lines), 6)
         self.assertEqual(len(self.run_texture().stdout.splitlines()), 5, "no reference, no quality")
 
-    def test_it_says_what_was_changed(self):
+    def test_run_lists_changed_parameters(self):
         frame = os.path.join(os.path.dirname(self.out), "frame.png")
         self.run_texture()
         os.rename(os.path.join(self.out, "after.png"), frame)
@@ -106,21 +105,21 @@ class Terminal(unittest.TestCase):
             self.assertEqual(lines[-2], f"changed     {change['over_2_percent']:.2f} % of the pixels by "
                              f"more than 2 codes, {change['over_16_percent']:.2f} % by more than 16"
                              f"{right}; {change['psnr_db']:.2f} dB to what went in")
-            if reference:  # the frame is its own reference: all of it was right
+            if reference:  # the frame is its own reference: every pixel was right
                 self.assertEqual(change["right_over_2_percent"], change["over_2_percent"])
                 quality = self.result()["quality"]
                 self.assertEqual(quality["flip_before"], 0)
                 self.assertIn(f", FLIP {quality['flip']:.4f} (+{quality['flip']:.4f}), SSIM "
                               f"{quality['ssim']:.4f} (", lines[-3])
 
-    def test_quiet(self):
+    def test_quiet_prints_only_the_result(self):
         done = self.run_texture("--quiet", "--truth")
         self.assertRegex(done.stdout, r"\ARESULT: PASS [^\n]*\n\Z")
         self.assertEqual(done.stderr, "")
         failed = self.run_texture("--quiet", "--fault", "flip-bit", code=1)
         self.assertIn("mismatch", failed.stderr)
 
-    def test_json(self):
+    def test_json_prints_one_object(self):
         done = self.run_texture("--json")
         answer = json.loads(done.stdout)
         self.assertEqual(answer["exit_code"], 0)
@@ -137,7 +136,7 @@ class Terminal(unittest.TestCase):
         typed_wrong = json.loads(self.run_texture("--json", "--colour", "red", code=2).stdout)
         self.assertIn("--colour", typed_wrong["outcome"])
 
-    def test_no_images(self):
+    def test_no_images_writes_none(self):
         self.run_texture()
         self.run_texture("--no-images")
         self.assertEqual(sorted(os.listdir(self.out)),
@@ -145,8 +144,8 @@ class Terminal(unittest.TestCase):
         with open(os.path.join(self.out, "report.html")) as file:
             self.assertNotIn("data:image/png;base64", file.read())
 
-    def test_two_seeds(self):
-        """The stall seed moves cycles and no pixel; the seed changes what goes in."""
+    def test_seeds_of_stalls_and_input_are_separate(self):
+        """The stall seed changes cycles and no pixel; the seed changes the input."""
         def run(*arguments):
             self.run_texture("--stalls", "0.2", "--set", "scene.texture=noise", *arguments)
             with open(os.path.join(self.out, "after.png"), "rb") as file:
@@ -165,7 +164,7 @@ class Terminal(unittest.TestCase):
 
 
 class Many(unittest.TestCase):
-    """A place with a sweep and a testplan of twelve points each."""
+    """A folder with a sweep and a testplan of twelve points each."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_terminal_")
@@ -178,7 +177,7 @@ class Many(unittest.TestCase):
 
 
 class LastLine(Many):
-    """It names the command that was given, and what it worked on."""
+    """It names the given command and its input."""
 
     def last_line(self, *arguments, code=0):
         done = subprocess.run([DEBURR, *arguments], cwd=self.directory, text=True,
@@ -186,7 +185,7 @@ class LastLine(Many):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout.splitlines()[-1]
 
-    def test_of_every_command(self):
+    def test_last_line_of_every_command(self):
         small = ("--size", "32x32", "--no-images")
         commands = [(("run", engine, *small), f"PASS {engine}: ")
                     for engine in engines()]
@@ -204,7 +203,7 @@ class LastLine(Many):
             line = self.last_line(*arguments)
             self.assertTrue(line.startswith("RESULT: " + begin), f"{arguments}: {line}")
 
-    def test_of_what_fails(self):
+    def test_last_line_of_failures(self):
         with open(os.path.join(self.directory, "cache.yaml"), "a") as file:
             file.write("retry: no such key\n")
         for command in ("sweep", "search", "regress"):
@@ -214,7 +213,7 @@ class LastLine(Many):
                                         code=1), "^RESULT: FAIL mismatch: .*\\(texture: ")
         self.assertRegex(self.last_line("compare", "none", "none", code=5), "^RESULT: FAIL file: ")
 
-    def test_of_an_interrupted_sweep(self):
+    def test_last_line_of_interrupted_sweep(self):
         for command, name in (("sweep", "sweep cache"), ("search", "search cache")):
             process = subprocess.Popen([DEBURR, command, "cache.yaml", "run", "--quiet", "-j1"],
                                        cwd=self.directory, text=True, stdout=subprocess.PIPE,
@@ -227,14 +226,14 @@ class LastLine(Many):
             out, _ = process.communicate(timeout=300)
             self.assertRegex(out.splitlines()[-1], f"^RESULT: (INTERRUPTED|PASS) {name}: ")
 
-    def test_what_only_prints_has_none(self):
+    def test_printing_commands_have_no_last_line(self):
         for arguments in (["params", "texture"], ["completion", "bash"], ["completion", "zsh"], ["completion", "fish"], ["help"],
                           ["--version"]):
             self.assertNotIn("RESULT:", self.last_line(*arguments))
 
 
 class Help(unittest.TestCase):
-    """Every page of help has examples, and `help` shows them all."""
+    """Every page of help has examples, and `help` shows all pages."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="deburr_help_")
@@ -256,13 +255,13 @@ class Help(unittest.TestCase):
         self.assertGreater(len(lines), 0)
         return [line.strip() for line in lines]
 
-    def test_help_is_what_the_option_says(self):
+    def test_help_command_equals_the_option(self):
         for page in self.pages():
             self.assertEqual(self.said("help", *page), self.said(*page, "--help"))
         self.assertIn("no 'deburr rum': did you mean 'run'?, known are run, ", self.said("help", "rum", code=2))
         self.assertIn(f"no 'deburr run {engines()[0]} x'", self.said("help", "run", engines()[0], "x", code=2))
 
-    def test_examples(self):
+    def test_every_command_has_examples(self):
         for page in self.pages():
             for line in self.examples(page):
                 self.assertTrue(line.startswith(" ".join(("deburr", *page))), f"{page}: {line}")
@@ -271,8 +270,8 @@ class Help(unittest.TestCase):
                 for option in re.findall(r" (--[a-z-]+)", line):
                     self.assertIn(option, known, line)
 
-    def test_examples_of_runs(self):
-        """What they read is there, and each is taken as it is."""
+    def test_examples_of_runs_are_valid(self):
+        """The files they read exist, and each is accepted as printed."""
         with open(os.path.join(self.directory, "mesh.obj"), "w") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         self.said("run", engines()[0], "--size", "32x32", "--out", "picture")
@@ -298,7 +297,7 @@ class Documents(Many):
         with open(os.path.join(self.directory, place, "collected.json")) as file:
             return json.load(file)
 
-    def test_sweep(self):
+    def test_sweep_prints_one_document(self):
         with open(os.path.join(self.directory, "cache.yaml"), "a") as file:
             file.write("constraints: ['texture.cache.bytes < 4096']\n")
         planned, said = self.answer("sweep", "cache.yaml", "plan")
@@ -314,7 +313,7 @@ class Documents(Many):
         collected, _ = self.answer("sweep", "cache.yaml", "collect")
         self.assertEqual(collected["result"], self.collected("out/sweeps/cache"))
 
-    def test_a_sweep_that_fails(self):
+    def test_failed_sweep_prints_one_document(self):
         with open(os.path.join(self.directory, "faulty.yaml"), "w") as file:
             file.write(SWEEP.replace("run.images: false", "run: {images: false, fault: flip-bit}"))
         for action, code in (("run", 1), ("status", 0)):
@@ -329,12 +328,12 @@ class Documents(Many):
                 self.assertEqual(answer["repro"].split(" ", 1)[1], failure["command"].split(" ", 1)[1])
         self.assertEqual(self.answer("sweep", "none.yaml", "run", code=5)[0]["outcome"][:10], "FAIL file:")
 
-    def test_search(self):
+    def test_search_prints_one_document(self):
         answer, _ = self.answer("search", "cache.yaml", "--runs", "8")
         self.assertEqual(answer["counts"]["done"], 8)
         self.assertEqual(answer["result"], self.collected("out/searches/cache"))
 
-    def test_regress(self):
+    def test_regression_prints_one_document(self):
         self.assertEqual(self.answer("regress", "small.yaml", "plan", "--seed", "3")[0]["counts"]["points"], 12)
         for arguments in (("run", "--seed", "3"), ("collect", "--seed", "3"), ("rerun", "--failed")):
             answer, said = self.answer("regress", "small.yaml", *arguments)
@@ -343,7 +342,7 @@ class Documents(Many):
         self.assertIn("rerun       0 of 0", said)
         self.assertEqual(self.answer("regress", "small.yaml", "status", "--seed", "3")[0]["counts"]["done"], 12)
 
-    def test_params(self):
+    def test_params_prints_one_document(self):
         answer, _ = self.answer("params")
         engine = engines()[0]
         modes = [p for p in answer["parameters"] if p["name"] == "sampler.mode"]
@@ -359,7 +358,7 @@ class Documents(Many):
 
 
 class Screen:
-    """What a terminal of so many columns shows: its rows, and how often one was begun by itself."""
+    """Emulates a terminal of this width: its rows, and how often the terminal itself wrapped a line."""
 
     def __init__(self, columns):
         self.columns, self.rows, self.column = columns, [""], 0
@@ -385,7 +384,7 @@ class Screen:
 
 
 def pieces(terminal):
-    """What comes to a terminal until its other end is closed."""
+    """Everything written to a terminal until its other end is closed."""
     try:
         while data := os.read(terminal, 65536):
             yield data
@@ -400,7 +399,7 @@ class Bar(Many):
         fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", 24 if columns else 0, columns, 0, 0))
 
     def run_on(self, columns, *arguments, variables=None, resized=None):
-        """Everything that came to a terminal of so many columns; `resized` after the first bytes."""
+        """Everything written to a terminal of this width; `resized` to another width after the first bytes."""
         mine, its = pty.openpty()
         self.resize(its, columns)
         environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"} | (variables or {})
@@ -422,13 +421,13 @@ class Bar(Many):
                 ("regression", ("regress", "small.yaml", "run", "-j1", "--seed", "3"), 12)]
 
     def check(self, columns, label, arguments, points):
-        # As wide as the terminal says: a tty makes \r\n of a line break.
+        # As wide as the terminal reports: a tty turns a line break into \r\n.
         text = "".join(self.run_on(columns, *arguments, "--out", f"out_{label}_{columns}")).replace("\r\n", "\n")
         screen = Screen(columns)
         screen.show(text)
         self.assertEqual(screen.wraps, 0, screen.rows)
         self.assertGreater(len(screen.redraws), 2, text)
-        # The bar, and the row behind it; on a slow machine the planning has a bar, too.
+        # The bar, and the row after it; on a slow machine planning also has a bar.
         rows = [row for row in screen.rows if "planning" not in row]
         self.assertEqual((len(rows), rows[1]), (2, ""), screen.rows)
         last = rows[0]
@@ -438,26 +437,26 @@ class Bar(Many):
         if columns >= 80 and label != "search":
             self.assertTrue(last.endswith(f"0 queued, 0 running, {points} passed, 0 failed"), last)
 
-    def test_40_columns(self):
+    def test_bar_fits_40_columns(self):
         for command in self.COMMANDS:
             self.check(40, *command)
 
-    def test_80_columns(self):
+    def test_bar_fits_80_columns(self):
         for command in self.COMMANDS:
             self.check(80, *command)
 
-    def test_120_columns(self):
+    def test_bar_fits_120_columns(self):
         for command in self.COMMANDS:
             self.check(120, *command)
 
-    def test_a_run_waits_in_one_row(self):
+    def test_waiting_run_uses_one_row(self):
         screen = Screen(20)
         screen.show("".join(self.run_on(20, "run", "texture", "--scene", "object", "--size",
                                         "200x150", "--truth")).replace("\r\n", "\n"))
         self.assertEqual(screen.wraps, 0, screen.rows)
         self.assertIn("rendering the reference", screen.rows)
 
-    def test_what_is_said_after_a_search_begins_a_row(self):
+    def test_message_after_search_starts_a_row(self):
         mine, its = pty.openpty()
         self.resize(its, 120)
         process = subprocess.Popen([DEBURR, "search", "cache.yaml", "run", "-j1", "--runs", "8"], cwd=self.directory,
@@ -485,12 +484,12 @@ class Bar(Many):
     def widths(self, parts):
         return [len(line.rstrip("\r\n")) for line in re.split(r"\r(?!\n)", "".join(parts).replace("\033[K", ""))]
 
-    def test_a_terminal_that_becomes_narrow(self):
+    def test_bar_follows_narrower_terminal(self):
         widths = self.widths(self.run_on(120, *self.COMMANDS[0][1], resized=40))
         self.assertGreater(widths[1], 80)
         self.assertLess(max(widths[-3:]), 40)
 
-    def test_a_terminal_that_does_not_say(self):
+    def test_bar_without_reported_width(self):
         for number, (variables, most) in enumerate((({}, 79), ({"COLUMNS": "50"}, 49),
                                                     ({"COLUMNS": "wide"}, 79), ({"COLUMNS": "0"}, 79))):
             widths = self.widths(self.run_on(0, *self.COMMANDS[0][1], "--out", f"out_{number}",
@@ -500,10 +499,10 @@ class Bar(Many):
 
 
 class Lines(Many):
-    """What is said in columns fits a terminal; through a pipe it is the same words, unbroken."""
+    """Tables fit the width of a terminal; through a pipe the same words are unbroken."""
 
     def on(self, columns, *arguments, codes=(0,)):
-        """Standard output on a terminal of so many columns; 0: through a pipe."""
+        """Standard output on a terminal of this width; 0: through a pipe."""
         command = [DEBURR, *arguments]
         if not columns:
             done = subprocess.run(command, cwd=self.directory, text=True, stdout=subprocess.PIPE,
@@ -521,12 +520,12 @@ class Lines(Many):
         return text.replace("\r\n", "\n")
 
     def check(self, *arguments, codes=(0,), table=False):
-        """`table`: a row may become several, with names of columns in each."""
+        """`table`: a row may be split into several, each repeating the column names."""
         plain = self.on(0, *arguments, codes=codes)
         for columns in (40, 80, 120):
             text = self.on(columns, *arguments, codes=codes)
             for line in text.splitlines():
-                # Scripts read the last two, and an example is there to be copied; a word stays whole.
+                # Scripts read the last two lines, and an example must be copyable; words are never split.
                 if len(line) < columns or line.startswith(("RESULT: ", "REPRO: ", "  deburr ")):
                     continue
                 self.assertEqual(len(line.split()), 1, f"{arguments} at {columns}: {line}")
@@ -535,12 +534,12 @@ class Lines(Many):
             else:
                 self.assertEqual(text.split(), plain.split(), arguments)
 
-    def test_help_and_parameters(self):
+    def test_help_and_parameters_fit(self):
         for arguments in (("--help",), ("help", "run", engines()[0]), ("run", engines()[0], "--help"), ("regress", "--help"),
                           ("params",), ("params", "memory")):
             self.check(*arguments)
 
-    def test_runs(self):
+    def test_run_output_fits(self):
         small = ("--size", "32x32", "--truth", "--no-images")
         for engine in engines():
             self.check("run", engine, *(small if engine == "texture" else small[:2] + small[3:]), "--out", engine)
@@ -550,14 +549,14 @@ class Lines(Many):
         for more in ((), ("--all",)):
             self.check("compare", "a", "b", *more, codes=(0, 1), table=True)
 
-    def test_points(self):
+    def test_sweep_output_fits(self):
         text = SWEEP.replace("metrics: {", "metrics: {one: cycles / checks.mismatches, ")
         for name, fault in (("cache", "false"), ("faulty", "false, fault: flip-bit")):
             with open(os.path.join(self.directory, f"{name}.yaml"), "w") as file:
                 file.write(text.replace("run.images: false", f"run: {{images: {fault}}}") +
                            "constraints: ['texture.cache.bytes < 4096']\n")
             for action in ("plan", "run", "status", "collect"):
-                if action == "run":  # what was done in this run is another number the second time
+                if action == "run":  # the number of points run differs the second time
                     self.on(0, "sweep", f"{name}.yaml", "run", codes=(0, 1))
                 self.check("sweep", f"{name}.yaml", action, codes=(0, 1))
         self.check("compare", "out/sweeps/cache", "out/sweeps/cache", table=True)
@@ -567,7 +566,7 @@ class Lines(Many):
 
 
 class Completion(unittest.TestCase):
-    """As bash does it: `deburr completion bash` is sourced, and asked. The other shells ask the same below."""
+    """Completion in bash: `deburr completion bash` is sourced and queried. The classes below test the other shells."""
 
     def complete(self, *words):
         script = (f'source <("{DEBURR}" completion bash) || exit 9\n'
@@ -580,24 +579,24 @@ class Completion(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return done.stdout.split()
 
-    # The words of `--set NAME=VALUE` as the shell counts them.
+    # The words of `--set NAME=VALUE` as the shell splits them.
     def setting(self, name, value):
         return (name, "=", value) if value else (name, "=")
 
-    # What it makes of a value of a setting.
+    # The completion of a setting's value.
     def value(self, name, value):
         return value
 
-    FILES = []  # where the shell itself looks for files
+    FILES = []  # where the shell itself completes file names
 
-    def test_commands(self):
+    def test_completes_commands(self):
         self.assertEqual(self.complete("pa"), ["papers", "params"])
         self.assertEqual(set(self.complete("run", "")) - {"--help"},
                          set(engines()))
         self.assertEqual(self.complete("help", "swe"), ["sweep"])
         self.assertEqual(self.complete("help", "run", engines()[0][:3]), [engines()[0]])
 
-    def test_actions(self):
+    def test_completes_actions(self):
         for command, actions in (("sweep", ["collect", "plan", "run", "status"]), ("search", ["collect", "run", "status"]),
                                  ("regress", ["collect", "plan", "rerun", "run", "status"])):
             self.assertEqual(sorted(self.complete(command, "a.yaml", "")), actions)
@@ -606,30 +605,30 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.complete("sweep", ""), self.FILES)
         self.assertEqual(self.complete("sweep", "a.yaml", "run", "--re"), ["--retry"])
 
-    def test_units(self):
+    def test_completes_units(self):
         self.assertEqual(self.complete("params", "mem"), ["memory"])
         self.assertEqual(self.complete("params", "--markdown", "reg"), ["registers"])
 
-    def test_faults(self):
+    def test_completes_faults(self):
         self.assertEqual(self.complete("run", "texture", "--fault", "flip-b"), ["flip-bit"])
         self.assertIn("texture.flip-bit", self.complete("run", "frame", "--fault", "texture.flip"))
         self.assertEqual(self.complete("run", "texture", "--set", *self.setting("run.fault", "flip-b")),
                          [self.value("run.fault", "flip-bit")])
 
-    def test_options(self):
+    def test_completes_options(self):
         self.assertEqual(self.complete("run", "texture", "--trace-f"), ["--trace-from"])
         self.assertEqual(self.complete("run", "morphological", "--size", "8x8", "--pre"),
                          ["--preset"])
         self.assertEqual(self.complete("run", "texture", "--smoo"), [])
 
-    def test_values(self):
+    def test_completes_values(self):
         self.assertIn("linear_mipmap_linear", self.complete("run", "texture", "--mode", "linear"))
         self.assertEqual(self.complete("run", "texture", "--mode", "tri"), ["trilinear"])
         self.assertEqual(self.complete("run", "frame", "--preset", "mlaa-"), ["mlaa-slope"])
         self.assertEqual(self.complete("completion", "b"), ["bash"])
         self.assertEqual(self.complete("run", "texture", "--in", ""), self.FILES)
 
-    def test_parameters(self):
+    def test_completes_parameters(self):
         self.assertEqual(self.complete("run", "texture", "--set", "texture.cache.by"),
                          ["texture.cache.bytes="])
         self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "li")),
@@ -637,7 +636,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.complete("run", "texture", "--set", *self.setting("sampler.layout", "")),
                          [self.value("sampler.layout", value) for value in ("linear", "tiled")])
 
-    def test_every_parameter_and_option_is_there(self):
+    def test_completes_every_parameter_and_option(self):
         known = set(self.complete("run", "texture", "--set", ""))
         page = subprocess.run([DEBURR, "run", "texture", "--show-config"], text=True,
                               capture_output=True).stdout
@@ -660,7 +659,7 @@ class OneWord:
 
 @unittest.skipUnless(shutil.which("zsh"), "no zsh")
 class CompletionZsh(OneWord, Completion):
-    """As zsh does it, whose own functions only say what they were given."""
+    """Completion in zsh, with stubs that record the arguments of its own functions."""
 
     FILES = ["files"]
 
@@ -679,7 +678,7 @@ class CompletionZsh(OneWord, Completion):
 
 @unittest.skipUnless(shutil.which("zsh"), "no zsh (Debian package zsh)")
 class TypedZsh(unittest.TestCase):
-    """As somebody types it into zsh, with zsh's own completion: Tab completes what stands there."""
+    """Typed into a real zsh with its own completion: Tab completes the current word."""
 
     SET_UP = ("PS1='READY''> '; unsetopt beep; bindkey -e; autoload -Uz compinit; compinit -u -D; "
               'source <("$DEBURR" completion zsh)\n')
@@ -704,11 +703,11 @@ class TypedZsh(unittest.TestCase):
         self.until(self.terminal, b"READY> ")
 
     def typed(self, text):
-        """The line that there is after Tab: what prints it is typed at its begin and at its end."""
+        """The command line after Tab: the test types a command around it that prints it."""
         os.write(self.terminal, text.encode() + b"\t\x01print -r -- 'THERE:''[\x05]'\n")
         return re.search(r"THERE:\[(.*?)\]\r?\n", self.until(self.terminal, b"]\r\n")).group(1)
 
-    def test_tab(self):
+    def test_tab_completes(self):
         for typed, there in (("deburr ru", "deburr run"), ("deburr run tex", "deburr run texture"),
                              ("deburr run texture --check gol", "deburr run texture --check golden"),
                              ("deburr run texture --set memory.lat", "deburr run texture --set memory.latency"),
@@ -719,7 +718,7 @@ class TypedZsh(unittest.TestCase):
 
 @unittest.skipUnless(shutil.which("fish"), "no fish")
 class CompletionFish(OneWord, Completion):
-    """As fish does it."""
+    """Completion in fish."""
 
     FILES = ["here.yaml"]
 

@@ -1,10 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Every testplan of the repository can be planned, and none any more once a heading that it
-names is another.
+"""Every testplan of the repository can be planned, and is rejected if a heading that it names is renamed.
 
-usage: testplans_test.py DEBURR SOURCE
-"""
+usage: testplans_test.py DEBURR SOURCE"""
 import pathlib
 import re
 import shutil
@@ -28,19 +26,19 @@ class Testplans(unittest.TestCase):
             shutil.copytree(SOURCE / folder, self.root / folder)
 
     def plan(self, name):
-        """One seed of a hundred: another number of them plans nothing that this one does not."""
+        """One seed in a hundred: the planned features do not depend on the number of seeds."""
         done = subprocess.run([DEBURR, "regress", f"tb/testplan/{name}.yaml", "plan", "--divide", "100",
                                "--seed", "1"], cwd=self.root, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
-    def test_each_can_be_planned(self):
+    def test_every_plan_is_accepted(self):
         self.assertEqual(sorted(PLANS), sorted(path.stem for path in (SOURCE / "tb/testplan").iterdir()))
         for name in PLANS:
             code, said = self.plan(name)
             self.assertEqual(code, 0, said)
             self.assertRegex(said, r"RESULT: PASS regression \S+ --seed 1: [1-9][\d,]* points")
 
-    def test_none_stands_when_a_heading_is_renamed(self):
+    def test_renamed_heading_rejects_every_plan(self):
         renamed = 0
         for name in PLANS:
             for page in {trace.partition("#")[0] for feature in testplan(SOURCE / f"tb/testplan/{name}.yaml")["features"]

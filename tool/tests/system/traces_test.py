@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Traces join other tools: a cache written anew here gives the misses of the look-ups in a trace,
-and a run of the fragments that another one wrote is that run again.
+"""Traces as input of other tools: a cache implemented here has the same misses for the lookups in a trace, and a run
+of recorded fragments equals the run that recorded them.
 
-usage: traces_test.py DEBURR PAGE [CLASS]        PAGE: docs/reference/traces.md
-"""
+usage: traces_test.py DEBURR PAGE [CLASS]        PAGE: docs/reference/traces.md"""
 import collections
 import fractions
 import json
@@ -56,12 +55,12 @@ def read_binary(file):
 
 
 class Cache:
-    """Set-associative, from docs/reference/texture/formats.md alone."""
+    """Set-associative, written only from docs/reference/texture/formats.md."""
 
     def __init__(self, size, line, ways, replacement):
         self.line, self.ways, self.replacement = line, ways, replacement
         self.sets = [[None] * ways for _ in range(size // line // ways)]
-        self.order = [[] for _ in self.sets]  # the next one to go first
+        self.order = [[] for _ in self.sets]  # the next one to be replaced
         self.random = 0xACE1
 
     def victim(self, ways, order):
@@ -118,7 +117,7 @@ class Lines(TracesTest):
             self.assertEqual(sum(r.bytes for r in records if r.event == event), result["memory"][key])
         self.assertEqual(records, sorted(records, key=lambda r: (r.clock, r.port)))
 
-    def test_every_engine_in_both_formats(self):
+    def test_lines_of_every_engine_in_both_formats(self):
         for engine, trial in trials("lines").items():
             arguments = trial["run"]
             without = [a for a in arguments if "lookups" not in a and a != "--set"]
@@ -136,13 +135,13 @@ class Lines(TracesTest):
                 del one["host"]
             self.assertEqual(plain, result)
 
-    def test_order_of_evaluation_changes_nothing(self):
+    def test_evaluation_order_changes_nothing(self):
         arguments = ["--no-images", "--line-trace", "text", *trials("lines")["frame"]["run"]]
         self.run_engine("frame", "plain", *arguments)
         self.run_engine("frame", "shuffled", *arguments, "--shuffle")
         self.assertEqual(self.lines("plain"), self.lines("shuffled"))
 
-    def test_a_cache_made_anew_misses_where_ours_does(self):
+    def test_independent_cache_has_the_same_misses(self):
         for size, line, ways, replacement in ((1024, 64, 2, "lru"), (2048, 32, 4, "lru"),
                                               (2048, 128, 8, "lru"), (1024, 64, 1, "lru"),
                                               (1024, 64, 4, "fifo"), (2048, 64, 8, "random")):
@@ -167,18 +166,18 @@ class Lines(TracesTest):
             for event, key in (("hit", "hits"), ("merged", "merged"), ("miss", "misses")):
                 mine = sum(r.event == event for r in records)
                 self.assertEqual(mine, result["work"][f"tag_stage_{key}"], what)
-            # And memory is asked for them in this order, a burst of its own lines each.
+            # Memory requests have the same order, each as a burst of its own lines.
             asked = [r.address for r in records if r.event == "read"]
             grain = min(line, 64)
             self.assertEqual(asked, [a + i for a in misses for i in range(0, line, grain)], what)
 
 
 class Forms(TracesTest):
-    """The commands of docs/reference/traces.md give what simulators of DRAM read."""
+    """The commands of docs/reference/traces.md produce the formats that DRAM simulators read."""
 
-    # As their parsers read a line: DRAMsim3 common.cc, operator>>; DRAMSys StlPlayer.cpp,
-    # parseTraceFile; Ramulator 2 loadstore_trace.cpp, init_trace; Ramulator 1 Processor.cpp,
-    # get_dramtrace_request. Where a parser takes any word for a read, this takes the right one.
+    # The line grammars of their parsers: DRAMsim3 common.cc, operator>>; DRAMSys StlPlayer.cpp, parseTraceFile;
+    # Ramulator 2 loadstore_trace.cpp, init_trace; Ramulator 1 Processor.cpp, get_dramtrace_request. Where a parser
+    # takes any word for a read, this grammar accepts only the right one.
     GRAMMARS = {
         "dramsim3.trace": r"(?P<address>(0x)?[0-9a-f]+)\s+(?P<command>READ|WRITE)\s+(?P<clock>\d+)",
         "dramsys.stl": r"(?P<clock>\d+):\s+(\(\d+\)\s+)?(?P<command>read|write)\s+(?P<address>(0x)?[0-9a-f]+)",
@@ -189,7 +188,7 @@ class Forms(TracesTest):
                 "LD": "read", "ST": "write", "R": "read", "W": "write"}
 
     def commands_of_the_page(self):
-        """The commands of the block by the file that each writes, and its cycles in ns."""
+        """The commands of the block by the file that each writes, and its cycle times in ns."""
         with open(PAGE) as file:
             block = next(b for b in re.findall(r"^```\n(.*?)^```", file.read(), re.M | re.S)
                          if "ramulator" in b)
@@ -221,17 +220,17 @@ class Forms(TracesTest):
                 if file in tck:
                     exact = (fractions.Fraction(record.clock * 1000) /
                              (fractions.Fraction(str(tck[file])) * fractions.Fraction(mhz)))
-                    # awk's floating point may end on the other side of a whole number.
+                    # awk's floating point may round to the other side of an integer.
                     self.assertIn(int(found["clock"]),
                                   {math.floor(exact - fractions.Fraction(1, 10**6)),
                                    math.floor(exact + fractions.Fraction(1, 10**6))}, line)
 
-    def test_reads_alone(self):
+    def test_converts_reads(self):
         self.run_engine("texture", "lines", "--size", "48x48", "--no-images", "--line-trace", "text",
                         "--set", "run.line_trace_lookups=true")
         self.check_forms("lines", "166.67")
 
-    def test_reads_and_writes_at_another_clock(self):
+    def test_converts_reads_and_writes_at_another_clock(self):
         cycles = set()
         for engine, trial in trials("lines").items():
             result = self.run_engine(engine, "lines", *trial["run"], "--no-images", "--line-trace", "text")
@@ -241,7 +240,7 @@ class Forms(TracesTest):
                 self.check_forms("lines", clock)
         self.assertIn("250", cycles)
 
-    def test_the_example_of_the_page(self):
+    def test_converts_the_example_of_the_page(self):
         with open(PAGE) as file:
             text = file.read()
         trace = re.search(r"^# deburr-lines 1\n.*?^# end \d+\n", text, re.M | re.S)[0]
@@ -257,7 +256,7 @@ class Forms(TracesTest):
                 shown[file] = converted.read().strip()
         self.assertEqual([line for _, line in rows], list(shown.values()))
 
-    def test_the_grammars_reject_what_the_page_said_before(self):
+    def test_grammars_reject_earlier_page_version(self):
         self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator2.trace"], "R 0x0003f340"))
         self.assertFalse(re.fullmatch(self.GRAMMARS["ramulator1.trace"], "R 0x0003f340"))
         self.assertFalse(re.fullmatch(self.GRAMMARS["dramsys.stl"], "0x0003f340 READ 28"))
@@ -283,7 +282,7 @@ class Fragments(TracesTest):
         self.assertEqual(wanted[0]["verdict"], "pass")
         with open(self.path("first/fragments.trace"), "rb") as file:
             text = file.read()
-        # Text, and what a run of that writes as binary, and that as text again.
+        # Text, a run of it that writes binary, and a run of that which writes text again.
         self.run_engine("texture", "second", "--fragments", "first/fragments.trace",
                         "--fragment-trace", "binary", *common)
         self.assertEqual(self.outcome("second"), wanted)
@@ -293,17 +292,17 @@ class Fragments(TracesTest):
         with open(self.path("third/fragments.trace"), "rb") as file:
             self.assertEqual(file.read(), text)
 
-    def test_a_run_of_written_fragments_is_that_run(self):
+    def test_run_of_recorded_fragments_is_identical(self):
         self.check_round_trip("--scene", "tunnel", drawn=["--size", "80x60"])
 
-    def test_with_hidden_fragments_and_odd_sides(self):
+    def test_hidden_fragments_and_odd_sizes(self):
         self.check_round_trip("--scene", "object", "--format", "srgb8_a8",
                               drawn=["--size", "61x47", "--set", "scene.visibility=overdraw"])
 
-    def test_with_stalls(self):
+    def test_fragments_with_stalls(self):
         self.check_round_trip("--stalls", "0.2", drawn=["--size", "40x40"])
 
-    def test_single_fragments_are_their_quads(self):
+    def test_single_fragments_equal_their_quads(self):
         """A plane, as quads and as fragments with derivatives."""
         width, height = 32, 24
         step = 1 / 64  # exact in S7.24
@@ -333,7 +332,7 @@ class Fragments(TracesTest):
                 pictures.append(file.read())
         self.assertEqual(*pictures)
 
-    def test_without_places_there_are_figures_alone(self):
+    def test_fragments_without_positions_give_only_figures(self):
         with open(self.path("bare"), "w") as file:
             file.write("deburr-fragments 1\nfragment 0 - - .5 .5 .01 0 0 .01 # a comment\r\n\n"
                        "quad 0 5 f 0 - - 0 0 .01 0 0 .01 .01 .01\nend 2\n")
@@ -342,8 +341,8 @@ class Fragments(TracesTest):
         self.assertEqual(sorted(os.listdir(self.path("out"))),
                          ["manifest.json", "report.html", "result.json"])
 
-    def test_maps_show_fragments_that_have_a_place(self):
-        """The others count where the unit's counters are compared, and are in no pixel."""
+    def test_maps_show_fragments_with_positions(self):
+        """Other fragments are in the counters of the unit, but in no pixel."""
         with open(self.path("mixed"), "w") as file:
             file.write("deburr-fragments 1\nsize 8 6\nquad 0 f f 0 2 4 0 0 .01 0 0 .01 .01 .01\n"
                        "quad 0 f f 0 - - .5 .5 .51 .5 .5 .51 .51 .51\nend 2\n")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a whole frame has from the environments that it is composed of, whichever they are.
+// A whole frame takes its results from the environments that it is composed of, whichever they are.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-// The first of each kind of composition.
+// The first composition of each kind.
 enum class Kind { kRows, kMesh, kBoth };
 constexpr Kind kAll[] = {Kind::kRows, Kind::kMesh, Kind::kBoth};
 
@@ -37,7 +37,8 @@ const Smoothing& first_of(const FrameRoles& roles, Kind kind) {
   throw spec::ConfigError("no such composition");
 }
 
-// Names of parameters, "rows:storage" being the row smoother's, "mesh_memory:latency" its memory's.
+// Names of parameters: "rows:storage" is a parameter of the row smoother, "mesh_memory:latency" of
+// the mesh smoother's memory.
 std::string name_in(const Smoothing& s, const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == std::string::npos) return name;
@@ -53,7 +54,7 @@ struct Given {
   Settings settings{};
 };
 
-// The roles as a run has them: its parameters, set and resolved.
+// The roles as in a run: its parameters, set and resolved.
 struct Resolved {
   explicit Resolved(const Given& given) {
     set.add("run", tb::ParameterKind::kRun, run);
@@ -82,7 +83,7 @@ struct Outcome {
   bool memory_errors;
 };
 
-// A counter of the hardware, whatever engine and unit it is of.
+// A hardware counter of any engine and unit.
 std::uint64_t counter(const tb::Result& result, std::string_view end) {
   for (const tb::WorkItem& item : result.work)
     if (item.name.ends_with(end)) return std::get<std::uint64_t>(item.value);
@@ -119,7 +120,7 @@ Outcome run(const tb::SimulationOptions& options, const Given& given) {
   });
 }
 
-TEST(FrameComposition, IsCheckedAtBothEnginesAndTheirRegisters) {
+TEST(FrameComposition, ComparesBothEnginesAndTheirRegisters) {
   const Outcome o = run({}, {});
   constexpr std::uint64_t kRegisters = 7 + 15, kFigures = 11 + 4;
   EXPECT_EQ(o.pixels, 48u * 32u);
@@ -128,8 +129,8 @@ TEST(FrameComposition, IsCheckedAtBothEnginesAndTheirRegisters) {
   EXPECT_GT(o.traffic, 0u);
 }
 
-// Lines, candidates and blocks besides its pixels, which are those in memory.
-TEST(FrameComposition, WhoSmoothsAlongEdgesTakesTheFrameOverWhenItIsComplete) {
+// Checks lines, candidates and blocks in addition to its pixels, which are those in memory.
+TEST(FrameComposition, EdgeSmootherStartsAfterTheFrameIsDrawn) {
   const Outcome o = run({}, {Kind::kMesh});
   EXPECT_EQ(o.mismatches, 0u);
   EXPECT_EQ(o.pixels, 48u * 32u);
@@ -140,7 +141,7 @@ TEST(FrameComposition, WhoSmoothsAlongEdgesTakesTheFrameOverWhenItIsComplete) {
   EXPECT_GE(o.cycles, o.bound);
 }
 
-TEST(FrameComposition, WhoSmoothsRowsFollowsWhoSmoothsAlongEdges) {
+TEST(FrameComposition, RowSmootherStartsAfterEdgeSmoother) {
   const Outcome first = run({}, {Kind::kMesh});
   const Outcome both = run({}, {Kind::kBoth});
   EXPECT_EQ(both.mismatches, 0u);
@@ -148,7 +149,7 @@ TEST(FrameComposition, WhoSmoothsRowsFollowsWhoSmoothsAlongEdges) {
   EXPECT_EQ(both.blended, first.blended);
   EXPECT_GT(run({}, {Kind::kBoth, {{"rows:leave", "half"}}}).left, 10u);
   EXPECT_EQ(both.drawing, first.drawing);
-  // One after the other, each whole.
+  // The engines run one after the other.
   constexpr std::uint64_t kRows = 32, kWidth = 48, kReach = 32;
   EXPECT_GT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth);
   EXPECT_LT(both.cycles, first.cycles + (kRows + kReach + 5) * kWidth + 400);
@@ -175,8 +176,9 @@ tb::Json figures_of(const Given& given) {
   }));
 }
 
-// Four bytes a fragment written and a pixel read; one after the other, or rows beside the drawing.
-TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
+// Four bytes per fragment written and per pixel read. Edges are smoothed after drawing, rows alone
+// during drawing.
+TEST(FrameComposition, FiguresCoverTheWholeFrame) {
   constexpr double kPixels = 48 * 32;
   for (const Kind kind : kAll) {
     const tb::Json r = figures_of({kind});
@@ -210,8 +212,8 @@ TEST(FrameComposition, FiguresAreOfTheWholeFrame) {
   }
 }
 
-// What is behind others is written, too.
-TEST(FrameComposition, BytesAreOfHiddenFragmentsToo) {
+// Hidden fragments are written as well.
+TEST(FrameComposition, ByteCountsIncludeHiddenFragments) {
   for (const Kind kind : kAll) {
     const tb::Json seen = figures_of({kind}),
                    all = figures_of({kind, {{"scene.visibility", "overdraw"}}});
@@ -229,12 +231,12 @@ TEST(FrameComposition, NoiseInUnwrittenFieldsChangesNothing) {
   for (const Kind kind : kAll) EXPECT_EQ(run(poisoned, {kind}).mismatches, 0u);
 }
 
-TEST(FrameComposition, AResetInMidFrameBeginsItAgain) {
+TEST(FrameComposition, ResetInMidFrameRestartsTheFrame) {
   for (const Given& given : {Given{}, Given{Kind::kRows, {{"rows:storage", "memory"}}},
                              Given{Kind::kMesh}, Given{Kind::kBoth}}) {
     const Outcome whole = run({}, given);
     std::set<rtl::Cycle> moments = {100, 1500, 3000};
-    // While edges are drawn, and while rows go out.
+    // While edges are drawn, and while rows are output.
     if (given.kind != Kind::kRows)
       moments.insert({whole.cycles - 60, whole.cycles - whole.drawing / 2});
     for (const rtl::Cycle at : moments) {
@@ -254,7 +256,8 @@ TEST(FrameComposition, ErrorsOfEveryMemoryArePredictedAndReported) {
   EXPECT_TRUE(run({}, {Kind::kRows, texels}).memory_errors);
   const Settings pixels = {{"rows:storage", "memory"}, {"rows_memory:error_address", "0"}};
   EXPECT_TRUE(run({}, {Kind::kRows, pixels}).memory_errors);
-  // Of everything that is read and written along edges; what follows gets what is left.
+  // Errors in everything that is read and written along edges; the next engine gets the pixels that
+  // remain correct.
   for (const Kind kind : {Kind::kMesh, Kind::kBoth}) {
     const Settings edges = {{"mesh_memory:error_address", "0"}, {"mesh_memory:error_bytes", all}};
     const Outcome o = run({}, {kind, edges});
@@ -283,7 +286,7 @@ void each_figure_has_a_name_of_its_own(tb::Simulation& simulation, FrameComposit
 // A figure of one part must not hide that of another.
 class EveryFigure : public testing::TestWithParam<Kind> {};
 
-TEST_P(EveryFigure, HasANameOfItsOwn) {
+TEST_P(EveryFigure, NamesAreUnique) {
   const Resolved resolved({GetParam()});
   const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
   tb::Simulation simulation({});
@@ -293,7 +296,7 @@ TEST_P(EveryFigure, HasANameOfItsOwn) {
 
 INSTANTIATE_TEST_SUITE_P(FrameComposition, EveryFigure, testing::ValuesIn(kAll));
 
-TEST(FrameComposition, OfAllEnginesIsDescribedAndNeverRuns) {
+TEST(FrameComposition, AllEnginesAreDescribedWithoutRunning) {
   const Resolved resolved({});
   const std::shared_ptr<const tb::DrawnScene> scene = resolved.scene();
   tb::Simulation simulation({});

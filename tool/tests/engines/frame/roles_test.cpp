@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a composition is made of, by engines that declare no more than a role.
+// Compositions of engines that declare only a role.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ void describe(Configuration& p, Visitor& v) {
   v.integer("told", p.told, 0, 9, "", "What it was told.");
 }
 
-// What every role of these tests has in common.
+// Common part of every role in these tests.
 template <class Role>
 class Plain : public Role {
  public:
@@ -135,34 +135,34 @@ std::vector<std::string> names(const FrameRoles& roles) {
   return all;
 }
 
-TEST(FrameRoles, EachSmoothsAloneAndRowsAfterEdges) {
+TEST(FrameRoles, ListsSingleSmoothersAndRowsAfterEdges) {
   EXPECT_THAT(names(FrameRoles(roles())),
               ElementsAre("calm", "marker", "blind", "plain", "marker-calm", "marker-blind",
                           "plain-calm", "plain-blind"));
 }
 
-TEST(FrameRoles, WhoseNeedsNobodyHandsOnIsInNone) {
+TEST(FrameRoles, OmitsSmootherWithUnmetNeeds) {
   EXPECT_THAT(names(FrameRoles(roles(false))),
               ElementsAre("calm", "marker", "plain", "marker-calm", "plain-calm"));
 }
 
-TEST(FrameRoles, OfNoEngineAreNoComposition) {
+TEST(FrameRoles, RejectsEmptyComposition) {
   EXPECT_THROW(FrameRoles(std::vector<std::unique_ptr<CompositionRole>>()), spec::CheckFailed);
 }
 
-TEST(FrameRoles, ValuesAndTheirHelpAreTheirNames) {
+TEST(FrameRoles, ListsCompositionNamesAsValuesAndHelp) {
   FrameRoles made(roles(false));
   ParameterSet set;
   made.add_parameters(set);
   EXPECT_EQ(set.find("frame.smoothing")->range, "calm | marker | plain | marker-calm | plain-calm");
   EXPECT_EQ(made.shorthands().back().help,
             "calm (default), marker, plain, marker-calm or plain-calm");
-  // The first that has an option has it for all.
+  // The first engine with an option owns it for all.
   ASSERT_EQ(made.shorthands().size(), 2u);
   EXPECT_EQ(made.shorthands().front().parameter, "drawer.told");
 }
 
-// Of a value: what the pair is told, and by whom.
+// The value that the composition sets in the engine, and who set it.
 std::string told(const std::string& smoothing, const std::string& engine) {
   FrameRoles made(roles());
   ParameterSet set;
@@ -173,7 +173,7 @@ std::string told(const std::string& smoothing, const std::string& engine) {
   return parameter->text() + parameter->implied_by;
 }
 
-TEST(FrameRoles, WhoLooksAtMarksFollowsWhoMarks) {
+TEST(FrameRoles, MarkReaderFollowsMarker) {
   EXPECT_EQ(told("marker-calm", "marker"), "1frame.smoothing = marker-calm");
   EXPECT_EQ(told("marker-calm", "calm"), "2frame.smoothing = marker-calm");
   for (const std::string nobody : {"marker", "calm", "marker-blind", "plain-calm", "plain-blind"})
@@ -181,7 +181,7 @@ TEST(FrameRoles, WhoLooksAtMarksFollowsWhoMarks) {
       EXPECT_EQ(told(nobody, engine), "0") << nobody << ' ' << engine;
 }
 
-TEST(FrameRoles, WhoIsNotChosenTakesNoParameters) {
+TEST(FrameRoles, RejectsParametersOfUnusedEngine) {
   for (const auto& [smoothing, engine, taken] :
        {std::tuple{"calm", "calm", true}, std::tuple{"calm", "marker", false},
         std::tuple{"marker-calm", "marker", true}, std::tuple{"marker-calm", "blind", false}}) {

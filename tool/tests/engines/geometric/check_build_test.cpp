@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine cannot be built with.
+// Configurations that the geometric engine cannot be built with.
 #include "spec/geometric/check_build.h"
 
 #include <gtest/gtest.h>
@@ -29,15 +29,15 @@ BuildChecks<Parameters, rtl::geometric::GeometricEngine> checks() {
           }};
 }
 
-TEST(GeometricCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
+TEST(GeometricCheckBuild, EveryRuleHasATestRow) { checks().expect_a_row_a_rule(); }
 
-TEST(GeometricCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
+TEST(GeometricCheckBuild, EveryEntryPointGivesTheSameMessage) { checks().expect_the_same_words(); }
 
-TEST(GeometricCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+TEST(GeometricCheckBuild, RejectsOutOfRangeValues) { checks().expect_ranges(); }
 
-TEST(GeometricCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+TEST(GeometricCheckBuild, RangeEndsCanBeBuilt) { checks().expect_ends(); }
 
-TEST(GeometricCheckBuild, LeavesNothingThatCannotBeBuilt) {
+TEST(GeometricCheckBuild, RandomLegalConfigurationsCanBeBuilt) {
   checks().expect_all_else_is_built(300);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the geometric engine says of parameters without an effect, of meshes that are too large, and
-// of edges that it dropped.
+// Messages of the geometric engine about parameters without an effect, meshes that are too large,
+// and dropped edges.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::string complaint(const Settings& settings) {
       });
 }
 
-TEST(GeometricConfiguration, WhatHasNoEffectIsRejectedWithItsReason) {
+TEST(GeometricConfiguration, RejectsParametersWithoutEffect) {
   struct Row {
     Settings settings;
     std::string said;
@@ -70,7 +70,7 @@ TEST(GeometricConfiguration, WhatHasNoEffectIsRejectedWithItsReason) {
         << (row.settings.empty() ? "" : row.settings.back().first + row.settings[0].second);
 }
 
-TEST(GeometricConfiguration, FacesAreCountedAgainstTheirLimits) {
+TEST(GeometricConfiguration, ChecksFaceCountAgainstLimits) {
   const auto said = [](std::size_t faces, spec::geometric::Select select, std::int32_t limit) {
     tb::Scene scene;
     scene.name = "many";
@@ -98,7 +98,7 @@ TEST(GeometricConfiguration, FacesAreCountedAgainstTheirLimits) {
   EXPECT_EQ(said(1001, Select::kAll, 1000), "");
 }
 
-TEST(GeometricConfiguration, EdgesThatWereAllDroppedAreNoted) {
+TEST(GeometricConfiguration, NotesThatAllEdgesWereDropped) {
   spec::geometric::Work work;
   EXPECT_THAT(dropped_notes(work), IsEmpty()) << "there were none";
   work.edges = 12345;
@@ -124,7 +124,7 @@ TEST(GeometricConfiguration, EdgesThatWereAllDroppedAreNoted) {
   EXPECT_THAT(dropped_notes(work), IsEmpty());
 }
 
-TEST(GeometricConfiguration, ALatencyFifoBelowTheFillsIsNoted) {
+TEST(GeometricConfiguration, NotesLatencyFifoBelowTheFills) {
   spec::geometric::Parameters p;
   p.fills = 8;
   p.latency_fifo = 8;
@@ -136,8 +136,8 @@ TEST(GeometricConfiguration, ALatencyFifoBelowTheFillsIsNoted) {
                           "are asked for"));
 }
 
-// So that a run shows each field that is not programmed.
-TEST(UnprogrammedGeometricEngine, HasAnotherValueInEveryField) {
+// So that a run reveals each field that is not programmed.
+TEST(UnprogrammedGeometricEngine, EveryFieldHasAnotherValue) {
   using namespace spec::geometric;  // NOLINT: parameters and registers
   for (const PresetRow& preset : kPresets)
     for (const DepthTest test : {DepthTest::kOff, DepthTest::kOwn, DepthTest::kFarther})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the pictures of the geometric engine show.
+// Contents of the pictures of the geometric engine.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -12,8 +12,8 @@ using tb::Rgba8;
 
 namespace {
 
-// Two edges over a frame of 12 x 12: one through row 5, a silhouette that is seen, and one through
-// column 9, a boundary behind what the frame shows.
+// Two edges over a frame of 12 x 12: one through row 5, a visible silhouette, and one through
+// column 9, a boundary hidden by the drawn surface.
 TEST(EdgePictures, ShowLinesByClassAndWeights) {
   tb::geometric::Frame frame;
   frame.image = tb::Image(12, 12, {90, 90, 90, 255});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine cannot be built with.
+// Configurations that the morphological engine cannot be built with.
 #include "spec/morphological/check_build.h"
 
 #include <gtest/gtest.h>
@@ -43,15 +43,17 @@ BuildChecks<Parameters, rtl::morphological::MorphologicalEngine> checks() {
           }};
 }
 
-TEST(MorphologicalCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
+TEST(MorphologicalCheckBuild, EveryRuleHasATestRow) { checks().expect_a_row_a_rule(); }
 
-TEST(MorphologicalCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
+TEST(MorphologicalCheckBuild, EveryEntryPointGivesTheSameMessage) {
+  checks().expect_the_same_words();
+}
 
-TEST(MorphologicalCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+TEST(MorphologicalCheckBuild, RejectsOutOfRangeValues) { checks().expect_ranges(); }
 
-TEST(MorphologicalCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+TEST(MorphologicalCheckBuild, RangeEndsCanBeBuilt) { checks().expect_ends(); }
 
-TEST(MorphologicalCheckBuild, LeavesNothingThatCannotBeBuilt) {
+TEST(MorphologicalCheckBuild, RandomLegalConfigurationsCanBeBuilt) {
   checks().expect_all_else_is_built(300);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine says of parameters without an effect, and of thresholds that are
-// hardly meant.
+// Messages of the morphological engine about parameters without an effect, and about thresholds
+// that are probably a mistake.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ std::string complaint(const Settings& settings) {
       });
 }
 
-TEST(MorphologicalConfiguration, WhatHasNoEffectIsRejectedWithItsReason) {
+TEST(MorphologicalConfiguration, RejectsParametersWithoutEffect) {
   struct Row {
     Settings settings;
     std::string said;
@@ -95,7 +95,7 @@ TEST(MorphologicalConfiguration, WhatHasNoEffectIsRejectedWithItsReason) {
         << (row.settings.empty() ? "" : row.settings[0].second + " " + row.settings.back().first);
 }
 
-TEST(MorphologicalConfiguration, ThresholdsBelowACodeAreNoted) {
+TEST(MorphologicalConfiguration, NotesThresholdsBelowOneCode) {
   spec::morphological::Parameters p;
   p.trial_cycles = 4;
   p.edge_source = EdgeSource::kLuma;
@@ -158,8 +158,9 @@ std::vector<std::string> same_fields(std::span<const spec::Field> fields, std::u
   return names;
 }
 
-// So that a run shows each field that is not programmed. Those that say what is built stay.
-TEST(UnprogrammedMorphologicalEngine, HasAnotherValueInEveryFieldThatIsNotBuilt) {
+// So that a run reveals each field that is not programmed. Fields that describe build parameters
+// keep their values.
+TEST(UnprogrammedMorphologicalEngine, EveryProgrammableFieldHasAnotherValue) {
   using namespace spec::morphological;  // NOLINT: parameters and registers
   for (const PresetRow& preset : kPresets)
     for (const QualityRow& quality : kQualities)

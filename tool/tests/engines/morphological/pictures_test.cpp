@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the pictures of the morphological engine show.
+// Contents of the pictures of the morphological engine.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -29,7 +29,7 @@ TEST(EdgePicture, ShowsLeftEdgesRedAndTopEdgesGreenOverGrey) {
             (std::vector<tb::Rgba8>{{255, 30, 30, 255}, {30, 255, 30, 255}, {30, 30, 30, 255}}));
 }
 
-TEST(SmoothingPictures, AreThoseOfAFrameAndEdgesAndWeights) {
+TEST(SmoothingPictures, ShowFrameEdgesAndWeights) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("deburr_smoothing_" + std::to_string(::getpid()));
   tb::ParameterSet parameters;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the texture unit cannot be built with.
+// Configurations that the texture unit cannot be built with.
 #include "spec/texture/check_build.h"
 
 #include <gtest/gtest.h>
@@ -38,15 +38,17 @@ BuildChecks<Parameters, rtl::texture::TextureUnit> checks() {
       }};
 }
 
-TEST(TextureCheckBuild, HasARowForEveryRule) { checks().expect_a_row_a_rule(); }
+TEST(TextureCheckBuild, EveryRuleHasATestRow) { checks().expect_a_row_a_rule(); }
 
-TEST(TextureCheckBuild, RejectsAlikeWhereverItIsAsked) { checks().expect_the_same_words(); }
+TEST(TextureCheckBuild, EveryEntryPointGivesTheSameMessage) { checks().expect_the_same_words(); }
 
-TEST(TextureCheckBuild, RejectsWhatIsOutOfRange) { checks().expect_ranges(); }
+TEST(TextureCheckBuild, RejectsOutOfRangeValues) { checks().expect_ranges(); }
 
-TEST(TextureCheckBuild, ShowsRangesThatCanBeBuilt) { checks().expect_ends(); }
+TEST(TextureCheckBuild, RangeEndsCanBeBuilt) { checks().expect_ends(); }
 
-TEST(TextureCheckBuild, LeavesNothingThatCannotBeBuilt) { checks().expect_all_else_is_built(300); }
+TEST(TextureCheckBuild, RandomLegalConfigurationsCanBeBuilt) {
+  checks().expect_all_else_is_built(300);
+}
 
 }  // namespace
 }  // namespace deburr::tool::check_build_test

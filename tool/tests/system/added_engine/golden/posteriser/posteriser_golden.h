@@ -13,7 +13,7 @@ namespace deburr::golden::posteriser {
 
 // The code of a level.
 int code_of_level(int level, int bits);
-// The level that a code goes to.
+// The level of a code.
 int level_of(const spec::posteriser::Configuration& configuration, int code);
 
 std::vector<spec::posteriser::Tone> posterised(const spec::posteriser::Configuration& configuration,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The posteriser as software sees it: it has no memory, and configuration by its parameters alone.
+// The posteriser as seen by software: it has no memory, and only its parameters configure it.
 #pragma once
 
 #include "rtl_model/platform/engine_driver.h"
@@ -9,7 +9,7 @@ namespace deburr::platform {
 
 class PosteriserDriver final : public EngineDriver {
  public:
-  // Which must outlive the driver.
+  // Must outlive the driver.
   explicit PosteriserDriver(RegisterBus& registers) : EngineDriver(registers, layout()) {}
 
  private:

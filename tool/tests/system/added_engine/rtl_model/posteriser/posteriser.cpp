@@ -16,7 +16,7 @@ std::uint32_t code(std::uint32_t level, std::uint32_t steps) {
   return (510 * level + steps) / (2 * steps);
 }
 
-// The level at or below the exact one, and the one above it: the nearer of the two.
+// The nearer of two levels: the one at or below the exact value, and the next one.
 std::uint32_t nearest(std::uint32_t value, std::uint32_t steps) {
   const std::uint32_t below = value * steps / 255;
   if (below == steps) return 255;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The posteriser: registers and one unit that takes a pixel a clock.
+// The posteriser: registers and one unit that takes one pixel per cycle.
 //
 //   tones_in -> LevelUnit -> tones_out
-//                   └ registers, which show a Counter each of pixels and of changes
+//                   └ registers, with one Counter of pixels and one of changes
 //
-// Latency 1 to the output link, initiation interval 1. Stalls: `downstream`.
+// Latency   1 cycle to the output link. Interval  1 Stalls    downstream
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ class Posteriser final : public Engine {
   In<spec::posteriser::Tone> tones_in{"tones_in"};
   Out<spec::posteriser::Tone> tones_out{"tones_out"};
 
-  // ConfigError if a parameter is out of range.
+  // Throws ConfigError if a parameter is out of range.
   Posteriser(const sc_core::sc_module_name& name, ClockDomain& clock,
              const spec::posteriser::Parameters& parameters);
   const char* kind() const override { return "deburr_posteriser"; }

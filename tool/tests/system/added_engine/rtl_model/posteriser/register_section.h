@@ -6,7 +6,7 @@
 
 namespace deburr::rtl::posteriser {
 
-// With the reset values of a build.
+// With the reset values of these build parameters.
 RegisterSection register_section(const spec::posteriser::Parameters& parameters = {});
 
 }  // namespace deburr::rtl::posteriser

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the posteriser can be built with.
+// Build rules of the posteriser.
 #pragma once
 
 #include <array>

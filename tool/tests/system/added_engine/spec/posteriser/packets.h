@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the posteriser takes and gives: a pixel a beat.
+// Input and output of the posteriser: one pixel per beat.
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Parameters of the posteriser: of each colour it leaves a few levels.
+// Parameters of the posteriser, which reduces each colour channel to a few levels.
 //
-// A picture of `bits` bits has n = 2^bits levels, and level l is the code 255 l / (n - 1), rounded,
-// halves up. truncate: code c becomes level floor(c n / 256). nearest: the level whose code is
-// nearest to c, of two equally near ones the higher.
+// With `bits` bits per channel there are n = 2^bits levels, and level l is the code 255 l / (n -
+// 1), rounded, halves up. truncate: code c becomes level floor(c n / 256). nearest: the level whose
+// code is nearest to c; ties go to the higher level.
 #pragma once
 
 #include <array>

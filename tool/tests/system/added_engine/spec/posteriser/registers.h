@@ -40,7 +40,7 @@ inline constexpr std::array kFields = {kBits, kRounding};
 }  // namespace configuration
 }  // namespace reg
 
-// Writes while it is busy are ignored, but those to CONTROL and STATUS.
+// Writes while the engine is busy are ignored, except to CONTROL and STATUS.
 inline constexpr bool kBusyIgnoresWrites = true;
 inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
     {reg::kId, "ID", "Identifies the unit.", reg::id::kFields},
@@ -51,7 +51,7 @@ inline constexpr std::array<RegisterInfo, 6> kRegisters = {{
     {reg::kChanged, "CHANGED", "Pixels that it changed.", kCounter},
 }};
 
-// What a reset loads from the parameters.
+// Reset values, loaded from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
   return {{{reg::kConfiguration,
             reg::configuration::kBits.in(static_cast<std::uint32_t>(p.bits)) |

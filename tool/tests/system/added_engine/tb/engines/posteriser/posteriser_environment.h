@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The posteriser on one picture, or on that of a composition.
+// The posteriser on one picture, or on the picture of a composition.
 //
-//   picture -> Driver -> Posteriser -> Sink -> pixels: against the golden picture
+//   picture -> Driver -> Posteriser -> Sink -> pixels: compared with the golden picture
 //                            └ registers <- RegisterHost: the counters at the end
 #pragma once
 
@@ -25,7 +25,7 @@
 
 namespace deburr::tb {
 
-// What its figures are.
+// Descriptions of its figures.
 class PosteriserMeter final : public Meter {
  public:
   explicit PosteriserMeter(std::string name) : Meter(std::move(name)) {}
@@ -37,8 +37,8 @@ class PosteriserMeter final : public Meter {
 
 class PosteriserEnvironment final : public Environment {
  public:
-  // The picture, which must outlive it, is what the golden model gets. With a name it is part of a
-  // composition, which puts the picture into `tones_in`.
+  // The picture, which must outlive the environment, is the input of the golden model. With a name
+  // the environment is part of a composition, which puts the picture into `tones_in`.
   PosteriserEnvironment(Simulation& simulation, const Image& picture,
                         const spec::posteriser::Parameters& parameters, std::string name = {});
 
@@ -75,7 +75,7 @@ class PosteriserEnvironment final : public Environment {
   spec::posteriser::Parameters parameters_;
   std::vector<spec::posteriser::Tone> tones_, expected_;
   rtl::Link<spec::posteriser::Tone> tones_out_;
-  std::unique_ptr<Driver<spec::posteriser::Tone>> source_;  // alone
+  std::unique_ptr<Driver<spec::posteriser::Tone>> source_;  // outside a composition
   rtl::posteriser::Posteriser engine_;
   Sink<spec::posteriser::Tone> sink_;
   platform::RegisterHost host_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `deburr run posteriser`: a picture by formula through the posteriser. What a fifth engine is, as
-// small as it gets: the tests build it beside the others.
+// `deburr run posteriser`: a procedural picture through the posteriser. The smallest possible fifth
+// engine, built with the others by the tests.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class PosteriserCommand final : public Engine, public tb::PosteriserTestbench {
   RandomDraws random_draws() const override {
     RandomDraws all;
     all.draws = {{"picture.width", side_of_picture}, {"picture.height", side_of_picture}};
-    all.fixed = {"run.line_trace"};  // it asks no memory for anything
+    all.fixed = {"run.line_trace"};  // it makes no memory requests
     return all;
   }
   LongRun long_run() const override {

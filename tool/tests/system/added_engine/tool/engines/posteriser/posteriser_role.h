@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The posteriser in a composition: it works on a finished picture, as engines do that smooth one.
+// The posteriser in a composition: it works on a finished picture, like the engines that smooth
+// one.
 #pragma once
 
 #include <memory>

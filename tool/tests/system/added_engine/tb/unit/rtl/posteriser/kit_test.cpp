@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reset, register noise, stress and tokens of the posteriser, by its kit.
+// Reset, register noise, stress and tokens of the posteriser, using the common test kit.
 #include "rtl_model/platform/register_host.h"
 #include "rtl_model/posteriser/posteriser.h"
 #include "rtl_model/posteriser/register_section.h"
