@@ -49,24 +49,3 @@ def preset_of_frames(f):
                 for scene in ("cylinders", "road")]
         yield [f"`{preset}`", spaced(runs[0]["memory_bits"]["total"]["physical"]), spaced(runs[0]["cycles"])] + [
             f"{run['quality']['psnr_edge_db']:.2f}; {run['change']['right_over_2_percent']:.2f}" for run in runs]
-
-
-@recipe("methods-of-the-comparison")
-def methods(f):
-    """From docs/measurements/comparison.md, which has its own test: means, and the scene with most cycles."""
-    text = (f.root / "docs/measurements/comparison.md").read_text(encoding="utf-8")
-    scenes = {}
-    for title, section in re.findall(r"^### (.*?)\n(.*?)(?=^###|\Z)", text, re.M | re.S):
-        head, _, *rows = [[cell.strip().replace("**", "") for cell in line.strip("|").split("|")]
-                          for line in section.splitlines() if line.startswith("|")]
-        scenes[title] = {row[0]: dict(zip(head, row)) for row in rows}
-    means, hardest, cycles = scenes["Mean of all scenes"], scenes["object"], "cycles, M = 100"
-    ours = "`deburr`, geometric"
-    for name, needs in (("none", ""), ("`mlaa`", "the picture"), ("`smaa`", "the picture"),
-                        ("`deburr`, morphological", "the picture"), (ours, "picture, depth, mesh"),
-                        ("geometric, then morphological", "picture, depth, mesh")):
-        if name not in means:
-            raise Problem(f"docs/measurements/comparison.md has no mean of {name}")
-        mean = means[name]
-        yield [name, needs, mean["edges, dB"], hardest[name]["blended pixels"], hardest[name][cycles],
-               mean["blended pixels"], mean[cycles], mean["memory, bits"]]

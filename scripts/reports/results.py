@@ -59,51 +59,6 @@ def frames_1080p(f):
                spaced(bits["logical"]), spaced(bits["physical"])]
 
 
-@recipe("geometric-banks")
-def geometric_banks(f):
-    """A memory that takes a request every cycle, and one with banks."""
-    line = "geometric --scene object --size 1920x1080 --preset deburr"
-    for memory, given in (("takes a line a clock", ""),
-                          ("16 banks, each busy for 12 cycles",
-                           " --set memory.banks=16 --set memory.bank_busy=12")):
-        result = f.run(line + given)
-        work = result["work"]
-        yield [memory, spaced(work["resolver_blended_pixels"]), spaced(work["edge_cycles"]),
-               spaced(work["resolve_cycles"]), spaced(result["cycles"]),
-               "`{unit}`: {cause}".format(**result["bottleneck"])]
-
-
-@recipe("morphological-diagonals")
-def diagonals(f):
-    """Bands along the diagonal, d pixels wide."""
-    gaps = (18, 16, 10, 8, 6, 5, 4, 3, 2)
-    results = []
-    for gap in gaps:
-        name = f"bands_{gap}.png"
-        write_png(f.scratch / name, 1920, 1080, lambda x, y, d=gap: 255 * ((x + y) // d % 2))
-        results.append(f.run(f"morphological --in {name}"))
-    yield ["edge pixels"] + [f"{r['work']['edge_pixels_percent']:.1f} %" for r in results]
-    yield ["pixels a clock"] + [f"{r['throughput']['value']:.3f}" for r in results]
-    yield ["d / 18"] + [f"{gap / 18:.3f}" for gap in gaps]
-
-
-@recipe("texture-kernels")
-def texture_kernels(f):
-    keys = ("footprint", "log2", "count", "kernel", "spread")
-    rows = {tuple(row[key] for key in keys): row for row in f.paper_table("004", "Picture quality")}
-    paper = "`half`, n + y"
-    for name, rules, key in (
-            (paper + " (the paper)", "floor, box, 1", ("half", "mitchell", "floor", "box", "1.00")),
-            (paper, "ceil, box, 1", ("half", "mitchell", "ceil", "box", "1.00")),
-            (paper, "ceil, tent, 1.6", ("half", "mitchell", "ceil", "tent", "1.59")),
-            (paper, "ceil, tent, 1.75", ("half", "mitchell", "ceil", "tent", "1.75")),
-            (paper, "ceil, tent, 2", ("half", "mitchell", "ceil", "tent", "2.00")),
-            ("`exact`, exact", "floor, box, 1", ("exact", "exact", "floor", "box", "1.00"))):
-        row = rows[key]
-        yield [name, rules, row["samples a fragment"]] + [
-            row[column] for column in ("box dB", "EWA whole dB", "EWA tapered dB", "EWA cut dB")]
-
-
 @recipe("geometric-dividers")
 def dividers(f):
     """The frame of 33 000 edges, with a fast and a slow memory."""
