@@ -287,11 +287,12 @@ void describe(const Result& r, Visitor& v) {
   std::erase_if(not_implementable,
                 [](const MemoryFigures& m) { return m.not_implementable.empty(); });
   if (v.has(!not_implementable.empty()))
-    v.each("not_implementable", not_implementable, &MemoryFigures::name, [&](const MemoryFigures& m) {
-      v.item(m.not_implementable, "",
-             "Why this memory is not implementable. The result then belongs to hardware that "
-             "cannot be built.");
-    });
+    v.each(
+        "not_implementable", not_implementable, &MemoryFigures::name, [&](const MemoryFigures& m) {
+          v.item(m.not_implementable, "",
+                 "Why this memory is not implementable. The result then belongs to hardware that "
+                 "cannot be built.");
+        });
   if (v.has(!r.links.empty()))
     v.each("links", r.links, &LinkFigures::name,
            [&](const LinkFigures& link) { describe(link, v); });

@@ -118,8 +118,8 @@ std::string summary_of(const tb::Result& r, const std::filesystem::path& directo
   std::string not_implementable;
   for (const tb::MemoryFigures& memory : r.memories)
     if (!memory.not_implementable.empty())
-      not_implementable +=
-          fmt::format("{} {}", not_implementable.empty() ? ", NOT IMPLEMENTABLE" : ",", memory.name);
+      not_implementable += fmt::format(
+          "{} {}", not_implementable.empty() ? ", NOT IMPLEMENTABLE" : ",", memory.name);
   text += not_implementable;
   return text + fmt::format(", {}", (directory / "report.html").string());
 }

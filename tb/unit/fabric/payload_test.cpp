@@ -407,7 +407,8 @@ TEST(Payload, EveryBitIsFlippedByNumberAndName) {
   EXPECT_EQ(bit("26"), "place.column[12]");
   EXPECT_EQ(bit("27"), "pixel.0.r[0]");
   EXPECT_EQ(bit("261"), "last[0]");
-  EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("262"); }), HasSubstr("the payload has 262 bits"));
+  EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("262"); }),
+              HasSubstr("the payload has 262 bits"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.0.r.8"); }),
               HasSubstr("no bit 8 of pixel.0.r: the field has 8"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.9.r"); }),

@@ -276,9 +276,10 @@ TEST_F(Runs, DescribeRunsAndWarnings) {
   leave("d", 1000, "2");
   fs::remove(path_ / "d/manifest.json");
   const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
-  EXPECT_EQ(all["warnings"], (Json{"B cannot be built: not implementable: memory cache (nine ports)",
-                                   "B was interrupted: its figures cover what was done until then",
-                                   "scene.width differs: A 8, B 9 (B is C here)"}));
+  EXPECT_EQ(all["warnings"],
+            (Json{"B cannot be built: not implementable: memory cache (nine ports)",
+                  "B was interrupted: its figures cover what was done until then",
+                  "scene.width differs: A 8, B 9 (B is C here)"}));
   EXPECT_EQ(all["runs"][1],
             (Json{{"name", "B"},
                   {"path", (path_ / "b").string()},

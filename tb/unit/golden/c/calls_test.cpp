@@ -287,12 +287,10 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
 TEST(Calls, AHandleOfAnotherEngineIsAnError) {
   const Handle texture(deburr_texture_new()), frames(deburr_morphological_new());
   expect_rejected(
-      texture,
-      "the handle belongs to the engine texture; expected an engine that smooths frames",
+      texture, "the handle belongs to the engine texture; expected an engine that smooths frames",
       deburr_frame_begin(texture.get(), 1, 1));
   expect_rejected(frames, "expected texture", deburr_texture_memory(frames.get(), 64));
-  expect_rejected(frames, "expected geometric",
-                  deburr_geometric_edges(frames.get(), nullptr, 0));
+  expect_rejected(frames, "expected geometric", deburr_geometric_edges(frames.get(), nullptr, 0));
 }
 
 TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {

@@ -572,8 +572,9 @@ TEST(NamedErrors, OfFramesSayWhatWouldFit) {
   EXPECT_EQ(text(5, 8193), none("5 x 8193"));
   p.line_pixels = 100;
   EXPECT_EQ(text(100, 5), "");
-  EXPECT_EQ(text(101, 5),
-            "a frame of 101 x 5 pixels is wider than the line buffers of 100 pixels; raise line_pixels");
+  EXPECT_EQ(
+      text(101, 5),
+      "a frame of 101 x 5 pixels is wider than the line buffers of 100 pixels; raise line_pixels");
   MorphologicalGolden golden(p);
   const std::vector<spec::morphological::Rgba8> pixels(8193);
   EXPECT_THROW(golden.process(ImageView(pixels, 101, 1)), spec::ConfigError);
