@@ -32,7 +32,7 @@ struct Blending {
     done_sink.beats_in(done);
   }
   // A pixel of row 2, column 3, below this grey.
-  void send(const Weights& s, int up, int down = 0) {
+  void send(const rtl::morphological::Weights& s, int up, int down = 0) {
     WeightToken token{};
     token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
     token.slot.beat = 3;
@@ -111,7 +111,7 @@ TEST_P(BlenderConfiguration, PixelsAreThoseOfGolden) {
           near.below[i] = around.at(x + 1, y + 2);
           if (x >= kWidth) continue;
           const auto span = [&] { return static_cast<std::uint16_t>(random.below(4)); };
-          Weights& s = token.weights[i];
+          rtl::morphological::Weights& s = token.weights[i];
           s = {weight(y > 0), weight(y + 1 < kHeight),
                weight(x > 0), weight(x + 1 < kWidth),
                span(),        span(),
