@@ -121,7 +121,7 @@ struct Frame {
   rtl::Link<rtl::MemoryResponse> responses;
   rtl::Wire<rtl::geometric::Phase> phase{"phase", rtl::geometric::Phase::kIdle,
                                          rtl::geometric::phase_shape()};
-  rtl::Wire<rtl::geometric::FrameConfiguration> configuration{"rules",
+  rtl::Wire<rtl::geometric::FrameConfiguration> configuration{"configuration",
                                                               rtl::geometric::FrameConfiguration{}};
   rtl::CombinationalWire<spec::geometric::Rejection> rejection{"rejection",
                                                                rtl::geometric::rejection_shape()};

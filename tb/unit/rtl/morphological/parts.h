@@ -37,7 +37,7 @@ struct Registers : RegisterFile {
     configuration.drive(cycle, decoded.configuration);
   }
   rtl::Wire<rtl::morphological::FrameConfiguration> configuration{
-      "rules", rtl::morphological::FrameConfiguration{}};
+      "configuration", rtl::morphological::FrameConfiguration{}};
 };
 
 // With a ParameterStore, for a SlotSequencer; without one each call has a clock of its own.
@@ -84,7 +84,7 @@ struct WiredRegisters : RegisterFile {
 
   rtl::morphological::ParameterStore store;
   rtl::Wire<rtl::morphological::FrameConfiguration> configuration{
-      "rules", rtl::morphological::FrameConfiguration{}};
+      "configuration", rtl::morphological::FrameConfiguration{}};
   rtl::Pulse first_beat{"first_beat"}, latch_pulse{"latch"}, frame_done{"frame_done"},
       framing{"framing"};
   rtl::CombinationalWire<bool> enabled{"enabled"};
