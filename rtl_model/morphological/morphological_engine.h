@@ -127,7 +127,8 @@ class MorphologicalEngine final : public Engine {
                                           configuration_shape(parameters_)};
   Pulse first_beat_{"first_beat"}, latch_{"latch"};
   CombinationalWire<bool> enabled_{"enabled"};
-  CombinationalWire<Decoded> latched_{"latched", configuration_shape(parameters_, "rules.")};
+  CombinationalWire<Decoded> latched_{"latched",
+                                      configuration_shape(parameters_, "configuration.")};
   Pulse frame_done_{"frame_done"}, framing_{"framing"};
   std::unique_ptr<Pulse> memory_error_;
   const PayloadShape built_lanes_{.lanes = static_cast<std::uint32_t>(built_lanes(parameters_))};
