@@ -91,8 +91,8 @@ TEST(Intervals, EveryValueOfEverySeriesCounts) {
   }
   EXPECT_EQ(alone, 3 + 6);
   // Totals count as well: one value of each kind is off by one.
-  for (const char* const key : {"/units/filter/idle", "/units/address/stalls/wait", "/work/fills",
-                                "/links/texels/beats", "/links/texels/occupancy"}) {
+  for (const char* const key : {"/units/filter_pipeline/idle", "/units/address/stalls/wait",
+                                "/work/fills", "/links/texels/beats", "/links/texels/occupancy"}) {
     Json wrong = run;
     Json& total = wrong[Json::json_pointer(key)];
     total = total.get<int>() + 1;
