@@ -27,7 +27,7 @@
 //                       |
 //                       +- words --> tables of the AreaUnit
 //
-//   wires: ParameterStore -- rules --> units of the pipeline
+//   wires: ParameterStore -- configuration --> units of the pipeline
 //          SlotSequencer -- first_beat, latch, framing, frame_done,
 //          PixelStore -- memory_error --> ParameterStore
 //          ParameterStore -- enabled, latched --> SlotSequencer

@@ -212,7 +212,7 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
     // A result whose memory is not implementable is worse than one that is.
-    if (key.starts_with("idealised.")) value.worse = right != nullptr && left == nullptr;
+    if (key.starts_with("not_implementable.")) value.worse = right != nullptr && left == nullptr;
     if (value.worse) value.verdict = Trend::kWorse;
     if (left && right && *left == *right && !value.worse) continue;
     comparison.worse = comparison.worse || value.worse;

@@ -124,7 +124,7 @@ A &lt;title&gt;|badge fail|fail
 of a test
 Note: 16 bits made 8
 Note: &lt;b&gt;
-NotImplementable:
+Not implementable:
 this hardware cannot be built as it is.|Memories that no technology offers:
 lines (nine ports);
 ring (no latency);

@@ -418,7 +418,7 @@ TEST(NamedErrors, OfParameters) {
            Row{"morphological.window_rows = 65: must be an even number of rows",
                [](P& p) { p.window_rows = 65; }},
            Row{"morphological.steps = 8 with window_rows = 18: must be at most window_rows / 2 - "
-               "2, beyond which no row is in the window; make it at most 7, or give window_rows "
+               "2, the limit of the edge window; make it at most 7, or give window_rows "
                "of at least 20",
                [](P& p) { p.window_rows = 18; }},
            Row{"", [](P& p) { p.window_rows = 18, p.steps = 7; }},

@@ -176,7 +176,7 @@ TEST_P(TableCycles, WordsAreNotUsedAClockEarlyOrLate) {
     table.address_roots(1, 0, query);
     table.address_entries(1, 0, query);
   });
-  expect_stop("sqrt_rom", "was there from cycle 2 on",
+  expect_stop("sqrt_rom", "was available from cycle 2 on",
               [](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(2, 0, other);
@@ -187,7 +187,7 @@ TEST_P(TableCycles, WordsAreNotUsedAClockEarlyOrLate) {
     table.address_entries(2, 0, query);
     table.weights(2, 0, query);
   });
-  expect_stop("area_rom", "was there from cycle 3 on",
+  expect_stop("area_rom", "was available from cycle 3 on",
               [](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(2, 0, other);
