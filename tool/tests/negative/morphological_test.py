@@ -602,8 +602,8 @@ class WeightsFaults(BlockFaults):
         self.run_engine(2, *noise, "--mask", self.write("small.png", noisy_png(20, 20)),
                         says=["mask", "20 x 20", "48 x 40"])
         self.run_engine(5, *noise, "--mask", self.path("missing.png"), says="missing.png")
-        self.run_engine(2, *noise, "--mask", self.mask([0] * 1920), *self.rules(leave="none"),
-                        says=["frame.mask", "leave = none"])
+        self.run_engine(2, *noise, "--mask", self.mask([0] * 1920), *self.rules(bypass="none"),
+                        says=["frame.mask", "bypass = none"])
 
 
 class GuardFaults(BlockFaults):

@@ -442,7 +442,7 @@ TEST(NamedErrors, OfParameters) {
            Row{"", [](P& p) { p.alpha = 0; }},
            Row{"edges.floor", [](P& p) { p.floor = 0; }},
            Row{"morphological.diagonal_steps = 10 with window_rows = 20: must be at most "
-               "window_rows / 2 - 1 with diagonals, beyond which no row is in the window; make it "
+               "window_rows / 2 - 1 with diagonals, the limit of the edge window; make it "
                "at most 9, or give window_rows of at least 22",
                [](P& p) {
                  p.steps = 4, p.diagonals = true, p.diagonal_steps = 10, p.window_rows = 20;

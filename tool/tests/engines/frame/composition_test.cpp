@@ -147,7 +147,7 @@ TEST(FrameComposition, RowSmootherStartsAfterEdgeSmoother) {
   EXPECT_EQ(both.mismatches, 0u);
   EXPECT_EQ(both.pixels, 48u * 32u);
   EXPECT_EQ(both.blended, first.blended);
-  EXPECT_GT(run({}, {Kind::kBoth, {{"rows:leave", "half"}}}).left, 10u);
+  EXPECT_GT(run({}, {Kind::kBoth, {{"rows:bypass", "half"}}}).left, 10u);
   EXPECT_EQ(both.drawing, first.drawing);
   // The engines run one after the other.
   constexpr std::uint64_t kRows = 32, kWidth = 48, kReach = 32;
