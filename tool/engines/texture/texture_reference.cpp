@@ -25,7 +25,7 @@ std::shared_ptr<const Image> scene_reference(const tb::TextureScene& scene,
   options.width = scene.stream().width;
   options.height = scene.stream().height;
   options.samples = kReferenceSamples;
-  tb::Waiting waiting("rendering the reference", context.quiet());
+  tb::Waiting waiting("rendering reference", context.quiet());
   options.interrupted = [&] {
     waiting.update();
     return tb::interrupted();

@@ -92,7 +92,7 @@ class Texture(Figures):
         looked_up = [work[f"tag_stage_{what}"] for what in ("hits", "merged", "misses")]
         for what, count in zip(("hits", "merged", "misses"), looked_up):
             self.assertGreater(count, 0)
-            self.assertEqual(work[f"look_up_{what}_percent"], 100 * (count / sum(looked_up)), what)
+            self.assertEqual(work[f"lookup_{what}_percent"], 100 * (count / sum(looked_up)), what)
         self.assertEqual(r["memory"]["read_gb_per_s"], 64 * lines * 166.67 / (1000 * r["cycles"]))
         self.assertEqual(r["memory"]["written_gb_per_s"], 0)
         self.assert_row("Texels without a line fill", work["texel_hits_percent"], "%")
