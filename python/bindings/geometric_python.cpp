@@ -111,7 +111,7 @@ golden::geometric::Bases bases_of(const py::object& given) {
         golden::c::number_in_range(wanted, text_of(value), 0, 0xFFFFFFFF));
     golden::c::require(*base % spec::geometric::kLineBytes == 0,
                        "the base of " + wanted + ", " + std::to_string(*base) +
-                           ", is no multiple of " + std::to_string(spec::geometric::kLineBytes));
+                           ", is not a multiple of " + std::to_string(spec::geometric::kLineBytes));
   }
   return bases;
 }

@@ -599,12 +599,12 @@
       line('mean', css('--busy'), over(watched.occupancy, cycles)),
       line('most', css('--warn'), watched.most)
     ], 'beats', {suggestedMax: link.depth});
-    const cycles = link.histogram.reduce((a, b) => a + b, 0);
+    const total = link.histogram.reduce((a, b) => a + b, 0);
     const beatTicks = roundTicks([...link.histogram.map((_, i) => i), link.histogram.length]);
     charts.push(new Chart(byId('link-histogram'), {
       type: 'bar',
       data: {labels: link.histogram.map((_, i) => i),
-             datasets: [bars('cycles', css('--busy'), link.histogram.map((count) => 100 * count / cycles))]},
+             datasets: [bars('cycles', css('--busy'), link.histogram.map((count) => 100 * count / total))]},
       options: {
         scales: {
           x: axis(`beats inside, of ${link.depth}`, {grid: {display: false}, ticks: beatTicks, afterBuildTicks: beatTicks.build}),

@@ -74,7 +74,7 @@ void MorphologicalMeter::collect_headline(Result& result, double clock_mhz) cons
   result.throughput_unit = "pixel/clk";
   result.throughput_bound = lanes();
   result.throughput_bound_meaning =
-      "A beat a clock, a pixel a lane; filling and flushing the window not counted.";
+      "One beat per cycle, one pixel per lane; filling and flushing the window not counted.";
 
   collect_cycles(result, clock_mhz);
   result.figures = headline_figures();

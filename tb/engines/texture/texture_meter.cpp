@@ -69,7 +69,7 @@ void TextureMeter::collect_headline(Result& result) const {
   result.throughput = ratio(unit_.address.addresser.bilinears.value(), result.cycles);
   result.throughput_unit = "bilinear/clk";
   result.throughput_bound = 1;
-  result.throughput_bound_meaning = "One bilinear request a clock.";
+  result.throughput_bound_meaning = "One bilinear request per cycle.";
   result.figures = {{"Fragments", key("fragments")},
                     {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
                     {"Line fills of a texel", key("misses_per_texel")},

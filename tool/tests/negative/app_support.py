@@ -133,7 +133,7 @@ class CommandTest(unittest.TestCase):
     def decode_as_built(self, engine):
         """Faults in configuration fields have no effect if the configuration is a reset value."""
         self.expect(2, "run", engine, "--out", self.path("out"), "--set", "run.program=reset", "--fault",
-                    "misdecode-rules-linear-light", says="needs run.program = registers")
+                    "misdecode-config-linear-light", says="needs run.program = registers")
 
     def miscount(self, engine, expected):
         faults = self.faults(engine, "miscount")

@@ -47,7 +47,7 @@ class Scratch(unittest.TestCase):
 
 class Runs(Scratch):
     def test_figures_equal_the_file(self):
-        run = deburr.run("texture", **TINY, memory_latency=50, intervals=500, maps=True, out="out")
+        run = deburr.run("texture", **TINY, memory_latency=50, windows=500, maps=True, out="out")
         file = json.loads((self.folder / "out/result.json").read_text(encoding="utf-8"))
         self.assertEqual(run.cycles, file["cycles"])
         self.assertEqual(run.verdict, "pass")

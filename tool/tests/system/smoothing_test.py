@@ -63,11 +63,11 @@ class Smoothing(unittest.TestCase):
             result["cycles"], work["texturing_cycles"] + work["drawing_cycles"] + work["smoothing_cycles"], delta=20)
         self.assertLessEqual(work["engine_cycles_bound"], result["cycles"])
         # By default a marked pixel makes no edge, so no pixel is bypassed; with bypass = marked some are.
-        self.assertEqual(work["morphological_blender_left_pixels"], 0)
+        self.assertEqual(work["morphological_blender_bypassed_pixels"], 0)
         marked = self.run_frame("--smoothing", "geometric-morphological", "--set", "morphological.bypass=marked")["work"]
-        self.assertGreater(marked["morphological_blender_left_pixels"], 0)
+        self.assertGreater(marked["morphological_blender_bypassed_pixels"], 0)
         # Every marked pixel was blended by the first engine.
-        self.assertLessEqual(marked["morphological_blender_left_pixels"], work["geometric_resolver_blended_pixels"])
+        self.assertLessEqual(marked["morphological_blender_bypassed_pixels"], work["geometric_resolver_blended_pixels"])
 
     def test_given_settings_are_kept(self):
         def configuration(*given):
@@ -103,10 +103,10 @@ class Smoothing(unittest.TestCase):
                      says="geometric_memory.latency = 20000")
 
     def test_faults_of_either_engine_are_caught(self):
-        unmarked = ("wrong-rule", "misdecode-rules-linear-light")
+        unmarked = ("wrong-rule", "misdecode-config-linear-light")
         for fault, code in (("geometric.drop-line", 1), ("geometric.flip-weight", 1), ("wrong-rule", 1),
-                            ("geometric.memory-error", 3), ("geometric.misdecode-rules-layout", 1),
-                            ("morphological.misdecode-rules-linear-light", 1), ("misdecode-texture0-mode-layout", 1)):
+                            ("geometric.memory-error", 3), ("geometric.misdecode-config-layout", 1),
+                            ("morphological.misdecode-config-linear-light", 1), ("misdecode-texture0-mode-layout", 1)):
             # No run of the remaining edges is extended or blended here, so a wrong setting would change nothing.
             marks = ("--set", "morphological.bypass=none") if fault.split(".")[-1] in unmarked else ()
             self.command(code, "--smoothing", "geometric-morphological", "--fault", fault, *marks)
