@@ -165,7 +165,7 @@ class Registers(CommandTest):
 
     TEXTURE = ["fragments", "bilinears", "line-fills", "clamped", "saturated", "memory-errors", "invalid-fragments"]
     MORPHOLOGICAL = ["pixels", "edge-pixels", "horizontal-runs", "vertical-runs", "long-runs", "z-runs",
-                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "left-pixels",
+                     "extended-runs", "steps", "probes", "divides", "blended-pixels", "diagonals", "bypassed-pixels",
                      "frame-cycles", "memory-errors"]
 
     def test_texture_registers_are_checked(self):

@@ -220,7 +220,7 @@ class Surroundings(Sweeps):
         for action in ("plan", "run"):
             self.expect(2, "sweep", "s.yaml", action,
                         says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
-        for key, near in (("units.filter_pipeline.buzy", "units.filter_pipeline.busy"), ("/units/filtre/busy", "units.filter_pipeline.busy"),
+        for key, near in (("units.filter_pipeline.buzy", "units.filter_pipeline.busy"), ("/units/filter_pipelne/busy", "units.filter_pipeline.busy"),
                           ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears")):
             self.write("s.yaml", BASE + AXES + f"metrics: {{it: '{key}'}}\n")
             self.expect(2, "sweep", "s.yaml", "plan", says=("has the key", f"'{near}'"))
@@ -242,7 +242,7 @@ class Surroundings(Sweeps):
         def limit(text, *says):
             self.reject(BASE + AXES + f"metrics: {{cycles: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
 
-        limit("clock < 10", "limit 'clock < 10': 'clock' is neither a metric nor a number: did you mean 'cycles'")
+        limit("cycle < 10", "limit 'cycle < 10': 'cycle' is neither a metric nor a number: did you mean 'cycles'")
         limit("cycles", "limit 'cycles' is no comparison of a metric by < <= > >=")
         limit("cycles == 10", "is no comparison of a metric")
         limit("cycles > 1 and cycles < 3", "give several limits one by one")

@@ -336,7 +336,7 @@ class Faults(Base):
 
 class Registers(Base):
     """Each checked status register can fail the run by itself."""
-    CHECKED = ["id", "control", "status", "size", "rules", "edge-count", "vertex-count", "face-count", "edge-base",
+    CHECKED = ["id", "control", "status", "size", "config", "edge-count", "vertex-count", "face-count", "edge-base",
                  "vertex-base", "face-base", "depth-base", "colour-base", "weight-base", "copy-base", "rejection", "edges",
                  "boundary-edges", "silhouette-edges", "back-edges", "crease-edges", "flat-edges", "invalid-edges",
                  "kept-edges", "outside-edges", "degenerate-edges", "empty-edges", "lines", "columns", "groups",
@@ -355,11 +355,11 @@ class Fields(Base):
 
     def test_each_field_is_decoded(self):
         small, gpaa = ("--size", "96x64"), ("--size", "48x32", "--preset", "gpaa")
-        runs = {f"rules-{field}": small for field in ("select", "crease", "depth-test", "combine", "depth-bias", "mark",
+        runs = {f"config-{field}": small for field in ("select", "crease", "depth-test", "combine", "depth-bias", "mark",
                                                       "layout", "frame-copy", "coverage", "cull", "crease-depth",
                                                       "linear-light")}
         # Copying to an address without room for a copy ends in a memory error.
-        self.misdecode("geometric", {**runs, "rules-frame-copy": gpaa})
+        self.misdecode("geometric", {**runs, "config-frame-copy": gpaa})
         self.decode_as_built("geometric")
 
 

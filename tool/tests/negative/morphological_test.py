@@ -367,7 +367,7 @@ class Configuration(Base):
         self.run_engine(2, *self.SMALL, *srgb, "texture.srgb_output=linear", engine="frame",
                         says="texture.srgb_output = encoded")
         self.run_engine(0, *self.SMALL, *srgb, "texture.srgb_output=encoded", "--truth", engine="frame", says="PASS")
-        self.assertEqual(self.result()["memories"]["texture_filter_codes"]["words"], 4096)
+        self.assertEqual(self.result()["memories"]["texture_filter_pipeline_codes"]["words"], 4096)
         encoded = self.result()["quality"]["psnr_db"]
         self.run_engine(0, *self.SMALL, "--truth", engine="frame", says="PASS")
         self.assertGreater(encoded, self.result()["quality"]["psnr_db"] + 0.5)  # filtered in linear light
@@ -660,13 +660,13 @@ class Fields(BlockFaults):
         predicated = (*grey, *depth, *self.rules(edges__source="predicated", edges__threshold_on_depth_edge=1310720,
                                                  edges__threshold_off_depth_edge=1310720))
         self.misdecode("morphological", {
-            "rules-edges-source": scene, "rules-threshold-mode": scene,
-            "rules-dynamic-luma": (*grey, "--preset", "smaa-dynamic"), "rules-local-contrast": smaa,
-            "rules-predictor": scene, "rules-steps": scene, "rules-contiguous": (*grain, "--preset", "deburr-line"),
-            "rules-safe": line, "rules-linear-light": scene, "rules-trim": line, "rules-ends": smaa,
-            "rules-area-table": smaa, "rules-diagonals": smaa, "rules-round-corners": smaa, "rules-blend": smaa,
-            "rules-area-learned": ("--size", "48x32"), "rules-leave": (*grain, "--mask", mask),
-            "rules-border": (*grain, "--preset", "smaa"), "rules-text-guard": (*noise, *self.rules(text_guard="true")),
+            "config-edges-source": scene, "config-threshold-mode": scene,
+            "config-dynamic-luma": (*grey, "--preset", "smaa-dynamic"), "config-local-contrast": smaa,
+            "config-predictor": scene, "config-steps": scene, "config-contiguous": (*grain, "--preset", "deburr-line"),
+            "config-safe": line, "config-linear-light": scene, "config-trim": line, "config-ends": smaa,
+            "config-area-table": smaa, "config-diagonals": smaa, "config-round-corners": smaa, "config-blend": smaa,
+            "config-area-learned": ("--size", "48x32"), "config-bypass": (*grain, "--mask", mask),
+            "config-border": (*grain, "--preset", "smaa"), "config-text-guard": (*noise, *self.rules(text_guard="true")),
             "threshold-value": (*grey, "--preset", "mlaa"), "threshold-on-value": predicated,
             "threshold-off-value": predicated, "alpha-value": (*grey, "--preset", "smaa-dynamic"),
             "floor-value": (*dark, "--preset", "smaa-dynamic"),

@@ -195,7 +195,7 @@ class Added(unittest.TestCase):
                            ("coverage", "## Posteriser: 3 bins"), ("statistics", "`work.levels_changed`"),
                            ("datasheets", "| LevelUnit | 1 | 1 |")):
             self.deburr(0, "params", "--markdown", page, says=says)
-        self.deburr(0, "params", "--c-header", says="DEBURR_POSTERISER_RULES_BITS_MASK")
+        self.deburr(0, "params", "--c-header", says="DEBURR_POSTERISER_CONFIG_BITS_MASK")
 
     def test_completion_includes_it(self):
         script = self.deburr(0, "completion", "bash")
