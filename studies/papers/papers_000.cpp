@@ -434,7 +434,7 @@ std::vector<Method> methods(const tb::Scene& scene, const Image& noaa, bool with
   all.push_back(
       {"deburr-line", "line fit, N = 8", smoothed(noaa, preset_parameters(Preset::kDeburrLine))});
   all.push_back(
-      {"deburr", "line fit, learned shares", smoothed(noaa, preset_parameters(Preset::kDeburr))});
+      {"deburr", "line fit, learned weights", smoothed(noaa, preset_parameters(Preset::kDeburr))});
   return all;
 }
 
@@ -672,7 +672,7 @@ PaperTable held_out(const PaperOptions& options) {
   training::FrameOptions frames;
   frames.size = options.size;
   if (const char* folder = std::getenv("DEBURR_DATA")) frames.data = folder;
-  tb::Waiting waiting("paper 000: frames that learned shares did not see", options.quiet);
+  tb::Waiting waiting("paper 000: frames that learned weights did not see", options.quiet);
   for (const training::FrameSource& source : training::held_out_set(frames)) {
     options.go_on();
     waiting.update();

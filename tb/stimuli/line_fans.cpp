@@ -159,7 +159,7 @@ std::vector<FanRow> rule_rows() {
   p.edge_source = deburr.edge_source;
   p.threshold = deburr.threshold;
   add("+ edges of colour", p);
-  add("+ learned shares = deburr", deburr);
+  add("+ learned weights = deburr", deburr);
   for (const auto preset :
        {spec::morphological::Preset::kMlaa, spec::morphological::Preset::kMlaaSlope}) {
     p = preset_parameters(preset);

@@ -361,7 +361,7 @@
   function choose(window) {
     chosen = window;
     const from = intervals.from[window], to = from + intervals.cycles[window];
-    byId('interval-chosen').textContent = `Window ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
+    byId('interval-chosen').textContent = `Interval ${window}: cycles ${number.format(from)} to ${number.format(to)}.`;
     byId('interval-command').textContent =
         `${intervals.command} --trace '*' --trace-from ${from} --trace-to ${to}`;
     for (const chart of charts) if (chart.options.overTime) chart.draw();

@@ -383,7 +383,7 @@ class Runs(PagesTest):
         self.deburr("run", "texture", "--size", "128x128", "--windows", "1000", "--maps", "--trace", "colours", "--trace-to",
                     "9", "--out", "run")
         text = self.probed("run/report.html", DESKTOP, self.TEXT, "#interval-3")["keys"]
-        self.assertIn("Window 3: cycles 3,004 to 4,004.", text)
+        self.assertIn("Interval 3: cycles 3,004 to 4,004.", text)
         self.assertRegex(text, r"--maps --out run --trace '\*' --trace-from 3004 --trace-to 4004</pre>")
         for part in ('data-role="map_samples"', "map_latency.pfm", "latency_fifo_entries", "<option>tag_stage</option>",
                      'href="#interval-3">3,004 to 4,004</a>'):

@@ -113,7 +113,7 @@ Outcome run(const tb::SimulationOptions& options, const Given& given) {
                    frame.delivered(),
                    frame.drawing().environment().amount().delivered,
                    counter(result, "_resolver_blended_pixels"),
-                   counter(result, "_left_pixels"),
+                   counter(result, "_bypassed_pixels"),
                    counter(result, "drawing_cycles"),
                    counter(result, "engine_cycles_bound"),
                    memory_errors};
