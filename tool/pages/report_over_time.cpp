@@ -43,11 +43,11 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   const std::vector<std::uint64_t> from = column(intervals["from"]),
                                    cycles = column(intervals["cycles"]);
   page.set("intervals_note",
-           fmt::format("{} windows of {} cycles{}.", tb::grouped(from.size()),
+           fmt::format("{} intervals of {} cycles{}.", tb::grouped(from.size()),
                        report_text(intervals["interval_cycles"]),
                        intervals["interval_cycles"] == intervals["asked_cycles"]
                            ? ""
-                           : fmt::format("; {} were asked for, which would be too many windows",
+                           : fmt::format("; {} were asked for, which would be too many intervals",
                                          report_text(intervals["asked_cycles"]))));
   intervals["command"] = without_options(source.manifest.value("command", ""),
                                          {"--trace", "--trace-from", "--trace-to"});

@@ -116,7 +116,7 @@ cycles                       10000   10400   +4.00 %  WORSE        9000  -10.00 
 throughput.value                 1     0.9  -10.00 %  WORSE           1
 )"));
   EXPECT_THAT(text, HasSubstr(R"(
-not_implementable.cache                  -       -                   nine ports             WORSE
+not_implementable.cache          -       -                   nine ports             WORSE
 8 more values differ: --all shows counters and the rest
 out/all.html
 REPRO: deburr compare out/1 out/2 out/3 --html out/all.html

@@ -222,7 +222,7 @@ class PagesTest(unittest.TestCase):
             text = file.read()
         for link in told["links"]:
             if link.startswith("#"):
-                self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(window|follow)-[0-9,]+$", link), f"{title}: {link}")
+                self.assertTrue(f'id="{link[1:]}"' in text or re.match("#(interval|follow)-[0-9,]+$", link), f"{title}: {link}")
             else:
                 self.assertTrue(os.path.exists(os.path.join(os.path.dirname(self.path(page)), link)), f"{title}: {link}")
         # The plot area of a chart keeps its height, however many rows its legend has.
