@@ -68,7 +68,7 @@ struct Outcome {
   std::uint64_t seed = 0;
   std::uint64_t cycles = 0, colour_hash = 0, colours = 0, fills = 0, comparisons = 0,
                 mismatches = 0, stand_ins = 0;  // RTL counterparts that have moved a beat
-  std::array<std::uint64_t, kLinks> cycles{}, beats{};
+  std::array<std::uint64_t, kLinks> link_cycles{}, beats{};
   std::uint64_t latencies = 0;
 };
 
@@ -105,7 +105,7 @@ Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, 
     outcome.latencies = environment.unit().fragment_latency.sum();
     outcome.stand_ins = kAll.size() - idle_counterparts(environment.unit()).size();
     for (std::size_t i = 0; i < kLinks; ++i)
-      outcome.cycles[i] = cycles.hash(i), outcome.beats[i] = cycles.beats(i);
+      outcome.link_cycles[i] = cycles.hash(i), outcome.beats[i] = cycles.beats(i);
     return outcome;
   });
 }
@@ -137,7 +137,7 @@ void expect_equal(const Outcome& model, const Outcome& counterpart, std::size_t 
   EXPECT_EQ(model.latencies, counterpart.latencies);
   for (std::size_t i = 0; i < kLinks; ++i) {
     EXPECT_EQ(model.beats[i], counterpart.beats[i]) << kOutside[i];
-    EXPECT_EQ(model.cycles[i], counterpart.cycles[i]) << kOutside[i];
+    EXPECT_EQ(model.link_cycles[i], counterpart.link_cycles[i]) << kOutside[i];
     EXPECT_GT(model.beats[i], 0u) << kOutside[i];
   }
 }
@@ -189,7 +189,7 @@ TEST(TwinsInEngineFaults, OneMoreCycleIsDetected) {
   later.texture.cache_fifo_depth = 107;
   const Outcome a = run(calm(false), {}, 64, {}, 0), b = run(later, {}, 64, kAll, 0);
   EXPECT_EQ(a.colour_hash, b.colour_hash);
-  for (const std::size_t link : {3, 4, 5}) EXPECT_NE(a.cycles[link], b.cycles[link]);
+  for (const std::size_t link : {3, 4, 5}) EXPECT_NE(a.link_cycles[link], b.link_cycles[link]);
 }
 
 // ---- selection

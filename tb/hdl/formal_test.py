@@ -40,14 +40,14 @@ FABRIC = ("link", "fifo", "pipe")
 PROOFS = {
     # Count, order and data of a followed beat; the faults: a push together with a pop is stored one entry too far.
     "link_1": Proof("link", "induction", ("fabric/link.sv", "can_push <= next_count != FULL", "can_push <= !push"),
-                    parameters={"PLACES": 1, "BITS": 32}),
-    "link_2": Proof("link", "induction", LINK, parameters={"PLACES": 2, "BITS": 336}),
-    "link_5": Proof("link", "induction", LINK, parameters={"PLACES": 5, "BITS": 32}),
+                    parameters={"ENTRIES": 1, "BITS": 32}),
+    "link_2": Proof("link", "induction", LINK, parameters={"ENTRIES": 2, "BITS": 336}),
+    "link_5": Proof("link", "induction", LINK, parameters={"ENTRIES": 5, "BITS": 32}),
     "fifo_2": Proof("fifo", "induction",
                     ("fabric/fifo.sv", "ready == 2'd2) first <= second", "ready == 2'd2) first <= word"),
-                    parameters={"PLACES": 2, "BITS": 32}),
+                    parameters={"ENTRIES": 2, "BITS": 32}),
     "fifo_107": Proof("fifo", "induction", ("fabric/fifo.sv", "read_place == LAST ?", "read_place + 1'b1 == LAST ?"),
-                      parameters={"PLACES": 107, "BITS": 8}),
+                      parameters={"ENTRIES": 107, "BITS": 8}),
     "pipe": Proof("pipe_proof", "induction",
                   ("fabric/pipe.sv", "move = out_ready || !valid[STAGES-1]", "move = out_ready || !valid[0]")),
     "log2_value_32": Proof("log2_value_proof", "sat", ("texture/log2_value.sv", "shifted[11:0]", "shifted[12:1]")),
@@ -78,13 +78,13 @@ PROOFS = {
     # Four lines, the fewest entries; five lines of two beats.
     "miss_path_4": Proof("miss_path_proof", "induction",
                          ("texture/fill_buffer.sv", "(!line_valid || use_line)", "(!line_valid || held != FULL)"),
-                         steps=1, base=3, registers=True, parameters={"PLACES": 4}),
+                         steps=1, base=3, registers=True, parameters={"ENTRIES": 4}),
     "miss_path_5": Proof("miss_path_proof", "induction",
                          ("texture/miss_queue.sv", "if (count > 3'd2)", "if (count > 3'd3)"),
-                         steps=1, base=3, registers=True, parameters={"PLACES": 5, "LINE_BYTES": 128}),
+                         steps=1, base=3, registers=True, parameters={"ENTRIES": 5, "LINE_BYTES": 128}),
     # The fault: a request with as many lines as entries is never accepted.
     "cache_moves": Proof("cache_moves_proof", "induction",
-                         ("texture/miss_queue.sv", "FULL = PLACES[COUNT_BITS:0]", "FULL = PLACES[COUNT_BITS:0] - 1'b1"),
+                         ("texture/miss_queue.sv", "FULL = ENTRIES[COUNT_BITS:0]", "FULL = ENTRIES[COUNT_BITS:0] - 1'b1"),
                          steps=1, base=3, registers=True, free="tag_look_up"),
 }
 # The level for each count, with and without cap, of a minor side and of an area.
