@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The picture that the golden models compute, without buses, cycles and registers.
+// The picture that the golden models compute, without buses, clocks and registers.
 #pragma once
 
 #include <cstdint>

@@ -215,7 +215,7 @@ def main():
     for fault, wanted in ((False, True), (True, False)):
         start = time.monotonic()
         verdict, said = proved(proof, source, headers, fault)
-        what = "with a injected fault" if fault else "as it is"
+        what = "with an injected fault" if fault else "as it is"
         print(f"{sys.argv[3]} {what}: {dict([(True, 'proved'), (False, 'refuted'), (None, 'undecided')])[verdict]}, "
               f"{time.monotonic() - start:.1f} s")
         if verdict is not wanted:

@@ -165,7 +165,7 @@ void GeometricMeter::collect_hits(Result& result) const {
   const Parameters& p = setup_.geometric;
   if (p.colour_lines > 0)
     kept("colour_hits_percent", e.block_fetch.lines_kept, e.block_fetch.lines_read,
-         "Look-ups of lines of colours by the resolve that were kept.");
+         "Lookups of lines of colours by the resolve that were kept.");
   if (p.write_buffer > 0)
     kept("write_buffer_hits_percent", e.weight_combiner.buffer_hits, e.weight_combiner.blocks_read,
          "Misses of a block touched before that was in the write buffer.");

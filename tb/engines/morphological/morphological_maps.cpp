@@ -30,10 +30,11 @@ float& value_at(PictureMap& map, int x, int y) {
 void MorphologicalMaps::begin(int width, int height) {
   maps_ = {
       PictureMap("edges", "Edges", "edges", "Left and top edge of a pixel: 0 to 2.", width, height),
-      PictureMap("run_length", "Run lengths", "pixels",
-                 "Length of the run that a pixel's edge belongs to, of the longer one where it "
-                 "has two; of runs beyond the reach what one of their two records covers.",
-                 width, height),
+      PictureMap(
+          "run_length", "Run lengths", "pixels",
+          "Length of the run that a pixel's edge belongs to, of the longer one where it "
+          "has two; of runs beyond the search range, what one of their two descriptors covers.",
+          width, height),
       PictureMap("steps", "Predictor steps", "steps",
                  "Steps by which the predictors extended the runs of a pixel, over the pixels of "
                  "the run.",

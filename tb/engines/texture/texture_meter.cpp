@@ -51,7 +51,7 @@ void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
       "Lookups that requested a fill.");
   result.terminal.push_back(
       {"hits",
-       fmt::format("{:.2f} % of look-ups, {:.2f} % more merged with a fill under way; {:.2f} "
+       fmt::format("{:.2f} % of lookups, {:.2f} % more merged with a fill under way; {:.2f} "
                    "% of texels",
                    of_lookups(tags.hits), of_lookups(tags.merged), texel_hits)});
 }
@@ -75,8 +75,8 @@ void TextureMeter::collect_headline(Result& result) const {
                     {"Line fills of a texel", key("misses_per_texel")},
                     {"Texels without a line fill", key("texel_hits_percent")}};
   if (looks_up()) {
-    result.figures.push_back({"Look-ups that hit", key("lookup_hits_percent")});
-    result.figures.push_back({"Look-ups of a line under way", key("lookup_merged_percent")});
+    result.figures.push_back({"Lookups that hit", key("lookup_hits_percent")});
+    result.figures.push_back({"Lookups of a line under way", key("lookup_merged_percent")});
   }
   result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
   if (!unit_.address.derivative.replaced() && looks_up() && !unit_.filter.replaced())

@@ -39,7 +39,7 @@ void fill(tb::Result& r) {
   r.throughput_unit = "pixel/clk";
   r.throughput_bound_meaning = "two lanes";
   r.bottleneck = tb::Bottleneck{"walker", "full", "Its queue is full.", 9000};
-  r.terminal = {{"hits", "98.1 % of look-ups"}, {"a long name of it", "7"}};
+  r.terminal = {{"hits", "98.1 % of lookups"}, {"a long name of it", "7"}};
   r.bytes_read = 640000;
   r.bytes_written = 160000;
   r.memories = {memory("rom", ""), memory("cache", "nine ports"), memory("queue", "no clock")};
@@ -118,7 +118,7 @@ TEST_P(RunOutput, PrintsExpectedLines) {
 const Case kOutputs[] = {
     {"Everything", "run made", R"(rate        1.250 pixel/clk, 62.5 % of 2: two lanes
 limited by  walker, full in 22.5 % of the cycles: Its queue is full.
-hits        98.1 % of look-ups
+hits        98.1 % of lookups
 a long name of it 7
 memory      3.2 GB/s read, 0.8 written at 200 MHz
 quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against reference
