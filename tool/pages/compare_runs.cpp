@@ -261,7 +261,8 @@ Json compare_runs(const std::vector<fs::path>& paths, const Tolerances& toleranc
   json["runs"] = Json::array();
   for (const Run& run : runs) json["runs"].push_back(described(run));
   json["parameters"] = parameters_of(runs);
-  json["figures"] = json["values"] = Json::array();
+  json["figures"] = Json::array();
+  json["values"] = Json::array();
   for (const auto& [label, key] : headlines(runs)) {
     json["figures"].push_back(rows.row(key, tolerances));
     json["figures"].back()["label"] = label;

@@ -234,7 +234,8 @@ class SweepComparison {
     }
     json["parameters"] = parameters();
     json["axes"] = axes_;
-    json["metrics"] = json["objectives"] = Json::array();
+    json["metrics"] = Json::array();
+    json["objectives"] = Json::array();
     for (const MetricInfo& metric : metrics_) {
       const Trend more = check(dotted(metric.key), 1, 2, tolerances_, metric.maximise);
       Json direction;
@@ -313,7 +314,8 @@ class SweepComparison {
         row[i] = &point;
       }
     sums_.assign(sweeps_.size(), std::vector<Sum>(metrics_.size()));
-    json["points"] = json["only"] = Json::array();
+    json["points"] = Json::array();
+    json["only"] = Json::array();
     std::vector<JointPoint> joint;
     for (const auto& [at, row] : all) {
       for (std::size_t i = 0; i < row.size(); ++i)
@@ -324,7 +326,9 @@ class SweepComparison {
           everywhere && std::all_of(row.begin(), row.end(),
                                     [](const ComparedPoint* p) { return p->state == "done"; });
       Json entry = {{"at", at}};
-      entry["values"] = entry["identical"] = entry["front"] = Json::array();
+      entry["values"] = Json::array();
+      entry["identical"] = Json::array();
+      entry["front"] = Json::array();
       for (const ComparedPoint* point : row) {
         const bool has = point && point->state == "done";
         entry["values"].push_back(has ? numbers(point->values) : Json());

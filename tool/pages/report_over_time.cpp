@@ -30,10 +30,19 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   Json intervals = tb::try_parse_json(tb::read_file(file, kMaxIntervalsBytes));
   const auto demand = [&](bool valid) {
     if (!valid)
-      throw spec::FileError(fmt::format("'{}' is not a valid file of windows", file.string()));
+      throw spec::FileError(fmt::format("'{}' is not a valid file of intervals", file.string()));
   };
-  demand(intervals.is_object() && intervals.contains("series"));
+  demand(intervals.is_object());
+  for (const char* key :
+       {"series", "from", "cycles", "interval_cycles", "asked_cycles", "throughput"})
+    demand(intervals.contains(key));
+  intervals["command"] = without_options(source.manifest.value("command", ""),
+                                         {"--trace", "--trace-from", "--trace-to"});
+  page.set("intervals_command", intervals["command"].get<std::string>());
+  intervals.erase("units");
+  // From here on no key of `intervals` is added or erased, as that would move its values.
   Json& series = intervals["series"];
+  demand(series.is_object() && series.contains("work") && series["work"].is_object());
   const std::size_t count = intervals["from"].size();
   const auto column = [&](const Json& values) {
     demand(values.is_array() && values.size() == count);
@@ -49,9 +58,6 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
                            ? ""
                            : fmt::format("; {} were asked for, which would be too many intervals",
                                          report_text(intervals["asked_cycles"]))));
-  intervals["command"] = without_options(source.manifest.value("command", ""),
-                                         {"--trace", "--trace-from", "--trace-to"});
-  page.set("intervals_command", intervals["command"].get<std::string>());
 
   // A rate is a series divided by cycles.
   std::vector<std::vector<std::uint64_t>> columns;
@@ -73,7 +79,6 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
       if (series["work"].contains(port + bytes)) kept[port + bytes] = series["work"][port + bytes];
   }
   series["work"] = kept;  // the only part that the page uses
-  intervals.erase("units");
   page.set("has_ports", !of_ports.empty());
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::vector<HtmlCell> cells{HtmlCell::link(

@@ -461,7 +461,7 @@ TEST_F(Pages, DamagedFilesAreRejected) {
     changed[Json::json_pointer(at)] = std::move(value);
     return changed.dump();
   };
-  const std::string is_none = "is not a valid file of windows";
+  const std::string is_none = "is not a valid file of intervals";
   says("intervals.json", "[]", is_none);
   says("intervals.json", "{}", is_none);
   says("intervals.json", intervals("/cycles", {1000}), is_none);
