@@ -20,7 +20,7 @@ constexpr bool is_power_of_two(std::int32_t value) {
 // Leaves at least two directions per cycle: 1, 2, 4 for two, four, eight axes.
 constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
-inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 20> kBuildRules = {{
     {{"cache.bytes"},
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.cache_bytes); }},
@@ -59,6 +59,55 @@ inline constexpr std::array<BuildRule<Parameters>, 8> kBuildRules = {{
        return "make it at most " + std::to_string(kMostCacheLines * p.cache_line_bytes) +
               ", or lines longer";
      }},
+    {{"cache.outstanding"},
+     "must be at least 4 lines, those of one request; 0: derived from the memory latency",
+     [](const Parameters& p) { return p.cache_outstanding == 0 || p.cache_outstanding >= 4; }},
+    {{"width"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.width); }},
+    {{"fragments"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.fragments); }},
+    {{"cache.line_banks"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.cache_line_banks); }},
+    {{"cache.fill_writes"},
+     "must be a power of two",
+     [](const Parameters& p) { return is_power_of_two(p.cache_fill_writes); }},
+    {{"fragments", "width"},
+     "must be at most the requests per cycle, since every fragment makes a request",
+     [](const Parameters& p) { return p.fragments <= p.width; },
+     [](const Parameters& p) { return "make it at most " + std::to_string(p.width); }},
+    {{"cache.lookups", "cache.allocations", "cache.line_banks", "cache.bank_reads",
+      "cache.fill_writes", "width"},
+     "must be 4, 4, 1, 1 and 1 with width = 1: these ports belong to groups of requests",
+     [](const Parameters& p) {
+       return p.width > 1 ||
+              (p.cache_lookups == 4 && p.cache_allocations == 4 && p.cache_line_banks == 1 &&
+               p.cache_bank_reads == 1 && p.cache_fill_writes == 1);
+     }},
+    {{"cache.replacement", "width"},
+     "must be lru with a width above 1: with other policies, a line could be evicted between two "
+     "uses by one group",
+     [](const Parameters& p) { return p.width == 1 || p.cache_replacement == Replacement::kLru; }},
+    {{"cache.line_banks", "cache.bytes", "cache.line_bytes", "cache.ways"},
+     "must be at most the number of sets, since the low bits of the set select the bank",
+     [](const Parameters& p) {
+       return p.cache_line_banks * p.cache_line_bytes * p.cache_ways <= p.cache_bytes;
+     }},
+    {{"cache.fill_writes", "cache.line_banks"},
+     "must be at most the number of line banks, since each fill is written into another one",
+     [](const Parameters& p) { return p.cache_fill_writes <= p.cache_line_banks; },
+     [](const Parameters& p) { return "make it at most " + std::to_string(p.cache_line_banks); }},
+    {{"cache.outstanding", "cache.fill_writes"},
+     "must be a multiple of the fills written per cycle, over which the fill buffer is interleaved",
+     [](const Parameters& p) { return p.cache_outstanding % p.cache_fill_writes == 0; }},
+    {{"cache.outstanding", "cache.lookups"},
+     "must hold the lines of one group",
+     [](const Parameters& p) {
+       return p.cache_outstanding == 0 || p.cache_outstanding >= p.cache_lookups;
+     },
+     [](const Parameters& p) { return "make it at least " + std::to_string(p.cache_lookups); }},
 }};
 
 inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }

@@ -3,6 +3,7 @@
 // fields with their widths.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -52,6 +53,24 @@ struct Colour {
     visit("lane", self.lane, 2);
     visit("last", self.last);
     visit("rgba", self.rgba, 8, "U0.8", "rgba");
+  }
+};
+
+// The colours that the unit delivers in one cycle, in the order of their fragments: at least one,
+// at most one per request of a cycle (docs/reference/texture/width.md).
+struct ColourGroup {
+  std::uint8_t count = 1;
+  std::array<Colour, 4> colour{};
+  const Colour* begin() const { return colour.data(); }
+  const Colour* end() const { return colour.data() + count; }
+  friend bool operator==(const ColourGroup& a, const ColourGroup& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("colour", self.colour);
   }
 };
 

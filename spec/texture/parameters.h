@@ -34,6 +34,13 @@ inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
 
+enum class Blend : std::uint8_t { kSample, kLevel };
+inline constexpr std::array<std::string_view, 2> kBlendNames = {"sample", "level"};
+enum class Derivatives : std::uint8_t { kFine, kCoarse };
+inline constexpr std::array<std::string_view, 2> kDerivativesNames = {"fine", "coarse"};
+enum class NamedBuild : std::uint8_t { kNarrow, kLean, kWide };
+inline constexpr std::array<std::string_view, 3> kNamedBuildNames = {"narrow", "lean", "wide"};
+
 // ---- Limits of the build
 // Four lines are looked up one after the other in a cycle, which leaves time for this many ways.
 inline constexpr std::int32_t kMostCacheWays = 8;
@@ -42,6 +49,14 @@ inline constexpr std::int32_t kMostCacheLines = 512;
 inline constexpr std::int32_t kMostFifoDepth = 4096;
 inline constexpr std::int32_t kLeastCacheBytes = 256;
 inline constexpr std::int32_t kLeastCacheLineBytes = 32, kMostCacheLineBytes = 128;
+inline constexpr std::int32_t kMostOutstanding = 256;
+// Requests and fragments per cycle, and ports of the cache (docs/reference/texture/width.md).
+inline constexpr std::int32_t kMostWidth = 4;
+inline constexpr std::int32_t kLeastLookups = 4, kMostLookups = 8;
+inline constexpr std::int32_t kMostAllocations = 4;
+inline constexpr std::int32_t kMostLineBanks = 8;
+inline constexpr std::int32_t kMostBankReads = 2;
+inline constexpr std::int32_t kMostFillWrites = 4;
 
 // Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
 // `deburr`.
@@ -55,6 +70,8 @@ struct Configuration {
   Kernel kernel = Kernel::kBox;
   std::int32_t spread = 64;
   SrgbOutput srgb_output = SrgbOutput::kLinear;
+  Blend blend = Blend::kSample;
+  Derivatives derivatives = Derivatives::kFine;
 };
 
 // Build parameters: change cycles and cost, but no pixels. Runs that only differ in these have the
@@ -64,9 +81,17 @@ struct Build {
   std::int32_t cache_line_bytes = 64;
   std::int32_t cache_ways = 2;
   Replacement cache_replacement = Replacement::kLru;
-  std::int32_t cache_outstanding = 64;
-  std::int32_t cache_fifo_depth = 0;  // 0: derived from the memory latency
+  std::int32_t cache_outstanding = 64;  // 0: derived from the memory latency
+  std::int32_t cache_fifo_depth = 0;    // 0: derived from the memory latency
   std::int32_t axis_cycles = 1;
+  NamedBuild build = NamedBuild::kNarrow;
+  std::int32_t width = 1;      // bilinear requests per cycle
+  std::int32_t fragments = 1;  // fragments of one quad per cycle
+  std::int32_t cache_lookups = 4;
+  std::int32_t cache_allocations = 4;
+  std::int32_t cache_line_banks = 1;
+  std::int32_t cache_bank_reads = 1;
+  std::int32_t cache_fill_writes = 1;
 };
 
 struct Parameters : Configuration, Build {};
@@ -92,6 +117,13 @@ void describe(Configuration& p, Visitor& v) {
             "Length over which the samples are spread, U2.6 of the major axis.");
   v.choice("srgb_output", p.srgb_output, kSrgbOutputNames,
            "Output format of sRGB textures: 8-bit linear light, or sRGB codes.");
+  v.choice(
+      "blend", p.blend, kBlendNames,
+      "Order of the sums over samples and levels: sample blends the levels of each sample (the "
+      "paper); level sums the samples of each level, then blends the levels.");
+  v.choice("derivatives", p.derivatives, kDerivativesNames,
+           "Differences of a fragment: along its own row and column (fine), or along row 0 and "
+           "column 0 of its quad (coarse).");
 }
 
 template <class Visitor>
@@ -102,14 +134,32 @@ void describe(Build& p, Visitor& v) {
             "byte", "Size of a cache line; a power of two.");
   v.integer("cache.ways", p.cache_ways, 1, kMostCacheWays, "way", "Associativity; a power of two.");
   v.choice("cache.replacement", p.cache_replacement, kReplacementNames, "Replacement policy.");
-  v.integer("cache.outstanding", p.cache_outstanding, 4, 256, "line",
-            "Line fills in flight: entries of the miss queue and of the fill buffer.");
+  v.integer(
+      "cache.outstanding", p.cache_outstanding, 0, kMostOutstanding, "line",
+      "Line fills in flight: entries of the miss queue and of the fill buffer, at least 4; 0: "
+      "derived from the memory latency.");
   v.integer("cache.fifo_depth", p.cache_fifo_depth, 0, kMostFifoDepth, "request",
             "Depth of the latency FIFO between tag check and data read, at least 2; 0: derived "
             "from the memory latency.");
   v.integer("axis_cycles", p.axis_cycles, 1, 4, "clk",
             "Cycles for measuring the candidate directions of axes = four or eight; more cycles "
             "need fewer operators. A power of two, at most half the candidates.");
+  v.choice("build", p.build, kNamedBuildNames,
+           "Named build: sets width and ports below. A parameter that is given overrides it.");
+  v.integer("width", p.width, 1, kMostWidth, "request/clk",
+            "Bilinear requests per cycle; a power of two.");
+  v.integer("fragments", p.fragments, 1, kMostWidth, "fragment/clk",
+            "Fragments of one quad that the address unit accepts per cycle; a power of two.");
+  v.integer("cache.lookups", p.cache_lookups, kLeastLookups, kMostLookups, "line/clk",
+            "Distinct lines looked up per cycle.");
+  v.integer("cache.allocations", p.cache_allocations, 1, kMostAllocations, "line/clk",
+            "Lines allocated per cycle.");
+  v.integer("cache.line_banks", p.cache_line_banks, 1, kMostLineBanks, "bank",
+            "Banks of whole lines, selected by the low bits of the line number; a power of two.");
+  v.integer("cache.bank_reads", p.cache_bank_reads, 1, kMostBankReads, "word/clk",
+            "Words read per cycle from each bank of words.");
+  v.integer("cache.fill_writes", p.cache_fill_writes, 1, kMostFillWrites, "line/clk",
+            "Fills written per cycle, each into another line bank; a power of two.");
 }
 
 template <class Visitor>
@@ -139,6 +189,41 @@ constexpr void for_each_of(Preset preset, Set&& set) {
   set("footprint", &Configuration::footprint, row.footprint);
   set("log2", &Configuration::log2, row.log2);
   set("count", &Configuration::count, row.count);
+}
+
+// The parameters that a named build sets.
+struct BuildRow {
+  NamedBuild build;
+  std::int32_t outstanding;
+  std::int32_t width, fragments;
+  std::int32_t lookups, allocations, line_banks, bank_reads, fill_writes;
+};
+inline constexpr std::array<BuildRow, 3> kBuilds = {{
+    {NamedBuild::kNarrow, 64, 1, 1, 4, 4, 1, 1, 1},
+    {NamedBuild::kLean, 0, 4, 4, 6, 2, 4, 2, 2},
+    {NamedBuild::kWide, 0, 4, 4, 8, 4, 4, 2, 4},
+}};
+
+// Calls set(name, member, value) for each of them.
+template <class Set>
+constexpr void for_each_of(NamedBuild build, Set&& set) {
+  const BuildRow& row = row_of(kBuilds, &BuildRow::build, build);
+  set("cache.outstanding", &Build::cache_outstanding, row.outstanding);
+  set("width", &Build::width, row.width);
+  set("fragments", &Build::fragments, row.fragments);
+  set("cache.lookups", &Build::cache_lookups, row.lookups);
+  set("cache.allocations", &Build::cache_allocations, row.allocations);
+  set("cache.line_banks", &Build::cache_line_banks, row.line_banks);
+  set("cache.bank_reads", &Build::cache_bank_reads, row.bank_reads);
+  set("cache.fill_writes", &Build::cache_fill_writes, row.fill_writes);
+}
+
+// The defaults with the values of a named build. Throws ConfigError for an unknown one.
+constexpr Parameters named_build(NamedBuild build) {
+  Parameters p;
+  p.build = build;
+  for_each_of(build, [&](std::string_view, auto member, auto value) { p.*member = value; });
+  return p;
 }
 
 // The defaults with the values of a preset. Throws ConfigError for an unknown preset.

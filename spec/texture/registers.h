@@ -65,9 +65,12 @@ inline constexpr Field kCount{"count", 9, 8, Access::kConstant, {}, kCountNames}
 inline constexpr Field kCountCap{"count_cap", 10, 10, Access::kConstant, {}, kCountCapNames};
 inline constexpr Field kKernel{"kernel", 11, 11, Access::kConstant, {}, kKernelNames};
 inline constexpr Field kSrgbOutput{"srgb_output", 12, 12, Access::kConstant, {}, kSrgbOutputNames};
+inline constexpr Field kBlend{"blend", 13, 13, Access::kConstant, {}, kBlendNames};
+inline constexpr Field kDerivatives{"derivatives",     14, 14,
+                                    Access::kConstant, {}, kDerivativesNames};
 inline constexpr Field kSpread{"spread", 23, 16, Access::kConstant, "U2.6 of the major axis"};
-inline constexpr std::array kFields = {kFootprint, kLog2,   kAxes,       kCount,
-                                       kCountCap,  kKernel, kSrgbOutput, kSpread};
+inline constexpr std::array kFields = {kFootprint, kLog2,       kAxes,  kCount,       kCountCap,
+                                       kKernel,    kSrgbOutput, kBlend, kDerivatives, kSpread};
 }  // namespace configuration
 namespace size {
 inline constexpr Field kWidth{"width", 15, 0, Access::kReadWrite, "texels"};
@@ -145,6 +148,8 @@ constexpr std::uint32_t configuration_word(const Parameters& p) {
          configuration::kCountCap.in(code(p.count_cap)) |
          configuration::kKernel.in(code(p.kernel)) |
          configuration::kSrgbOutput.in(code(p.srgb_output)) |
+         configuration::kBlend.in(code(p.blend)) |
+         configuration::kDerivatives.in(code(p.derivatives)) |
          configuration::kSpread.in(code(p.spread));
 }
 // Registers whose values come from the parameters.
