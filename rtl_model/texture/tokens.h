@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "rtl_model/fabric/payload.h"
@@ -219,6 +220,49 @@ struct TexelQuadToken {
     visit("ticket", self.ticket);
     visit("control", self.control);
     visit("texel", self.texel, 32);
+  }
+};
+
+// ---- Widths above 1: up to four tokens in one cycle (docs/reference/texture/width.md). A link is
+// built for W (or F) of them: counts {"at", W}.
+inline constexpr std::size_t kMostInGroup = 4;
+
+// DerivativeUnit ... SampleWalker: the fragments of one quad that are accepted together.
+template <class Token>
+struct FragmentGroup {
+  std::uint8_t count;  // 1..F
+  std::array<Token, kMostInGroup> at;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("at", self.at);
+  }
+};
+
+// SampleWalker -> TexelAddresser -> GroupFormer -> TagStage: requests of one cycle.
+template <class Token>
+struct RequestGroup {
+  std::uint8_t count;    // 1..W
+  std::uint8_t partial;  // bit i: request i ends a fragment group of fewer than F fragments
+  std::array<Token, kMostInGroup> at;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("partial", self.partial, 4);
+    visit("at", self.at);
+  }
+};
+using SampleGroup = RequestGroup<SampleToken>;
+using TexelGroup = RequestGroup<TexelToken>;
+
+// DataStage -> FilterPipeline.
+struct TexelQuadGroup {
+  std::uint8_t count;  // 1..W
+  std::array<TexelQuadToken, kMostInGroup> at;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("at", self.at);
   }
 };
 
