@@ -23,11 +23,15 @@ std::string source_of(const spec::texture::Parameters& values) {
 }  // namespace
 
 void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values) {
-  const spec::texture::Parameters configuration = preset_parameters(values.preset);
-  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
-    set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(configuration, name),
-              source_of(values));
-  });
+  const spec::texture::Parameters implied = preset_parameters(values.preset, values.build);
+  const auto imply_from = [&](const std::string& source) {
+    return [&set, &implied, source](std::string_view name, auto, auto) {
+      set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(implied, name), source);
+    };
+  };
+  for_each_of(values.preset, imply_from(source_of(values)));
+  const auto build = spec::texture::kNamedBuildNames[static_cast<std::size_t>(values.build)];
+  for_each_of(values.build, imply_from(fmt::format("build {}", build)));
 }
 
 std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values) {
