@@ -303,7 +303,7 @@ TEST(Geometric, FramesMatchGoldenWithEveryPreset) {
     EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
     EXPECT_EQ(counter_of(handle.get(), "candidates"), golden.work().candidates);
     EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), golden.work().blended_pixels);
-    // A new frame has no depth, and needs none with depth_test = off.
+    // A new frame starts without depth; depth_test = off does not need it.
     expect_ok(handle, deburr_frame_begin(handle.get(), 8, 8));
     expect_rejected(handle, "the frame has no depth", deburr_frame_process(handle.get()));
     expect_ok(handle, deburr_set(handle.get(), "depth_test", "off"));

@@ -167,7 +167,7 @@ def problems(header, texts, page):
 
 
 def missed_faults(header, texts, page):
-    """The injected faults that no check reports: changes of the header, of a generated file, of the page."""
+    """Injected faults that remain undetected: changes of the header, of a generated file, of the page."""
     changes = [("uint32_t* count);", "uint64_t* count);"), ("size_t lines_size,", "uint32_t lines_size,"),
                ("const int32_t s[4]", "const int32_t s[8]"), ("DEBURR_BUSY = 3", "DEBURR_BUSY = 4"),
                ("uint32_t lane,", "uint32_t corner,"), ("int deburr_reset(", "int deburr_restart("),

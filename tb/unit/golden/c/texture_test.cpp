@@ -284,7 +284,7 @@ TEST(State, ParameterChangeClearsCountersNotTextures) {
   expect_ok(handle, deburr_texture_invalidate(handle.get()));
   EXPECT_EQ(first_red(handle.get()), 255);
   EXPECT_EQ(counter_of(handle.get(), "line_fills"), 2u);
-  // A rejected parameter has no effect; an accepted one applies from the next quad.
+  // A rejected parameter changes nothing; an accepted one applies from the next quad.
   EXPECT_EQ(deburr_set(handle.get(), "axes", "three"), DEBURR_ARGUMENT);
   EXPECT_EQ(first_red(handle.get()), 255);
   EXPECT_EQ(counter_of(handle.get(), "fragments"), 4u);

@@ -306,8 +306,8 @@ TEST(Corners, ReduceWeightsNearSharpCorners) {
   }
 }
 
-// 7 x 329 / 512 = 4.498 and 257 / 512 = 0.502 round to nearest, 1/2 rounds up. A run with an even
-// number of pixels has no middle.
+// 7 x 329 / 512 = 4.498 and 257 / 512 = 0.502 round to nearest, 1/2 rounds up. The middle
+// exists only in runs with an odd number of pixels.
 TEST(Corners, RoundWeightsToNearest) {
   const auto middle = [&](int weight, int stays) {
     const EdgeWeights weights{static_cast<std::uint8_t>(weight), 0};

@@ -218,7 +218,7 @@ TEST(BypassCoverage, CountsMarkPositionHalvingAndBorder) {
     int x = 2, y = 1;
   };
   for (const Row& row : {
-           // kNone and kMasked have no bins.
+           // kNone and kMasked are not counted.
            Row{Bypass::kNone, kEvery, kVertical, ""},
            Row{Bypass::kMasked, kEvery, kVertical, ""},
            Row{Bypass::kMarked, kOwn, kVertical, "left/marked/own"},

@@ -289,7 +289,7 @@ TEST(MorphologicalEdges, PredicatedThresholdIsExact) {
   }
 }
 
-// A threshold 1/65536 above 254 codes needs a step of 255; above 255 codes there are no edges.
+// A threshold 1/65536 above 254 codes needs a step of 255; above 255 codes nothing is an edge.
 TEST(MorphologicalEdges, ColourThresholdRoundsUpToCode) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
   for (const int step : {0, 253, 254, 255}) {
@@ -376,7 +376,8 @@ TEST(MorphologicalEdges, FloorDecidesUpToEquality) {
   }
 }
 
-// Each of the five other steps is the largest once: at twice the edge's step and one code around.
+// Each of the five other steps in turn is the largest: twice the edge's step, and one code less or
+// more.
 TEST(MorphologicalEdges, PaperAndSmaaContrastDifferOnlyAtEquality) {
   using spec::morphological::LocalContrast;
   constexpr int kOwn = 20;

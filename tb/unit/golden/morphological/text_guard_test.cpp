@@ -143,7 +143,7 @@ TEST(TextGuard, ComparesColoursByHash) {
   EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(190))), 'g'), 81);  // same hash as 255
   EXPECT_EQ(colour_hash(grey(190)), colour_hash(grey(255)));
   EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(254))), 'g'),
-            17);  // windows without the spot
+            17);  // pixels whose window excludes the spot
 }
 
 // ---- the definition -----------------------------------------------------------------------------
