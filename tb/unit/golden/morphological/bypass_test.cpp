@@ -194,8 +194,8 @@ TEST(BypassCoverage, EveryBinCanBeReached) {
       if (bin.hits != 0) names.insert(bin.name);
     return names;
   };
-  EXPECT_THAT(hit(by_mark), testing::ElementsAre("left/marked/own"));
-  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("left/half/own", "half/up", "half/left",
+  EXPECT_THAT(hit(by_mark), testing::ElementsAre("bypass/marked/own"));
+  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("bypass/half/own", "half/up", "half/left",
                                                        "half/right", "half/down", "half/nothing"));
   std::set<std::string> all = hit(beside);
   EXPECT_EQ(all.size(), 6u + 4 * 2);
@@ -221,10 +221,10 @@ TEST(BypassCoverage, CountsMarkPositionHalvingAndBorder) {
            // kNone and kMasked are not counted.
            Row{Bypass::kNone, kEvery, kVertical, ""},
            Row{Bypass::kMasked, kEvery, kVertical, ""},
-           Row{Bypass::kMarked, kOwn, kVertical, "left/marked/own"},
+           Row{Bypass::kMarked, kOwn, kVertical, "bypass/marked/own"},
            Row{Bypass::kMarked, 0, kVertical, ""},
-           Row{Bypass::kHalf, kOwn, kVertical, "left/half/own"},
-           Row{Bypass::kHalf, kOwn | kUp, kVertical, "left/half/own"},
+           Row{Bypass::kHalf, kOwn, kVertical, "bypass/half/own"},
+           Row{Bypass::kHalf, kOwn | kUp, kVertical, "bypass/half/own"},
            // Only neighbours along the chosen axis are halved.
            Row{Bypass::kHalf, 0, kVertical, ""},
            Row{Bypass::kHalf, kUp, kVertical, "half/up"},
@@ -244,23 +244,23 @@ TEST(BypassCoverage, CountsMarkPositionHalvingAndBorder) {
            Row{Bypass::kHalf, kUp, {false, 1, 1}, "half/up"},
            // Several marks count as `several`.
            Row{Bypass::kBeside, 0, kVertical, ""},
-           Row{Bypass::kBeside, kOwn, kVertical, "left/beside/own"},
-           Row{Bypass::kBeside, kUp, kVertical, "left/beside/up"},
-           Row{Bypass::kBeside, kLeft, kVertical, "left/beside/left"},
-           Row{Bypass::kBeside, kRight, kVertical, "left/beside/right"},
-           Row{Bypass::kBeside, kDown, kVertical, "left/beside/down"},
-           Row{Bypass::kBeside, kOwn | kUp, kVertical, "left/beside/several"},
-           Row{Bypass::kBeside, kEvery, kVertical, "left/beside/several"},
+           Row{Bypass::kBeside, kOwn, kVertical, "bypass/beside/own"},
+           Row{Bypass::kBeside, kUp, kVertical, "bypass/beside/up"},
+           Row{Bypass::kBeside, kLeft, kVertical, "bypass/beside/left"},
+           Row{Bypass::kBeside, kRight, kVertical, "bypass/beside/right"},
+           Row{Bypass::kBeside, kDown, kVertical, "bypass/beside/down"},
+           Row{Bypass::kBeside, kOwn | kUp, kVertical, "bypass/beside/several"},
+           Row{Bypass::kBeside, kEvery, kVertical, "bypass/beside/several"},
            Row{Bypass::kBeside, 0, kVertical, "", 3, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/top/blended", 2, 0},
            Row{Bypass::kBeside, 0, kVertical, "border/left/blended", 0, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/right/blended", 4, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended", 2, 3},
            Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended border/right/blended", 4, 3},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/top/left left/beside/own", 2, 0},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/left/left left/beside/own", 0, 2},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/right/left left/beside/own", 4, 2},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/bottom/left left/beside/own", 2, 3},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/top/bypassed bypass/beside/own", 2, 0},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/left/bypassed bypass/beside/own", 0, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/right/bypassed bypass/beside/own", 4, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/bottom/bypassed bypass/beside/own", 2, 3},
        }) {
     const Frame frame(5, 4, [](int, int) { return grey(1); });
     golden::morphological::BypassCoverage coverage;
