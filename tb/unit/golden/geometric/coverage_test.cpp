@@ -63,8 +63,8 @@ Drawing random_drawing(std::uint64_t seed) {
   };
   for (int i = 0; i < 400; ++i) {
     const std::uint32_t range = std::uint32_t{8} << random.below(12);
-    // Some lines have a constant depth: in front of depth 4000000, or exactly at the limit of the
-    // depth test behind it.
+    // Some lines have a constant depth: nearer than 4000000, or farther by exactly what the depth
+    // test allows.
     const bool level = random.chance(300);
     const std::uint32_t depth = random.chance(500) ? 4100000 : 4000000 - 4000000 / 512;
     const auto depth_of_end = [&] { return level ? depth : random.below(1u << 24); };
@@ -85,8 +85,8 @@ Drawing random_drawing(std::uint64_t seed) {
   return d;
 }
 
-// A block at the start of a memory line that blends with pixels to the left, above and below, so
-// that it reads as many lines as possible.
+// A block at the start of a memory line that blends with pixels to the left, above and below, so it
+// reads the largest number of lines.
 Drawing most_lines() {
   Drawing d(70, 50);
   d.vertices = {{16 * 256 + 64, 2048, 1, true},      {16 * 256 + 64, 3072, 1, true},
@@ -281,7 +281,7 @@ TEST(Coverage, CoarseBinsSeparateTheLimitAndTheTiles) {
 
 // ---- each bin by itself -------------------------------------------------------------------------
 
-// A bin that is missing from the list would not show up as an unhit bin. Of the 7 classes, `all`
+// A bin that is missing from the list would not show up as an unhit bin. There are 7 classes: `all`
 // can give three, `edges` five without creases and six with either crease rule, `mesh` three
 // without creases and four with them.
 TEST(Coverage, ListsEveryBinOfEveryGroup) {
