@@ -226,7 +226,7 @@ TEST(Coverage, BinsAgreeWithReducedTraffic) {
   const auto& traffic = golden.traffic();
   const auto& work = golden.work();
   EXPECT_EQ(hits.at("fetch/depth/miss"),
-            traffic.read(Region::kDepth).size());  // the cache holds all of them
+            traffic.read(Region::kDepth).size());  // all fit
   EXPECT_EQ(hits.at("fetch/colour/miss"), 20u);
   EXPECT_EQ(hits.at("fetch/colour/miss") + hits.at("fetch/colour/replaced"),
             traffic.read(Region::kColour).size());
@@ -357,7 +357,7 @@ TEST(Coverage, LinesCountOctantLengthAndClipping) {
            {kRight + 129, 300, -128, 300, "columns/both line/left-down/longer rows/inside"},
            {300, -127, 300, kBottom + 128, "columns/none line/down-right/longer rows/inside"},
            {300, kBottom + 129, 300, -127, "columns/end line/up-right/longer rows/inside"},
-           // Rows are across the line.
+           // Rows are counted across the line.
            {128, 0, 5000, kBottom - 1, "columns/none line/right-down/longer rows/inside"},
            {128, -1, 5000, 0, "columns/none line/right-down/longer rows/enters-before"},
            {5000, 0, 128, -1, "columns/none line/left-up/longer rows/enters-before"},
@@ -512,7 +512,8 @@ TEST(Coverage, EachEventOfADirectionHasItsBin) {
       weight(Combine::kMax, nearer, 1, "/raised");
       weight(Combine::kMax, nearer, -1, "/kept");
       weight(Combine::kMax, nearer, 0, "/equal");
-      // With `outermost` the larger weight wins if the pixel is not nearer, or has no weight yet.
+      // With `outermost` the larger weight wins if the pixel is not nearer, or if its weight is
+      // still 0.
       weight(Combine::kOutermost, nearer, 1, nearer ? "/held" : "/raised");
       weight(Combine::kOutermost, nearer, -1, nearer ? "/lowered" : "/kept");
       weight(Combine::kOutermost, nearer, 0, "/equal");

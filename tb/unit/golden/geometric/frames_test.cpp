@@ -348,8 +348,8 @@ TEST(MemoryErrors, UnreadableColoursAreZeros) {
   }
 }
 
-// A block whose weights cannot be read stays touched but has no blended pixel; other blocks do not
-// change.
+// A block whose weights cannot be read stays touched, but none of its pixels is blended; other
+// blocks do not change.
 TEST(MemoryErrors, UnreadableWeightsAreZeros) {
   const Drawing d = vector_drawing();
   Parameters p;
@@ -373,7 +373,7 @@ TEST(MemoryErrors, UnreadableWeightsAreZeros) {
   }
 }
 
-// Without any detail, unreadable lines are followed too, and nothing else is recorded.
+// Detail::kPixels models memory errors as well, but records nothing else.
 TEST(MemoryErrors, FastModeModelsMemoryErrors) {
   GeometricGolden golden(Parameters{}, GeometricGolden::Detail::kPixels), all(Parameters{});
   for (GeometricGolden* g : {&golden, &all}) {
@@ -389,8 +389,8 @@ TEST(MemoryErrors, FastModeModelsMemoryErrors) {
   for (const auto& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
-// Unreadable depth counts as the farthest, so a line behind everything else is visible there, in
-// every row and column of the unreadable line.
+// Unreadable depth counts as the farthest, so a line farther than everything else is visible there,
+// in every row and column of the unreadable line.
 TEST(MemoryErrors, UnreadableDepthHidesNothing) {
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
     Drawing d = one_line(192, 0, 192, 16 * 256);  // 3/4 of column 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One line against docs/reference/geometric/algorithm.md: columns, reciprocals, bounds against
-// exact fractions, coverage, ties, the depth test, weights and the blend.
+// Lines against docs/reference/geometric/algorithm.md: columns, reciprocals, bounds against exact
+// fractions, coverage, ties, the depth test, weights and the blend.
 #include "golden/geometric/line.h"
 
 #include <gmock/gmock.h>
@@ -339,8 +339,7 @@ TEST(DepthTest, PassesAtTheLimitAndFailsBelow) {
         configuration.depth_test = test;
         const std::uint32_t f = test == DepthTest::kOwn ? own : std::min(own, other);
         const std::uint32_t limit = f - static_cast<std::uint32_t>(f / std::exp2(bias));
-        for (const bool crease :
-             {false, true}) {  // crease_depth = 0: creases have no additional limit
+        for (const bool crease : {false, true}) {  // crease_depth = 0: no more limits
           EXPECT_TRUE(passes(configuration, crease, limit, own, other)) << bias << ' ' << f;
           EXPECT_TRUE(passes(configuration, crease, limit + 1, own, other));
           if (limit > 0) {
@@ -355,7 +354,7 @@ TEST(DepthTest, PassesAtTheLimitAndFailsBelow) {
 }
 
 // The depth that a crease is compared with may be farther than the crease by at most
-// 2^-crease_depth of the crease's depth. Other lines have no such limit.
+// 2^-crease_depth of the crease's depth. Other lines are not limited in this way.
 TEST(DepthTest, CreasesHaveAnAdditionalLimit) {
   Configuration configuration;
   tb::Random random(9);

@@ -201,8 +201,8 @@ Parameters small_cache(int write_buffer) {
   return p;
 }
 
-// A block that hits in the write buffer is not read from memory, so an error of memory does not
-// affect it. Block 15 is in the cache at the end.
+// A block that hits in the write buffer is not read from memory, so a memory error does not affect
+// it. Block 15 is in the cache at the end.
 TEST(WriteBuffer, HitsAreUnaffectedByMemoryErrors) {
   for (const int places : {0, 12}) {
     GeometricGolden golden(small_cache(places));
@@ -274,7 +274,7 @@ TEST(SplitRecords, OtherPairsFollowBoundariesUnlessBaseIsSet) {
   EXPECT_THROW(golden.process(input), spec::CheckFailed);
 }
 
-// BOUNDARY_COUNT differs from the flags, which give nine boundaries and sixteen others.
+// BOUNDARY_COUNT need not match the flags, which give nine boundaries and sixteen others.
 TEST(SplitRecords, RecordsBeyondTheCountsAreInvalid) {
   Drawing d = mixed_edges();
   for (Edge& edge : d.edges)
@@ -301,8 +301,7 @@ TEST(SplitRecords, RecordsBeyondTheCountsAreInvalid) {
   EXPECT_THAT(invalid(10), ElementsAre(23));  // other number 15 of 15
   EXPECT_EQ(pairs(), lines(kPairs, {0, 1, 2}));
   EXPECT_THAT(invalid(15), ElementsAre(16, 17, 19, 20, 22, 23));  // from number 10 on
-  EXPECT_EQ(pairs(),
-            lines(kPairs, {0, 2}));  // others start after two lines of boundaries, in one line
+  EXPECT_EQ(pairs(), lines(kPairs, {0, 2}));                      // others start at line 2
   // An edge without a valid number reads no pair.
   EXPECT_THAT(invalid(0), ElementsAre(0, 3, 6, 9, 12, 15, 18, 21, 24));
   EXPECT_EQ(pairs(), lines(kPairs, {0, 1}));

@@ -37,7 +37,7 @@ TEST(Cmaa2, FindsStepsAboveItsThreshold) {
   EXPECT_TRUE(edge({100, 100, 100, 255}, {113, 113, 113, 255}));
   EXPECT_FALSE(edge({142, 0, 0, 255}, {100, 0, 0, 255}));
   EXPECT_TRUE(edge({143, 0, 0, 255}, {100, 0, 0, 255}));
-  // Colours of almost equal luma have an edge, too.
+  // Colours of almost equal luma also have an edge.
   EXPECT_TRUE(edge({100, 100, 0, 255}, {159, 70, 0, 255}));
 }
 
@@ -58,16 +58,16 @@ TEST(Cmaa2, StrongCrossingEdgeHidesWeakEdge) {
 
 TEST(Cmaa2, SimpleShapesTakeATenthOfEachNeighbour) {
   const auto middle = [](const ColourFrame& frame) { return cmaa2(frame, in_codes())[4][0]; };
-  const auto over = [](std::initializer_list<int> white) {
+  const auto white_at = [](std::initializer_list<int> white) {
     return grey_frame(3, 3, [=](int x, int y) {
       return std::find(white.begin(), white.end(), 3 * y + x) != white.end() ? 255 : 0;
     });
   };
-  EXPECT_EQ(middle(over({4})), 153);             // a dot: 1 - 4/10
-  EXPECT_EQ(middle(over({1, 4})), 179);          // a tip: 1 - 3/10, 178.5
-  EXPECT_EQ(middle(over({0, 1, 3, 4})), 204);    // a corner: 1 - 2/10
-  EXPECT_EQ(middle(over({1, 4, 7})), 255);       // a line
-  EXPECT_EQ(middle(over({0, 1, 2, 3, 5})), 77);  // a black tip: 3/10, 76.5
+  EXPECT_EQ(middle(white_at({4})), 153);             // a dot: 1 - 4/10
+  EXPECT_EQ(middle(white_at({1, 4})), 179);          // a tip: 1 - 3/10, 178.5
+  EXPECT_EQ(middle(white_at({0, 1, 3, 4})), 204);    // a corner: 1 - 2/10
+  EXPECT_EQ(middle(white_at({1, 4, 7})), 255);       // a line
+  EXPECT_EQ(middle(white_at({0, 1, 2, 3, 5})), 77);  // a black tip: 3/10, 76.5
 }
 
 // Each weight is for a number of edges of the pixel: two, three or four.
@@ -86,8 +86,7 @@ TEST(Cmaa2, WeightDependsOnTheNumberOfEdges) {
   EXPECT_NEAR(middle([](int i) { return i < 2 || i == 3 || i == 4; }), 229.5, 0.5);
 }
 
-// Pixels of the first row and column can be corners. There are no edges beyond the last row and
-// column.
+// Pixels of the first row and column can be corners. Edges are not found outside the frame.
 TEST(Cmaa2, BlendsAtTheBordersOfTheFrame) {
   const ColourFrame frame =
       grey_frame(3, 3, [](int x, int y) { return x == 1 && y == 0 ? 255 : 0; });
@@ -153,7 +152,7 @@ TEST(Cmaa2, LongStepBlendsBetweenTheMiddlesOfItsArms) {
   EXPECT_NE(step_row(20, 8, kWhite, kBlack, {}), long_step);
 }
 
-// An edge that crosses on one side ends an arm. The right arm then has six pixels, of which three
+// An edge that crosses on one side ends an arm. The right arm then has six pixels; three of them
 // take (2.28 - n) / 2.78 / 2 of black. The crossing itself makes two corners.
 TEST(Cmaa2, CrossingOnEitherSideEndsAnArm) {
   for (const bool above : {true, false}) {

@@ -44,11 +44,11 @@ TEST(Fxaa, ContrastBelowThresholdsIsUnchanged) {
   EXPECT_NE(fxaa(dot(187, 200), settings), dot(187, 200).pixels);
 }
 
-// The search finds no end of an axis-aligned edge, so only the sub-pixel term remains: 1/3 of the
-// range, smoothed to 7/27, squared, times 3/4, which is 0.0504, or 12.85 of 255. A line of one
-// pixel has curvature only across its axis, so it blends with the pixels on both sides, and they
-// blend with it. It differs from its neighbours by 2/3 of the range, smoothed to 20/27, squared,
-// times 3/4, which is 0.4115.
+// The search does not find an end of an axis-aligned edge, so only the sub-pixel term remains: 1/3
+// of the range, smoothed to 7/27, squared, times 3/4, which is 0.0504, or 12.85 of 255. A line of
+// one pixel has curvature only across its axis, so it blends with the pixels on both sides, and
+// they blend with it. It differs from its neighbours by 2/3 of the range, smoothed to 20/27,
+// squared, times 3/4, which is 0.4115.
 TEST(Fxaa, AxisAlignedEdgesUseOnlyTheSubpixelTerm) {
   struct Row {
     std::vector<int> before, after;  // codes of the rows

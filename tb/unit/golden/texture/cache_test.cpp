@@ -31,7 +31,7 @@ struct Step {
   const char* why;
 };
 
-void play(CachePredictor& cache, const std::vector<Step>& steps) {
+void expect_lookups(CachePredictor& cache, const std::vector<Step>& steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     EXPECT_EQ(cache.lookup(steps[i].line), steps[i].hit)
         << "step " << i << ", line " << steps[i].line << ": " << steps[i].why;
@@ -99,9 +99,9 @@ TEST(Cache, InvalidationKeepsTheRandomSequenceAndResetRestartsIt) {
 // The predictor answers a repeated lookup of the same line without searching its set.
 TEST(Cache, InvalidationClearsTheLastLine) {
   CachePredictor cache(geometry(512, 64, 2));
-  play(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
+  expect_lookups(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
   cache.invalidate();
-  play(cache, {{5, false, "the cache is empty"}});
+  expect_lookups(cache, {{5, false, "the cache is empty"}});
 }
 
 std::vector<std::uint32_t> request(CachePredictor& cache, std::array<std::uint32_t, 4> lines) {
@@ -136,7 +136,8 @@ TEST(Cache, ARequestMayEvictItsOwnLines) {
 TEST(Cache, SupportsDirectMappedAndFullyAssociative) {
   CachePredictor direct(geometry(256, 32, 1));
   EXPECT_EQ(direct.sets(), 8u);
-  play(direct, {{0, false, ""}, {8, false, "conflict"}, {0, false, "conflict"}, {1, false, ""}});
+  expect_lookups(direct,
+                 {{0, false, ""}, {8, false, "conflict"}, {0, false, "conflict"}, {1, false, ""}});
   CachePredictor full(geometry(512, 64, 8));
   EXPECT_EQ(full.sets(), 1u);
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_FALSE(full.lookup(line * 1000));
