@@ -80,7 +80,7 @@ void TextureMeter::collect_headline(Result& result) const {
   }
   result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
   if (!unit_.address.derivative.replaced() && looks_up() && !unit_.filter.replaced())
-    result.bottleneck = find_bottleneck(result.units, figure("filter"));
+    result.bottleneck = find_bottleneck(result.units, figure(unit_.filter.basename()));
 }
 
 }  // namespace deburr::tb

@@ -98,6 +98,8 @@ class Terminal(unittest.TestCase):
                                    *reference], text=True, capture_output=True, timeout=300)
             self.assertEqual(done.returncode, 0, done.stderr)
             lines = done.stdout.splitlines()
+            self.assertNotEqual(self.result()["bottleneck"]["cause"], "descriptors",
+                                "the unit that completes descriptors is named instead")
             change = self.result()["change"]
             self.assertGreater(change["over_2_percent"], 0)
             right = (f" (of those that were right before {change['right_over_2_percent']:.2f} % and "
