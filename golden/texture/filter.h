@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the colour of a fragment from the bytes of its texels: unpack, bilinear, level lerp,
-// kernel sum.
+// Computes the colour of a fragment from the bytes of its texels: unpack, bilinear, level lerp and
+// kernel sum, or with blend = level kernel sums and their lerp.
 //
 // Last part of the texture golden model (paper 004, section 2.3 and equation 4). Pure functions of
 // integers, one channel at a time; docs/reference/texture/formats.md, table. Inline, since they are
@@ -95,14 +95,26 @@ inline Lanes level_lerp(Lanes level, Lanes next_level, std::uint32_t f) {
   return vertical_lerp(level, next_level, f);
 }
 
-// Rounds the sum of kernel weight x level result, U8.20, to 8 bits.
-inline std::uint8_t round_result(std::uint32_t accumulator) {
-  return static_cast<std::uint8_t>((accumulator + (1u << 19)) >> 20);
+// Between the kernel sums of two levels (blend = level): U8.20 and U0.8 to U8.28, exact.
+inline std::uint64_t level_sum_lerp(std::uint32_t level, std::uint32_t next_level,
+                                    std::uint32_t f) {
+  return std::uint64_t{level} * (256 - f) + std::uint64_t{next_level} * f;
 }
 
-// Converts a sum in linear light, U8.20, to an sRGB code.
-inline std::uint8_t encode_result(std::uint32_t accumulator) {
-  return spec::texture::kLinearToSrgb[(accumulator + (1u << 15)) >> 16];
+// Fraction bits of the accumulator.
+inline constexpr int kSampleSumBits = 20, kLevelSumBits = 28;
+
+// Rounds the accumulator to 8 bits.
+inline std::uint8_t round_result(std::uint64_t accumulator, int fraction_bits = kSampleSumBits) {
+  return static_cast<std::uint8_t>((accumulator + (std::uint64_t{1} << (fraction_bits - 1))) >>
+                                   fraction_bits);
+}
+
+// Converts an accumulator in linear light to an sRGB code.
+inline std::uint8_t encode_result(std::uint64_t accumulator, int fraction_bits = kSampleSumBits) {
+  const int dropped = fraction_bits - 4;
+  return spec::texture::kLinearToSrgb[(accumulator + (std::uint64_t{1} << (dropped - 1))) >>
+                                      dropped];
 }
 
 }  // namespace deburr::golden::texture

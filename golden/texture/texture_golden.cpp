@@ -117,6 +117,7 @@ TextureGolden::Differences TextureGolden::differences(const Texture& texture,
 
 FragmentAnalysis TextureGolden::analyse(const Texture& texture, const Differences& differences,
                                         int lane) const {
+  if (parameters_.derivatives == spec::texture::Derivatives::kCoarse) lane = 0;
   const Difference& row = differences.rows[static_cast<std::size_t>(lane >> 1)];
   const Difference& column = differences.columns[static_cast<std::size_t>(lane & 1)];
   const auto level = [&](const Footprint& of) {
@@ -225,29 +226,53 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
   const std::int64_t distance_s = half_distance(n, spread, fragment.axis.s);
   const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
-  Channels accumulator;  // U8.20
+  const auto at = [&](int i) {
+    Sample sample;
+    sample.s = s + offset_at(i, n, distance_s);
+    sample.t = t + offset_at(i, n, distance_t);
+    sample.wrapped_s = wrap_coordinate(texture.descriptor.wrap_s, sample.s);
+    sample.wrapped_t = wrap_coordinate(texture.descriptor.wrap_t, sample.t);
+    tap.sample(i, sample.s, sample.t);
+    return sample;
+  };
+  const auto filtered = [&](const Sample& sample, int level) {
+    return bilinear(texture, level, lod.linear, sample.wrapped_s, sample.wrapped_t, tap);
+  };
+  const auto add = [&](Channels& sum, int i, const Channels& value) {  // U8.20
+    const Lanes weight = sample_weight(parameters_.kernel, i, n);
+    sum.rb += weight * value.rb;
+    sum.ga += weight * value.ga;
+  };
+  const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
+                      parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
+  const auto result = [encode](std::size_t c, std::uint64_t accumulator, int fraction_bits) {
+    return encode && c < 3 ? encode_result(accumulator, fraction_bits)
+                           : round_result(accumulator, fraction_bits);
+  };
+  std::array<std::uint8_t, 4> rgba{};
+  if (parameters_.blend == spec::texture::Blend::kLevel) {
+    Channels sum, next_sum;
+    for (int i = 0; i < n; ++i) add(sum, i, filtered(at(i), lod.level));
+    for (int i = 0; i < n && lod.fraction != 0; ++i)
+      add(next_sum, i, filtered(at(i), lod.level + 1));
+    const Texel level = to_texel(sum), next_level = to_texel(next_sum);
+    for (std::size_t c = 0; c < 4; ++c)
+      rgba[c] = result(c, level_sum_lerp(level[c], next_level[c], lod.fraction), kLevelSumBits);
+    return rgba;
+  }
+  Channels accumulator;
   for (int i = 0; i < n; ++i) {
-    const std::int64_t at_s = s + offset_at(i, n, distance_s);
-    const std::int64_t at_t = t + offset_at(i, n, distance_t);
-    const std::int64_t sample_s = wrap_coordinate(texture.descriptor.wrap_s, at_s);
-    const std::int64_t sample_t = wrap_coordinate(texture.descriptor.wrap_t, at_t);
-    tap.sample(i, at_s, at_t);
-    Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t, tap);
+    const Sample sample = at(i);
+    Channels value = filtered(sample, lod.level);
     if (lod.fraction != 0) {
-      const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t, tap);
+      const Channels next = filtered(sample, lod.level + 1);
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    const Lanes weight = sample_weight(parameters_.kernel, i, n);
-    accumulator.rb += weight * value.rb;
-    accumulator.ga += weight * value.ga;
+    add(accumulator, i, value);
   }
-  const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
-                      parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
-  const std::array<std::uint32_t, 4> sums = to_texel(accumulator);
-  std::array<std::uint8_t, 4> rgba{};
-  for (std::size_t c = 0; c < 4; ++c)
-    rgba[c] = encode && c < 3 ? encode_result(sums[c]) : round_result(sums[c]);
+  const Texel sums = to_texel(accumulator);
+  for (std::size_t c = 0; c < 4; ++c) rgba[c] = result(c, sums[c], kSampleSumBits);
   return rgba;
 }
 

@@ -92,6 +92,30 @@ TEST(Filter, EncodedOutputKeepsEveryCode) {
   EXPECT_EQ(encode_result((4080u << 16) - (1u << 15) - 1), spec::texture::kLinearToSrgb[4079]);
 }
 
+// Two samples of weight 128, f = 128, halfway to code 1 in level 1 and 1/4096 less in level 0: each
+// level lerp rounds up, but the sum of both levels does not.
+TEST(Filter, LevelSumsAreRoundedOnlyAtTheEnd) {
+  EXPECT_EQ(round_result(2 * 128 * level_lerp(2047u, 2048u, 128)), 1);
+  const std::uint64_t sum = level_sum_lerp(2 * 128 * 2047, 2 * 128 * 2048, 128);
+  EXPECT_EQ(sum, 134184960u);  // 256 x 128 x 4095
+  EXPECT_EQ(round_result(sum, kLevelSumBits), 0);
+  EXPECT_EQ(round_result(134217727, kLevelSumBits), 0);  // 2^27 - 1
+  EXPECT_EQ(round_result(134217728, kLevelSumBits), 1);
+  const std::uint32_t white = 4080u << 16;
+  EXPECT_EQ(level_sum_lerp(white, white, 77), 68451041280u);  // 255 x 2^28
+  EXPECT_EQ(round_result(level_sum_lerp(white, white, 77), kLevelSumBits), 255);
+  EXPECT_EQ(level_sum_lerp(white, 0, 0), 68451041280u);
+}
+
+TEST(Filter, EncodedLevelSumsLose24Bits) {
+  for (const std::uint32_t x : {1u, 5u, 100u, 4080u}) {
+    const std::uint64_t middle = x * std::uint64_t{16777216} - 8388608;  // x 2^24 - 2^23
+    EXPECT_EQ(encode_result(middle, kLevelSumBits), spec::texture::kLinearToSrgb[x]);
+    EXPECT_EQ(encode_result(middle - 1, kLevelSumBits), spec::texture::kLinearToSrgb[x - 1]);
+  }
+  EXPECT_NE(spec::texture::kLinearToSrgb[4], spec::texture::kLinearToSrgb[5]);
+}
+
 // Two channels in one word do not affect each other, even at extreme values.
 TEST(Filter, TwoChannelFormMatchesOneChannelForm) {
   tb::Random random(3);

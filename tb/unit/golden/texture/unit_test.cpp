@@ -30,7 +30,8 @@ struct PlainResult {
 PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descriptor& d,
                   const std::vector<std::uint8_t>& memory, const spec::texture::Quad& quad,
                   int lane) {
-  const int row = lane / 2 * 2, column = lane % 2;
+  const bool coarse = p.derivatives == spec::texture::Derivatives::kCoarse;
+  const int row = coarse ? 0 : lane / 2 * 2, column = coarse ? 0 : lane % 2;
   const auto difference = [](std::int32_t to, std::int32_t from) {
     return static_cast<std::int64_t>(to) - from;
   };
@@ -52,45 +53,64 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
   const LevelOfDetail lod = select_level(p, d, lb.d_max, lb.d_min);
   const std::int32_t spread = spread_of(p.kernel, lod.samples, p.spread);
   PlainResult result;
-  std::array<std::uint32_t, 4> accumulator{};
-  for (int i = 0; i < lod.samples; ++i) {
+  // Filters sample i at one level; U8.12.
+  const auto filtered = [&](int i, int level) {
     const std::int64_t ps = at(s, lane) + sample_offset(i, lod.samples, spread, axis.s);
     const std::int64_t pt = at(t, lane) + sample_offset(i, lod.samples, spread, axis.t);
-    std::array<std::array<std::uint32_t, 4>, 2> filtered{};
-    for (int request = 0; request < lod.requests_per_sample(); ++request) {
-      const int level = lod.level + request;
-      const auto position = lod.linear ? linear_position : nearest_position;
-      const TexelPosition x = position(d.wrap_s, ps, level_size(d.width, level));
-      const TexelPosition y = position(d.wrap_t, pt, level_size(d.height, level));
-      const std::array<std::uint32_t, 4> addresses = {
-          texel_address(d, level, x.i0, y.i0), texel_address(d, level, x.i1, y.i0),
-          texel_address(d, level, x.i0, y.i1), texel_address(d, level, x.i1, y.i1)};
-      result.requests.push_back({i, level, ps, pt, addresses, {}});
-      std::array<Texel, 4> texel;
-      for (std::size_t k = 0; k < 4; ++k) {
-        std::uint32_t word = 0;
-        for (std::size_t b = 0; b < spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
-             ++b) {
-          word |= std::uint32_t{memory.at(addresses[k] + b)} << (8 * b);
-        }
-        texel[k] = decode_texel(d.format, word);
+    const auto position = lod.linear ? linear_position : nearest_position;
+    const TexelPosition x = position(d.wrap_s, ps, level_size(d.width, level));
+    const TexelPosition y = position(d.wrap_t, pt, level_size(d.height, level));
+    const std::array<std::uint32_t, 4> addresses = {
+        texel_address(d, level, x.i0, y.i0), texel_address(d, level, x.i1, y.i0),
+        texel_address(d, level, x.i0, y.i1), texel_address(d, level, x.i1, y.i1)};
+    result.requests.push_back({i, level, ps, pt, addresses, {}});
+    std::array<Texel, 4> texel;
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::uint32_t word = 0;
+      for (std::size_t b = 0; b < spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
+           ++b) {
+        word |= std::uint32_t{memory.at(addresses[k] + b)} << (8 * b);
       }
-      for (std::size_t c = 0; c < 4; ++c) {
-        filtered[static_cast<std::size_t>(request)][c] =
-            vertical_lerp(horizontal_lerp(texel[0][c], texel[1][c], x.fraction),
-                          horizontal_lerp(texel[2][c], texel[3][c], x.fraction), y.fraction);
+      texel[k] = decode_texel(d.format, word);
+    }
+    Texel colour{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      colour[c] = vertical_lerp(horizontal_lerp(texel[0][c], texel[1][c], x.fraction),
+                                horizontal_lerp(texel[2][c], texel[3][c], x.fraction), y.fraction);
+    }
+    return colour;
+  };
+  const auto weight = [&](int i) { return sample_weight(p.kernel, i, lod.samples); };
+  const bool encoded = d.format == spec::texture::Format::kSrgb8A8 &&
+                       p.srgb_output == spec::texture::SrgbOutput::kEncoded;
+  if (p.blend == spec::texture::Blend::kLevel) {
+    // Products and sums in plain integers, halves added before the only division.
+    std::array<std::uint64_t, 4> sum{};
+    for (int k = 0; k < lod.requests_per_sample(); ++k) {
+      const std::uint64_t factor = k == 1 ? lod.fraction : 256 - lod.fraction;
+      for (int i = 0; i < lod.samples; ++i) {
+        const Texel colour = filtered(i, lod.level + k);
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += factor * weight(i) * colour[c];
       }
     }
     for (std::size_t c = 0; c < 4; ++c) {
-      accumulator[c] += sample_weight(p.kernel, i, lod.samples) *
-                        level_lerp(filtered[0][c], filtered[1][c], lod.fraction);
+      constexpr std::uint64_t kOneStep = 16777216, kOneCode = 268435456;  // 2^24, 2^28
+      result.rgba[c] = encoded && c < 3
+                           ? spec::texture::kLinearToSrgb[(sum[c] + kOneStep / 2) / kOneStep]
+                           : static_cast<std::uint8_t>((sum[c] + kOneCode / 2) / kOneCode);
     }
+    return result;
   }
-  for (std::size_t c = 0; c < 4; ++c) {
-    const bool encode = c < 3 && d.format == spec::texture::Format::kSrgb8A8 &&
-                        p.srgb_output == spec::texture::SrgbOutput::kEncoded;
-    result.rgba[c] = encode ? encode_result(accumulator[c]) : round_result(accumulator[c]);
+  std::array<std::uint32_t, 4> accumulator{};
+  for (int i = 0; i < lod.samples; ++i) {
+    const Texel level = filtered(i, lod.level);
+    const Texel next = lod.fraction == 0 ? Texel{} : filtered(i, lod.level + 1);
+    for (std::size_t c = 0; c < 4; ++c)
+      accumulator[c] += weight(i) * level_lerp(level[c], next[c], lod.fraction);
   }
+  for (std::size_t c = 0; c < 4; ++c)
+    result.rgba[c] =
+        encoded && c < 3 ? encode_result(accumulator[c]) : round_result(accumulator[c]);
   return result;
 }
 
@@ -134,6 +154,8 @@ class RandomWork {
     p.count_cap = static_cast<spec::texture::CountCap>(pick(0, 1));
     p.kernel = static_cast<spec::texture::Kernel>(pick(0, 1));
     p.spread = pick(0, 2) == 0 ? pick(0, 128) : 64;
+    p.blend = static_cast<spec::texture::Blend>(pick(0, 1));
+    p.derivatives = static_cast<spec::texture::Derivatives>(pick(0, 1));
     p.cache_bytes = 1 << pick(10, 14);
     p.cache_line_bytes = 1 << pick(5, 7);
     p.cache_ways = 1 << pick(0, 3);
@@ -334,6 +356,110 @@ TEST(TextureGolden, CountsClampedSaturatedAndMagnifiedFragments) {
   EXPECT_EQ(fragment.footprint.major, 0);
   EXPECT_EQ(fragment.axis, fragment.d_x);
   EXPECT_EQ(fragment.lod.samples, 16);
+}
+
+// ---- blend and derivatives ----------------------------------------------------------------------
+
+// Four samples between levels 0 and 1.
+spec::texture::Quad four_samples() { return flat_quad(0.3, 0.4, 6.2 / 64, 1.4 / 64); }
+
+std::vector<BilinearRequest> requests_of(const EncodedTexture& texture, spec::texture::Blend blend,
+                                         std::vector<std::uint32_t>& fills) {
+  spec::texture::Parameters p = preset_parameters(spec::texture::Preset::kPaper);
+  p.blend = blend;
+  TextureGolden golden(p, texture.memory);
+  golden.set_texture(0, texture.descriptor);
+  golden.record_fills(true);
+  std::vector<BilinearRequest> requests;
+  golden.process(four_samples(), 0, requests);
+  golden.reset();
+  golden.process(four_samples());
+  fills = golden.fills();
+  return requests;
+}
+
+TEST(TextureGolden, LevelBlendRequestsAllSamplesOfALevelBeforeTheNextLevel) {
+  spec::texture::Descriptor sampler;
+  sampler.max_anisotropy_log2 = 2;
+  const EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
+  std::vector<std::uint32_t> fills, fills_by_sample;
+  const auto by_level = requests_of(texture, spec::texture::Blend::kLevel, fills);
+  const auto by_sample = requests_of(texture, spec::texture::Blend::kSample, fills_by_sample);
+  ASSERT_EQ(by_level.size(), 8u);
+  ASSERT_EQ(by_sample.size(), 8u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const std::size_t k : {0u, 1u}) {
+      EXPECT_EQ(by_level[4 * k + i].sample, static_cast<int>(i));
+      EXPECT_EQ(by_level[4 * k + i].level, static_cast<int>(k));
+      EXPECT_EQ(by_level[4 * k + i].s, by_sample[2 * i + k].s);
+      EXPECT_EQ(by_level[4 * k + i].addresses, by_sample[2 * i + k].addresses);
+    }
+  }
+  // The first line of level 1 is fetched after those of all samples of level 0.
+  const std::uint32_t level_1 = texture.descriptor.base[1] / 64;
+  const auto first = [&](const std::vector<std::uint32_t>& all) {
+    return std::ranges::find_if(all, [&](auto line) { return line >= level_1; }) - all.begin();
+  };
+  std::set<std::uint32_t> level_0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (const std::uint32_t address : by_level[i].addresses) level_0.insert(address / 64);
+  EXPECT_EQ(static_cast<std::size_t>(first(fills)), level_0.size());
+  EXPECT_LT(static_cast<std::size_t>(first(fills_by_sample)), level_0.size());
+}
+
+TEST(TextureGolden, BlendsDifferOnlyWithALevelFraction) {
+  spec::texture::Descriptor sampler;
+  sampler.max_anisotropy_log2 = 3;
+  const EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
+  spec::texture::Parameters p;
+  TextureGolden by_sample(p, texture.memory);
+  p.blend = spec::texture::Blend::kLevel;
+  TextureGolden by_level(p, texture.memory);
+  by_sample.set_texture(0, texture.descriptor);
+  by_level.set_texture(0, texture.descriptor);
+  RandomWork work(1);
+  int on_a_level = 0, rounded_differently = 0;
+  for (std::uint32_t tag = 0; tag < 40000; ++tag) {
+    spec::texture::Quad quad = work.quad(tag);
+    quad.coverage = 1;
+    const bool same_colour = by_sample.process(quad).colours == by_level.process(quad).colours;
+    if (by_level.analyse(quad, 0).lod.fraction == 0) {
+      ++on_a_level;
+      ASSERT_TRUE(same_colour) << "quad " << tag;
+    } else if (!same_colour) {
+      ++rounded_differently;
+    }
+  }
+  EXPECT_GT(on_a_level, 1000);
+  EXPECT_GT(rounded_differently, 0);
+}
+
+// Lanes 1 and 2 are shifted by different steps from lane 0, and lane 3 by others from both.
+TEST(TextureGolden, CoarseDerivativesAreThoseOfRowAndColumnZeroForAllLanes) {
+  spec::texture::Parameters p;
+  p.derivatives = spec::texture::Derivatives::kCoarse;
+  spec::texture::Descriptor sampler;
+  sampler.max_anisotropy_log2 = 4;
+  const EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
+  TextureGolden coarse(p, texture.memory), fine({}, texture.memory);
+  coarse.set_texture(0, texture.descriptor);
+  fine.set_texture(0, texture.descriptor);
+  spec::texture::Quad quad;
+  quad.coverage = 0b1000;  // lanes without coverage count too
+  quad.s = {8000000, 10400000, 8400000, 12400000};
+  quad.t = {16000000, 16080000, 34000000, 20000000};
+  const Step row{2400000, 80000}, column{400000, 18000000};
+  for (int lane = 0; lane < 4; ++lane) {
+    const FragmentAnalysis fragment = coarse.analyse(quad, lane);
+    EXPECT_EQ(fragment.d_x, row) << lane;
+    EXPECT_EQ(fragment.d_y, column) << lane;
+    EXPECT_EQ(fine.analyse(quad, lane).d_x == row, lane < 2) << lane;
+    EXPECT_EQ(fine.analyse(quad, lane).d_y == column, lane % 2 == 0) << lane;
+  }
+  coarse.process(quad);
+  fine.process(quad);
+  EXPECT_EQ(coarse.work().samples, 8u);  // 68.7 : 9.2 texels
+  EXPECT_NE(fine.work().samples, 8u);
 }
 
 // ---- bad input ----------------------------------------------------------------------------------
