@@ -123,7 +123,8 @@ struct FilterControl {
   std::uint8_t index;          // index of the sample
   std::uint8_t last_index;     // N - 1 of the fragment
   std::uint8_t format;         // spec::texture::Format
-  bool last_of_sample;         // completes a sample (second level, or the only one)
+  bool last_of_sample;         // completes a sample (second level, or the only one); with
+                               // `blend = level`: completes a level (last sample)
   bool last_of_fragment;       // completes a fragment
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
