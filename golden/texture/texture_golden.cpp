@@ -148,8 +148,10 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
 struct TextureGolden::NoTap {
   void lane(int) {}
   void sample(int, std::int64_t, std::int64_t) {}
-  void request(int, const std::array<std::uint32_t, 4>&) {}
+  void request(int, const std::array<std::uint32_t, 4>&, std::array<bool, 2>) {}
   void fill(std::uint32_t) {}
+  void invalid() {}
+  void end() {}
 };
 
 struct TextureGolden::RequestTap {
@@ -163,7 +165,7 @@ struct TextureGolden::RequestTap {
     next.s = s;
     next.t = t;
   }
-  void request(int level, const std::array<std::uint32_t, 4>& addresses) {
+  void request(int level, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2>) {
     next.level = level;
     next.addresses = addresses;
     if (on) requests.push_back(next);
@@ -171,6 +173,18 @@ struct TextureGolden::RequestTap {
   void fill(std::uint32_t line) {
     if (on) requests.back().misses.push_back(line);
   }
+  void invalid() {}
+  void end() {}
+};
+
+struct TextureGolden::CacheTap : NoTap {
+  explicit CacheTap(std::vector<CacheRequest>& to) : requests(to) {}
+  std::vector<CacheRequest>& requests;
+  void request(int, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2> turned) {
+    requests.push_back({addresses, turned});
+  }
+  void invalid() { requests.push_back({.valid = false, .last = true}); }
+  void end() { requests.back().last = true; }
 };
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
@@ -181,6 +195,12 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
 QuadColours TextureGolden::process(const spec::texture::Quad& quad, int lane,
                                    std::vector<BilinearRequest>& requests) {
   RequestTap tap{lane, requests};
+  return process_seen(quad, tap);
+}
+
+QuadColours TextureGolden::process(const spec::texture::Quad& quad,
+                                   std::vector<CacheRequest>& requests) {
+  CacheTap tap(requests);
   return process_seen(quad, tap);
 }
 
@@ -202,6 +222,7 @@ QuadColours TextureGolden::process_seen(const spec::texture::Quad& quad, Tap& ta
     if ((quad.clamped >> lane & 1) != 0) ++work_.clamped;
     if (!texture) {
       ++work_.invalid_fragments;
+      tap.invalid();
       continue;
     }
     tap.lane(lane);
@@ -212,6 +233,7 @@ QuadColours TextureGolden::process_seen(const spec::texture::Quad& quad, Tap& ta
     work_.samples += static_cast<std::uint64_t>(fragment.lod.samples);
     const auto i = static_cast<std::size_t>(lane);
     colour.rgba = filter_fragment(*texture, fragment, quad.s[i], quad.t[i], tap);
+    tap.end();
   }
   return result;
 }
@@ -295,7 +317,8 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
   };
   ++work_.bilinears;
   ++work_.by_level[static_cast<std::size_t>(level)];
-  tap.request(level, addresses());
+  const bool rows = descriptor.layout == spec::texture::Layout::kLinear;
+  tap.request(level, addresses(), {rows && y.i0 % 2 != 0, rows && y.i1 % 2 != 0});
   if (predict_) predict(addresses(), tap);
 
   const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;

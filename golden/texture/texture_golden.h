@@ -69,6 +69,14 @@ struct BilinearRequest {
   std::vector<std::uint32_t> misses;         // line numbers that it fills, in order
 };
 
+// A request to the cache, for the CyclePredictor.
+struct CacheRequest {
+  std::array<std::uint32_t, 4> addresses{};  // byte addresses of texels 00, 10, 01, 11
+  std::array<bool, 2> turned{};  // texels 00, 10 and 01, 11: odd row of the layout `linear`
+  bool valid = true;             // false: the descriptor is invalid, and no texel is read
+  bool last = false;             // of its fragment
+};
+
 class TextureGolden {
  public:
   enum class Traffic { kPredict, kIgnore };  // kIgnore: no fills and no memory errors; faster
@@ -93,6 +101,9 @@ class TextureGolden {
   // Also appends the requests of `lane` to `requests`.
   QuadColours process(const spec::texture::Quad& quad, int lane,
                       std::vector<BilinearRequest>& requests);
+
+  // Also appends the requests of all covered lanes.
+  QuadColours process(const spec::texture::Quad& quad, std::vector<CacheRequest>& requests);
 
   // The decisions of process() for a lane, covered or not; changes nothing.
   FragmentAnalysis analyse(const spec::texture::Quad& quad, int lane) const;
@@ -144,9 +155,11 @@ class TextureGolden {
   struct Sample {
     std::int64_t s, t, wrapped_s, wrapped_t;
   };
-  // A Tap observes lanes, samples, requests and fills. NoTap is empty and costs nothing.
+  // A Tap observes lanes, samples, requests, fills and invalid fragments. NoTap is empty and costs
+  // nothing.
   struct NoTap;
   struct RequestTap;
+  struct CacheTap;
   template <class Tap>
   QuadColours process_seen(const spec::texture::Quad& quad, Tap& tap);
   template <class Tap>

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: MIT
+#include "golden/texture/cycle_predictor.h"
+
+#include <algorithm>
+
+#include "spec/error.h"
+
+namespace deburr::golden::texture {
+namespace {
+
+using spec::texture::Parameters;
+
+constexpr std::int32_t kWordBytes = 4, kBeatBytes = 64;
+
+// Latencies of the datasheets.
+constexpr int kDerivativeLatency = 3, kLevelLatency = 3, kAddresserLatency = 5;
+int axis_latency(const Parameters& p) {
+  const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
+  if (p.axes == spec::texture::Axes::kTwo) return exact ? 19 : 2;
+  return exact ? 22 : 8;
+}
+int axis_interval(const Parameters& p) {
+  return p.axes == spec::texture::Axes::kTwo ? 1 : p.axis_cycles;
+}
+int log2_latency(const Parameters& p) {
+  return p.log2 == spec::texture::Log2Rule::kMitchell ? 1 : 3;
+}
+std::size_t stages_before_walking(const Parameters& p) {
+  return p.count == spec::texture::CountRule::kAny ? 2 : 1;
+}
+std::uint64_t filter_latency(const Parameters& p) {
+  return p.srgb_output == spec::texture::SrgbOutput::kEncoded ? 9 : 8;
+}
+
+// Cycles in which a line occupies the data bus; 0: no limit.
+std::int32_t transfer_of(const Parameters& p, const MemoryTiming& memory) {
+  if (memory.bytes_per_cycle == 0) return 0;
+  return (p.cache_line_bytes + memory.bytes_per_cycle - 1) / memory.bytes_per_cycle;
+}
+
+Parameters resolved(Parameters p, const MemoryTiming& memory) {
+  if (p.cache_fifo_depth == 0) {
+    p.cache_fifo_depth = memory.latency + 4 * std::max(1, transfer_of(p, memory)) + 3;
+    if (p.width > 1) p.cache_fifo_depth += 16;
+  }
+  if (p.cache_outstanding == 0) {
+    const std::int64_t lines = (std::int64_t{32} * p.width * memory.latency + 99) / 100;
+    p.cache_outstanding = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>((lines + 3) / 4 * 4, 8, spec::texture::kMostOutstanding));
+  }
+  return p;
+}
+
+template <class T, std::size_t N>
+struct Distinct {
+  std::array<T, N> items{};
+  std::size_t count = 0;
+  bool add(const T& item) {  // false: known
+    if (std::find(items.begin(), items.begin() + count, item) != items.begin() + count)
+      return false;
+    items[count++] = item;
+    return true;
+  }
+};
+// A group of 4 requests has up to 16 texels.
+using Lines = Distinct<std::uint32_t, 16>;
+using Words = Distinct<std::uint32_t, 16>;
+using BankCounts = std::array<std::uint8_t, spec::texture::kMostLineBanks *
+                                                spec::texture::kMostCacheLineBytes / kWordBytes>;
+
+bool turned_row(const CacheRequest& request, std::size_t texel) {
+  return request.turned[texel / 2];
+}
+
+}  // namespace
+
+CyclePredictor::CyclePredictor(const Parameters& parameters, const MemoryTiming& memory)
+    : parameters_(resolved(parameters, memory)),
+      memory_(memory),
+      width_(static_cast<Count>(parameters.width)),
+      cache_(parameters),
+      derivative_(kDerivativeLatency),
+      axis_(axis_latency(parameters), axis_interval(parameters)),
+      log2_(log2_latency(parameters)),
+      level_(kLevelLatency),
+      addresser_(kAddresserLatency),
+      before_walking_(stages_before_walking(parameters)),
+      transfer_(static_cast<Cycle>(transfer_of(parameters, memory))),
+      beats_(static_cast<Cycle>(std::max(1, parameters.cache_line_bytes / kBeatBytes))) {
+  fifo_.depth = static_cast<std::size_t>(parameters_.cache_fifo_depth);
+}
+
+void CyclePredictor::add(std::span<const CacheRequest> quad) {
+  const auto most = static_cast<std::uint32_t>(parameters_.fragments);
+  std::uint32_t fragments = 0;
+  Count count = 0;
+  for (std::size_t i = 0; i < quad.size(); ++i) {
+    ++count;
+    if (quad[i].last) ++fragments;
+    const bool ends = fragments == most || i + 1 == quad.size();
+    waiting_.push({quad[i], ends && fragments < most});
+    if (!ends) continue;
+    source_.push(count);
+    fragments = count = 0;
+  }
+  if (quad.empty()) source_.push(0);
+  requests_ += quad.size();
+  constexpr std::size_t kEnoughTokens = 64;
+  while (source_.size() > kEnoughTokens) step();
+}
+
+CyclePrediction CyclePredictor::finish() {
+  while (!idle()) step();
+  // The DataStage pushes in the next cycle, and the FilterPipeline pops in the one after it.
+  return {last_left_ + 2 + filter_latency(parameters_), requests_, groups_, lines_, slots_};
+}
+
+bool CyclePredictor::idle() const {
+  return source_.empty() && waiting_.empty() && !looking_up_ && !latency_link_.can_pop() &&
+         !fifo_.can_pop();
+}
+
+// Consumers first.
+void CyclePredictor::step() {
+  data_stalls_[cycle_ % 4] = data_stage();
+  latency_fifo();
+  memory_port();
+  miss_queue();
+  tag_stalls_[cycle_ % 2] = tag_stage();
+  if (width_ > 1) group_former();
+  advance(addresser_, samples_, texels_);
+  sample_walker();
+  advance(level_, logs_, levels_);
+  advance(log2_, footprints_, logs_);
+  advance(axis_, derivatives_, footprints_);
+  derivative_unit();
+  ++cycle_;
+}
+
+// ---- address unit -------------------------------------------------------------------------------
+
+void CyclePredictor::derivative_unit() {
+  Count& stage = derivative_.stage[derivative_.next];
+  if (stage != 0) {
+    if (!derivatives_.can_push(cycle_)) return;
+    derivatives_.push(stage);
+  }
+  stage = 0;
+  if (!source_.empty()) {
+    stage = source_.front();
+    source_.pop();
+  }
+  derivative_.next = (derivative_.next + 1) % derivative_.stage.size();
+}
+
+void CyclePredictor::advance(Registers& unit, Link<Count>& in, Link<Count>& out) {
+  if (unit.stage.empty()) {
+    if (in.can_pop() && out.can_push(cycle_)) out.push(in.pop(cycle_));
+    return;
+  }
+  Count& stage = unit.stage[unit.next];
+  if (stage != 0) {
+    if (!out.can_push(cycle_)) return;
+    out.push(stage);
+    stage = 0;
+  }
+  if (unit.busy > 0) --unit.busy;
+  if (unit.busy == 0 && in.can_pop()) {
+    stage = in.pop(cycle_);
+    unit.busy = unit.interval;
+  }
+  if (++unit.next == unit.stage.size()) unit.next = 0;
+}
+
+void CyclePredictor::sample_walker() {
+  if (!walking_.empty() && samples_.can_push(cycle_)) {
+    Count emitted = 0;
+    while (!walking_.empty() && emitted < width_) {
+      const Count next = std::min(width_ - emitted, walking_.front());
+      emitted += next;
+      walking_.front() -= next;
+      if (walking_.front() == 0) walking_.pop();
+    }
+    samples_.push(emitted);
+  }
+  const std::size_t walking_registers = width_ == 1 ? 1 : 2;
+  if (walking_.size() < walking_registers && before_walking_.back() != 0) {
+    walking_.push(before_walking_.back());
+    before_walking_.back() = 0;
+  }
+  for (std::size_t i = before_walking_.size(); i-- > 0;) {
+    if (before_walking_[i] != 0) continue;
+    if (i > 0) {
+      std::swap(before_walking_[i], before_walking_[i - 1]);
+    } else if (levels_.can_pop()) {
+      before_walking_[0] = levels_.pop(cycle_);
+    }
+  }
+}
+
+// ---- groups -------------------------------------------------------------------------------------
+
+std::size_t CyclePredictor::bank_of(std::uint32_t address, bool turned) const {
+  const auto words = static_cast<std::uint32_t>(parameters_.cache_line_bytes / kWordBytes);
+  const std::uint32_t half_tile = parameters_.cache_line_bytes == 32 ? 4 : 8;
+  const std::uint32_t word = (address / kWordBytes % words) ^ (turned ? half_tile : 0);
+  const std::uint32_t line_bank =
+      cache_.line_of(address) % static_cast<std::uint32_t>(parameters_.cache_line_banks);
+  return line_bank * words + word;
+}
+
+// Number of requests of the next group; `limit`: what ends it, or null.
+CyclePredictor::Count CyclePredictor::longest_group(Cause& limit) {
+  limit = nullptr;
+  Lines lines;
+  Words words;
+  BankCounts reads{};
+  bool too_many_reads = false, too_many_in_a_set = false;
+  const Count most = std::min(width_, buffered_);
+  for (Count n = 0; n < most; ++n) {
+    const Waiting& request = waiting_[grouped_ + n];
+    for (std::size_t i = 0; i < 4 && request.valid; ++i) {
+      const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
+      if (words.add(address / kWordBytes)) {
+        std::uint8_t& count = reads[bank_of(address, turned_row(request, i))];
+        too_many_reads |= ++count > parameters_.cache_bank_reads;
+      }
+      if (!lines.add(line)) continue;
+      const auto in_set =
+          std::count_if(lines.items.begin(), lines.items.begin() + lines.count,
+                        [&](auto one) { return (one ^ line) % cache_.sets() == 0; });
+      too_many_in_a_set |= in_set > parameters_.cache_ways;
+    }
+    if (n == 0) continue;  // the oldest request always leaves
+    if (lines.count > static_cast<std::size_t>(parameters_.cache_lookups)) {
+      limit = &Slots::lookups;
+    } else if (too_many_reads) {
+      limit = &Slots::banks;
+    } else if (too_many_in_a_set) {
+      limit = &Slots::set;
+    }
+    if (limit) return n;
+  }
+  return most;
+}
+
+// Why no group can leave in this cycle.
+CyclePredictor::Cause CyclePredictor::blocked_by() const {
+  if (buffered_ == 0) return &Slots::starved;
+  switch (tag_stalls_[(cycle_ - 1) % 2]) {
+    case TagStall::kAllocate:
+      return &Slots::allocate;
+    case TagStall::kMissQueue:
+      return &Slots::miss_queue;
+    default:
+      break;
+  }
+  switch (data_stalls_[(cycle_ - 3) % 4]) {
+    case DataStall::kWaitFill:
+      return &Slots::wait_fill;
+    case DataStall::kWriteFill:
+      return &Slots::write_fill;
+    case DataStall::kBankPass:
+      return &Slots::bank_pass;
+    case DataStall::kNone:
+      break;
+  }
+  throw spec::CheckFailed("the link to the TagStage is full, and nothing stalled");
+}
+
+void CyclePredictor::group_former() {
+  if (buffered_ > 0 && group_link_.can_push(cycle_)) {
+    Cause cause = nullptr;
+    const Count n = longest_group(cause);
+    if (!cause) cause = waiting_[grouped_ + n - 1].partial ? &Slots::partial_quad : &Slots::starved;
+    slots_.requests += n;
+    slots_.*cause += width_ - n;
+    for (const Cause one : {&Slots::starved, &Slots::allocate, &Slots::miss_queue,
+                            &Slots::wait_fill, &Slots::write_fill, &Slots::bank_pass}) {
+      slots_.*one += since_group_.*one;
+    }
+    since_group_ = {};
+    group_link_.push(n);
+    grouped_ += n;
+    buffered_ -= n;
+    ++groups_;
+  } else if (groups_ > 0) {
+    since_group_.*blocked_by() += width_;
+  }
+  if (texels_.can_pop() && buffered_ + texels_.tokens.front() <= 2 * width_)
+    buffered_ += texels_.pop(cycle_);
+}
+
+// ---- cache --------------------------------------------------------------------------------------
+
+CyclePredictor::Group CyclePredictor::look_up(Count count) {
+  Lines missed;
+  Words words;
+  BankCounts reads{};
+  std::uint32_t most_reads = 0;
+  for (; count > 0; --count) {
+    const CacheRequest& request = waiting_.front();
+    Lines used;
+    for (std::size_t i = 0; i < 4 && request.valid; ++i) {
+      const std::uint32_t line = cache_.line_of(request.addresses[i]);
+      if (!used.add(line) || cache_.lookup(line)) continue;
+      missed.add(line);
+      fills_.push({line % static_cast<std::uint32_t>(parameters_.cache_line_banks), ~Cycle{0}});
+      if (line >= turned_.size()) turned_.resize(2 * std::size_t{line} + 1);
+      turned_[line] = turned_row(request, i);
+    }
+    for (std::size_t i = 0; i < 4 && request.valid; ++i) {
+      const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
+      const auto end = missed.items.begin() + missed.count;
+      if (std::find(missed.items.begin(), end, line) != end) continue;
+      if (!words.add(address / kWordBytes)) continue;
+      most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(address, turned_[line])]);
+    }
+    waiting_.pop();
+  }
+  const auto ports = static_cast<std::uint32_t>(parameters_.cache_bank_reads);
+  lines_ += missed.count;
+  return {(most_reads + ports - 1) / ports, static_cast<std::uint32_t>(missed.count)};
+}
+
+CyclePredictor::TagStall CyclePredictor::tag_stage() {
+  if (looking_up_) {
+    const auto allocations = static_cast<std::uint32_t>(parameters_.cache_allocations);
+    if (to_allocate_ > allocations) {
+      to_allocate_ -= allocations;
+      return TagStall::kAllocate;
+    }
+    if (!latency_link_.can_push(cycle_)) return TagStall::kFifo;
+    if (looked_up_.lines > 0 && !misses_.can_push(cycle_)) return TagStall::kMissQueue;
+    latency_link_.push(looked_up_);
+    if (looked_up_.lines > 0) misses_.push(looked_up_.lines);
+  }
+  Link<Count>& in = width_ > 1 ? group_link_ : texels_;
+  looking_up_ = in.can_pop();
+  if (!looking_up_) return TagStall::kNone;
+  const Count count = in.pop(cycle_);
+  if (width_ > 1) {
+    grouped_ -= count;
+  } else {
+    ++groups_;
+  }
+  looked_up_ = look_up(count);
+  to_allocate_ = looked_up_.lines;
+  return TagStall::kNone;
+}
+
+void CyclePredictor::latency_fifo() {
+  if (latency_link_.can_pop() && fifo_.can_push(cycle_)) fifo_.push(latency_link_.pop(cycle_));
+}
+
+// A FillBuffer entry that is freed in this cycle is reserved in the next one.
+void CyclePredictor::miss_queue() {
+  const auto entries = static_cast<std::uint64_t>(parameters_.cache_outstanding);
+  if (sent_ < queued_ && sent_ - used_before_ < entries && memory_requests_.can_push(cycle_)) {
+    memory_requests_.push(0);
+    ++sent_;
+  }
+  if (misses_.can_pop() && queued_ - sent_ + misses_.tokens.front() <= entries)
+    queued_ += misses_.pop(cycle_);
+}
+
+// Beyond its limit of transactions, memory accepts a request at the time of the next response.
+void CyclePredictor::memory_port() {
+  if (!memory_requests_.can_pop() || cycle_ < port_free_) return;
+  memory_requests_.pop(cycle_);
+  while (!responses_.empty() && responses_.front() <= cycle_) responses_.pop();
+  const bool held = responses_.size() >= static_cast<std::size_t>(memory_.outstanding);
+  const Cycle accepted = held ? responses_.front() : cycle_;
+  port_free_ = accepted + 1;
+  first_byte_ = std::max(accepted + static_cast<Cycle>(memory_.latency), first_byte_ + transfer_);
+  const Cycle response = first_byte_ + std::max(transfer_, Cycle{1}) - 1;
+  responses_.push(response);
+  last_beat_ = std::max(response, last_beat_) + beats_;
+  fills_[requested_++ - used_].arrived = last_beat_ + 1;
+}
+
+CyclePredictor::DataStall CyclePredictor::data_stage() {
+  used_before_ = used_;
+  if (!fifo_.can_pop()) return DataStall::kNone;
+  Group& group = fifo_.tokens.front();
+  if (group.passes > 1) {
+    --group.passes;
+    return DataStall::kBankPass;
+  }
+  group.passes = 0;
+  const auto writes = static_cast<std::uint64_t>(parameters_.cache_fill_writes);
+  std::uint32_t written = 0;  // line banks
+  while (group.lines > 0 && used_ - used_before_ < writes) {
+    const Fill& fill = fills_.front();
+    Cycle& bank_used = bank_used_[used_ % writes];
+    // Read after its arrival and once the output register is free; used in the cycle after that.
+    if (fill.arrived >= cycle_ || std::max(fill.arrived + 1, bank_used) >= cycle_) break;
+    if ((written >> fill.line_bank & 1) != 0) break;
+    written |= 1u << fill.line_bank;
+    bank_used = cycle_;
+    fills_.pop();
+    ++used_;
+    --group.lines;
+  }
+  if (group.lines > 0) return used_ > used_before_ ? DataStall::kWriteFill : DataStall::kWaitFill;
+  fifo_.pop(cycle_);
+  last_left_ = cycle_;
+  return DataStall::kNone;
+}
+
+}  // namespace deburr::golden::texture

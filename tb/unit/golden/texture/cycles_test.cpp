@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: MIT
+// Predicted cycles and slots of small cases that are counted by hand from
+// docs/reference/texture/cache.md and width.md. Preset paper: 17 cycles of address unit, 8 of the
+// filter.
+#include <gtest/gtest.h>
+
+#include "golden/texture/cycle_predictor.h"
+#include "tb/unit/golden/texture/support.h"
+
+namespace deburr::cycles_test {
+namespace {
+
+using namespace golden::texture;
+using spec::texture::Parameters;
+using Quad = std::vector<CacheRequest>;
+using Quads = std::vector<Quad>;
+
+constexpr std::uint32_t kLine = 64;
+
+// A fragment of one request.
+CacheRequest at(std::uint32_t a00, std::uint32_t a10, std::uint32_t a01, std::uint32_t a11) {
+  return {.addresses = {a00, a10, a01, a11}, .last = true};
+}
+CacheRequest at(std::uint32_t address) { return at(address, address, address, address); }
+const CacheRequest kInvalid = {.valid = false, .last = true};
+
+Parameters narrow() { return preset_parameters(spec::texture::Preset::kPaper); }
+Parameters wide() {
+  Parameters p = narrow();
+  p.width = p.fragments = 4;
+  p.cache_outstanding = 0;
+  p.cache_lookups = 8;
+  p.cache_allocations = 4;
+  p.cache_line_banks = 4;
+  p.cache_bank_reads = 2;
+  p.cache_fill_writes = 4;
+  return p;
+}
+
+CyclePrediction predict(const Parameters& p, const Quads& quads, const MemoryTiming& memory = {}) {
+  CyclePredictor predictor(p, memory);
+  for (const Quad& quad : quads) predictor.add(quad);
+  return predictor.finish();
+}
+std::uint64_t cycles(const Parameters& p, const Quads& quads, const MemoryTiming& memory = {}) {
+  return predict(p, quads, memory).cycles;
+}
+
+Quads repeated(const Quad& quad, int n) { return Quads(static_cast<std::size_t>(n), quad); }
+Quads joined(Quads first, const Quads& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+// n quads; all requests of quad i read line first + i.
+Quads lines(std::uint32_t first, std::uint32_t n, std::size_t requests) {
+  Quads quads;
+  for (std::uint32_t i = 0; i < n; ++i) quads.push_back(Quad(requests, at((first + i) * kLine)));
+  return quads;
+}
+
+// ---- width 1 ------------------------------------------------------------------------------------
+
+TEST(Cycles, OneFragmentTakesTheLatencyOfTheUnit) {
+  EXPECT_EQ(cycles(narrow(), {{kInvalid}}), 30u);
+  EXPECT_EQ(cycles({}, {{kInvalid}}), 53u);
+  Parameters p = narrow();
+  p.footprint = spec::texture::FootprintRule::kExact;
+  EXPECT_EQ(cycles(p, {{kInvalid}}), 47u);
+  p.axes = spec::texture::Axes::kEight;
+  p.axis_cycles = 2;
+  EXPECT_EQ(cycles(p, {{kInvalid}}), 51u);
+  p = narrow();
+  p.axes = spec::texture::Axes::kEight;
+  p.axis_cycles = 4;
+  p.log2 = spec::texture::Log2Rule::kExact;
+  p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  EXPECT_EQ(cycles(p, {{kInvalid}}), 30u + 6 + 3 + 2 + 1);
+}
+
+TEST(Cycles, AFragmentTakesItsRequestsOrTheAxisCycles) {
+  Parameters p = narrow();
+  p.axes = spec::texture::Axes::kEight;
+  for (const int axis_cycles : {1, 2, 4}) {
+    p.axis_cycles = axis_cycles;
+    const std::uint64_t one = cycles(p, {{kInvalid}});
+    EXPECT_EQ(cycles(p, repeated({kInvalid}, 50)), one + 49 * static_cast<unsigned>(axis_cycles));
+  }
+  CacheRequest first = at(0);
+  first.last = false;
+  const Quad three = {first, first, at(0)};
+  EXPECT_EQ(cycles(narrow(), repeated(three, 50)), 135u + 149);
+  // A quad without covered lanes takes a cycle too.
+  EXPECT_EQ(cycles(narrow(), {{}, {}, {kInvalid}, {}, {kInvalid}}), 34u);
+}
+
+TEST(Cycles, AMissTakesTheTimesOfTheTable) {
+  EXPECT_EQ(cycles(narrow(), {{at(0)}}), 30u + 5 + 100);
+  EXPECT_EQ(cycles(narrow(), {{at(0, kLine, 0, kLine)}}), 136u);
+  EXPECT_EQ(cycles(narrow(), {{at(0, kLine, 2 * kLine, 3 * kLine)}}), 138u);
+  EXPECT_EQ(cycles(narrow(), {{at(0)}}, {.latency = 7}), 30u + 5 + 7);
+  EXPECT_EQ(cycles(narrow(), joined({{at(0)}}, repeated({at(4)}, 10))), 145u);
+  EXPECT_EQ(predict(narrow(), {{at(0), at(4), at(kLine), at(0)}}).fills, 2u);
+}
+
+TEST(Cycles, ANarrowBusDelaysLines) {
+  const Quads misses = lines(0, 20, 1);
+  EXPECT_EQ(cycles(narrow(), misses, {.bytes_per_cycle = 64}), 135u + 19);
+  EXPECT_EQ(cycles(narrow(), misses, {.bytes_per_cycle = 0}), 135u + 19);
+  EXPECT_EQ(cycles(narrow(), misses, {.bytes_per_cycle = 16}), 135u + 3 + 19 * 4);
+  Parameters p = narrow();
+  p.cache_line_bytes = 128;  // two beats
+  EXPECT_EQ(cycles(p, {{at(0)}}, {.bytes_per_cycle = 0}), 136u);
+  EXPECT_EQ(cycles(p, {{at(0)}, {at(128)}}, {.bytes_per_cycle = 0}), 138u);
+}
+
+TEST(Cycles, EveryBankPassAndEveryFurtherLineTakesACycle) {
+  const auto after_lines_0_and_1 = [](const CacheRequest& request) {
+    return cycles(narrow(), {{at(0, kLine, 0, kLine)}, {request}}) - 136;
+  };
+  EXPECT_EQ(after_lines_0_and_1(at(0, kLine + 4, 8, 12)), 1u);
+  EXPECT_EQ(after_lines_0_and_1(at(0, kLine, 0, kLine)), 2u);
+  EXPECT_EQ(after_lines_0_and_1(at(0, 0, 4, kLine + 4)), 2u);
+  EXPECT_EQ(after_lines_0_and_1(at(0, 3, 1, 2)), 1u);  // bytes of one word
+  // Words 0 and 8 change places in a line that was first read by an odd row.
+  CacheRequest odd_row_first = at(0, 0, kLine, kLine);
+  odd_row_first.turned = {false, true};
+  for (const std::uint32_t word : {0u, 8u}) {
+    EXPECT_EQ(cycles(narrow(), {{odd_row_first}, {at(0, 0, kLine + 4 * word, kLine)}}) - 136,
+              word == 8 ? 2u : 1u);
+  }
+  // Two passes of lines 0 and 1, and two lines to write, which have arrived: three cycles.
+  Quads quads = {{at(0, kLine, 0, kLine)}};
+  for (int i = 0; i < 40; ++i) quads.push_back({at(0, kLine, 0, kLine)});
+  const std::uint64_t before = cycles(narrow(), quads, {.latency = 10});
+  quads.push_back({at(0, kLine, 5 * kLine, 6 * kLine)});
+  EXPECT_EQ(cycles(narrow(), quads, {.latency = 10}) - before, 3u);
+}
+
+// With a miss per request, an entry of the FIFO is held for L + 7 cycles and one of the FillBuffer
+// for L + 6.
+TEST(Cycles, FifoAndFillBufferLimitTheRateOfMisses) {
+  const Quads misses = lines(0, 500, 1);
+  const auto with = [&](int fifo, int outstanding, const MemoryTiming& memory = {}) {
+    Parameters p = narrow();
+    p.cache_fifo_depth = fifo;
+    p.cache_outstanding = outstanding;
+    return cycles(p, misses, memory);
+  };
+  EXPECT_EQ(with(107, 106), 135u + 499);
+  EXPECT_EQ(with(0, 106), 135u + 499);  // derived
+  EXPECT_EQ(with(106, 106), 135u + 499 + 499 / 106);
+  EXPECT_EQ(with(107, 105), 135u + 499 + 499 / 105);
+  EXPECT_EQ(with(0, 106, {.latency = 99}), 134u + 499);
+  EXPECT_EQ(with(60, 0, {.latency = 40}), 75u + 499 + 499 / 16 * (46 - 16));  // 12.8: 16 entries
+  EXPECT_EQ(with(0, 256, {.outstanding = 50}), 135u + 499 + 499 / 50 * 50);
+}
+
+// ---- groups -------------------------------------------------------------------------------------
+
+TEST(Cycles, GroupFormerTakesTwoCycles) {
+  for (const int width : {2, 4}) {
+    Parameters p = wide();
+    p.width = p.fragments = width;
+    EXPECT_EQ(cycles(p, {{kInvalid}}), 32u);
+    EXPECT_EQ(cycles(p, repeated(Quad(4, kInvalid), 50)), 32u + 50 * 4 / width - 1);
+  }
+}
+
+// Groups of one quad of four fragments, and the slots of the first limit.
+struct Formed {
+  std::uint64_t groups;
+  Slots slots;
+};
+Formed formed(const Parameters& p, const Quad& quad) {
+  const CyclePrediction prediction = predict(p, {quad});
+  return {prediction.groups, prediction.slots};
+}
+
+TEST(Cycles, GroupHasAtMostLDistinctLines) {
+  const CacheRequest four_lines = at(0, kLine, 2 * kLine, 3 * kLine);
+  const CacheRequest two_more = at(4 * kLine, 5 * kLine, 4 * kLine, 5 * kLine);
+  Parameters p = wide();
+  for (const int lookups : {4, 5, 6, 7}) {
+    p.cache_lookups = lookups;
+    const Formed six = formed(p, {four_lines, two_more, at(0), at(kLine)});
+    EXPECT_EQ(six.groups, lookups < 6 ? 2u : 1u) << lookups;
+    EXPECT_EQ(six.slots.lookups, lookups < 6 ? 3u : 0u) << lookups;
+    const Formed seven = formed(p, {four_lines, two_more, at(6 * kLine), at(kLine)});
+    EXPECT_EQ(seven.groups, lookups < 7 ? 2u : 1u) << lookups;
+    EXPECT_EQ(seven.slots.lookups, lookups < 6 ? 3u : lookups < 7 ? 2u : 0u) << lookups;
+  }
+}
+
+TEST(Cycles, GroupReadsAtMostRWordsOfABank) {
+  Parameters p = wide();
+  const Quad three_words = {at(0), at(4 * kLine), at(8 * kLine), at(0)};
+  EXPECT_EQ(formed(p, three_words).groups, 2u);
+  EXPECT_EQ(formed(p, three_words).slots.banks, 2u);
+  EXPECT_EQ(formed(p, {at(0), at(4 * kLine), at(4 * kLine + 3), at(0)}).groups, 1u);
+  EXPECT_EQ(formed(p, {at(0), at(4 * kLine), at(8 * kLine + 4), at(0)}).groups, 1u);
+  EXPECT_EQ(formed(p, {at(0), at(4 * kLine), at(9 * kLine), at(0)}).groups, 1u);
+  p.cache_line_banks = 8;
+  EXPECT_EQ(formed(p, three_words).groups, 1u);
+  p.cache_line_banks = 4;
+  p.cache_bank_reads = 1;
+  EXPECT_EQ(formed(p, three_words).groups, 4u);
+  EXPECT_EQ(formed(p, three_words).slots.banks, 9u);
+  CacheRequest odd_row = at(4 * kLine);
+  odd_row.turned = {true, true};
+  EXPECT_EQ(formed(p, {at(0), odd_row, at(0), at(0)}).groups, 1u);
+}
+
+TEST(Cycles, GroupHasAtMostWaysLinesOfASet) {
+  Parameters p = wide();  // 128 sets
+  const auto in_set_0 = [](std::uint32_t i) { return at(i * 128 * kLine + i * 4); };
+  const Quad three = {in_set_0(0), in_set_0(1), in_set_0(2), in_set_0(0)};
+  EXPECT_EQ(formed(p, three).groups, 2u);
+  EXPECT_EQ(formed(p, three).slots.set, 2u);
+  EXPECT_EQ(formed(p, {in_set_0(0), in_set_0(1), in_set_0(0), at(kLine)}).groups, 1u);
+  p.cache_ways = 4;  // 64 sets
+  EXPECT_EQ(formed(p, three).groups, 1u);
+  p.cache_ways = 2;
+  p.cache_bytes = 8192;
+  EXPECT_EQ(formed(p, three).groups, 2u);
+}
+
+TEST(Cycles, TheFirstOfSeveralLimitsIsTheCause) {
+  Parameters p = wide();
+  p.cache_lookups = 4;
+  // The third request is a fifth line, a third word of bank 0 and a third line of set 0.
+  const auto in_set_0 = [](std::uint32_t i) { return i * 128 * kLine; };
+  const Quad quad = {at(in_set_0(0), in_set_0(1), in_set_0(0), kLine), at(2 * kLine),
+                     at(in_set_0(2)), at(in_set_0(2))};
+  EXPECT_EQ(formed(p, quad).slots.lookups, 2u);
+  p.cache_lookups = 5;
+  EXPECT_EQ(formed(p, quad).slots.lookups, 0u);
+  EXPECT_EQ(formed(p, quad).slots.banks, 2u);
+}
+
+TEST(Cycles, ARequestThatExceedsALimitLeavesAlone) {
+  Parameters p = wide();
+  p.cache_bank_reads = 1;
+  const Formed alone = formed(p, {at(0, 4 * kLine, 0, 0), kInvalid, at(4), at(8)});
+  EXPECT_EQ(alone.groups, 2u);
+  EXPECT_EQ(alone.slots.banks, 3u);
+}
+
+// In an order that fills one quad after the other: 3 + 1, 2 + 2, 1 + 3, and so on.
+TEST(Cycles, WalkingRegistersJoinTwoFragmentGroups) {
+  Parameters p = wide();
+  const Quads three_lanes = repeated(Quad(3, kInvalid), 40);  // 120 requests
+  const CyclePrediction prediction = predict(p, three_lanes);
+  EXPECT_EQ(prediction.requests, 120u);
+  // One quad per cycle enters, so groups of four wait for the next quad.
+  EXPECT_EQ(prediction.cycles, 32u + 39);
+  p.fragments = 2;
+  EXPECT_EQ(cycles(p, repeated(Quad(4, kInvalid), 40)), 32u + 79);
+}
+
+TEST(Cycles, PartialQuadsAndStarvedSlots) {
+  Parameters p = wide();
+  EXPECT_EQ(formed(p, Quad(4, kInvalid)).slots, (Slots{.requests = 4}));
+  EXPECT_EQ(formed(p, Quad(3, kInvalid)).slots, (Slots{.requests = 3, .partial_quad = 1}));
+  p.fragments = 2;
+  EXPECT_EQ(formed(p, Quad(3, kInvalid)).slots,
+            (Slots{.requests = 3, .partial_quad = 3, .starved = 2}));
+  EXPECT_EQ(formed(p, Quad(2, kInvalid)).slots, (Slots{.requests = 2, .starved = 2}));
+  // Two quads without covered lanes between two full ones.
+  p.fragments = 4;
+  const Quad full(4, kInvalid);
+  EXPECT_EQ(predict(p, {full, {}, {}, full}).slots, (Slots{.requests = 8, .starved = 8}));
+}
+
+// ---- ports of the cache -------------------------------------------------------------------------
+
+TEST(Cycles, TagStageAllocatesALinesPerCycle) {
+  Parameters p = wide();
+  for (const int allocations : {1, 2, 3, 4}) {
+    p.cache_allocations = allocations;
+    for (std::uint32_t misses = 1; misses <= 4; ++misses) {
+      Quad quad;
+      for (std::uint32_t i = 0; i < 4; ++i) quad.push_back(at(std::min(i, misses - 1) * kLine));
+      const auto a = static_cast<unsigned>(allocations);
+      EXPECT_EQ(cycles(p, {quad}), 32u + 105 + misses - 1 + (misses + a - 1) / a - 1)
+          << allocations << ", " << misses;
+    }
+  }
+}
+
+// The TagStage takes four cycles per group: two groups wait in its link, and later ones leave every
+// fourth cycle.
+TEST(Cycles, AllocateStallsTheGroupFormer) {
+  Parameters p = wide();
+  p.cache_allocations = 1;
+  Quads quads;
+  for (std::uint32_t i = 0; i < 6; ++i)
+    quads.push_back({at(4 * i * kLine), at((4 * i + 1) * kLine), at((4 * i + 2) * kLine),
+                     at((4 * i + 3) * kLine)});
+  EXPECT_EQ(predict(p, quads).slots, (Slots{.requests = 24, .allocate = 3 * 3 * 4}));
+}
+
+// While the first group waits for its line, `depth` groups fit into the FIFO, two into the link
+// before it, one into the TagStage and two into its link.
+TEST(Cycles, AFullFifoStallsTheGroupFormer) {
+  Parameters p = wide();
+  const Quads quads = repeated(Quad(4, at(0)), 100);
+  for (const int depth : {2, 5, 6, 26, 27}) {
+    p.cache_fifo_depth = depth;
+    const Slots slots = predict(p, quads, {.latency = 20}).slots;
+    EXPECT_EQ(slots,
+              (Slots{.requests = 400, .wait_fill = 4u * (27u - static_cast<unsigned>(depth))}));
+  }
+  p.cache_fifo_depth = 0;  // 20 + 4 + 3 + 16
+  EXPECT_EQ(predict(p, quads, {.latency = 20}).slots, Slots{.requests = 400});
+}
+
+TEST(Cycles, AFullMissQueueStallsTheGroupFormer) {
+  Parameters p = wide();
+  p.cache_outstanding = 8;
+  const CyclePrediction prediction = predict(p, lines(0, 200, 4));
+  EXPECT_EQ(prediction.slots.requests, 800u);
+  EXPECT_GT(prediction.slots.miss_queue, 0u);
+  EXPECT_EQ(prediction.slots.all() % 4, 0u);
+  // 8 lines in 106 cycles.
+  EXPECT_EQ(prediction.cycles, 137u + 199 / 8 * 106 + 199 % 8);
+}
+
+// Requests of 4 words of one bank hold the DataStage until the four lines of the last group have
+// arrived.
+Quads held_then(const Quad& last, int holding) {
+  Quads quads = {{at(0)}, {at(4 * kLine)}, {at(8 * kLine)}, {at(12 * kLine)}};
+  for (int i = 0; i < holding; ++i) quads.push_back({at(0, 4 * kLine, 8 * kLine, 12 * kLine)});
+  quads.push_back(last);
+  return quads;
+}
+
+TEST(Cycles, DataStageReadsRWordsPerPass) {
+  Parameters p = wide();
+  const auto growth = [&] {
+    return cycles(p, held_then({kInvalid}, 21), {.latency = 10}) -
+           cycles(p, held_then({kInvalid}, 20), {.latency = 10});
+  };
+  p.cache_bank_reads = 1;
+  EXPECT_EQ(growth(), 4u);
+  p.cache_bank_reads = 2;
+  EXPECT_EQ(growth(), 2u);
+  p.cache_line_banks = 8;
+  EXPECT_EQ(growth(), 1u);
+}
+
+TEST(Cycles, DataStageWritesDLinesPerCycleIntoDifferentBanks) {
+  Parameters p = wide();
+  const auto taken = [&](std::initializer_list<std::uint32_t> missed) {
+    Quad last;
+    for (const std::uint32_t line : missed) last.push_back(at(line * kLine + 4 * line % 64));
+    return cycles(p, held_then(last, 20), {.latency = 10}) -
+           cycles(p, held_then({kInvalid}, 20), {.latency = 10});
+  };
+  for (const int writes : {1, 2, 4}) {
+    p.cache_fill_writes = writes;
+    EXPECT_EQ(taken({16, 17, 18, 19}), static_cast<unsigned>(4 / writes - 1)) << writes;
+    EXPECT_EQ(taken({16, 17, 18}), (writes == 4 ? 0u : writes == 2 ? 1u : 2u)) << writes;
+    EXPECT_EQ(taken({16, 20, 24, 28}), 3u) << writes;
+    EXPECT_EQ(taken({16, 17, 20, 21}), (writes == 1 ? 3u : 1u)) << writes;
+    EXPECT_EQ(taken({16, 20, 17, 21}), (writes == 1 ? 3u : 2u)) << writes;
+  }
+}
+
+// The FIFO is full, and each group of one request takes four passes: one cycle in which it leaves
+// and three with a stall.
+TEST(Cycles, BankPassesStallTheGroupFormer) {
+  Parameters p = wide();
+  p.cache_bank_reads = 1;
+  p.cache_fifo_depth = 2;
+  const auto slots = [&](int n) {
+    return predict(p, held_then({kInvalid}, n), {.latency = 10}).slots;
+  };
+  const Slots fewer = slots(30), more = slots(40);
+  EXPECT_EQ(more.banks - fewer.banks, 30u);
+  EXPECT_EQ(more.bank_pass - fewer.bank_pass, 120u);
+  EXPECT_EQ(more.all() - fewer.all(), 160u);
+}
+
+// The same with four lines to write into one bank.
+TEST(Cycles, WritesStallTheGroupFormer) {
+  Parameters p = wide();
+  p.cache_fifo_depth = 2;
+  const auto slots = [&](std::uint32_t n) {
+    Quads quads;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      Quad quad;
+      for (std::uint32_t k = 0; k < 4; ++k) quad.push_back(at((16 * i + 4 * k) * kLine + 4 * k));
+      quads.push_back(quad);
+    }
+    return predict(p, quads, {.latency = 1}).slots;
+  };
+  const Slots fewer = slots(30), more = slots(40);
+  EXPECT_EQ(more.write_fill - fewer.write_fill, 120u);
+  EXPECT_EQ(more.all() - fewer.all(), 160u);
+}
+
+// ---- whole frames -------------------------------------------------------------------------------
+
+// A plane of 128 x 128 pixels.
+struct Frame {
+  std::vector<Quad> quads;
+  std::uint64_t fills = 0;
+  explicit Frame(const Parameters& p) {
+    spec::texture::Descriptor sampler;
+    sampler.max_anisotropy_log2 = 4;
+    const tb::texture::EncodedTexture texture(tb::texture::noise(256, 256, 1), sampler);
+    TextureGolden golden(p, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    for (const auto& quad : tb::texture::GroundPlane{.size = 128}.quads()) {
+      quads.emplace_back();
+      golden.process(quad, quads.back());
+    }
+    fills = golden.work().line_fills;
+  }
+};
+
+TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
+  for (const auto blend : {spec::texture::Blend::kSample, spec::texture::Blend::kLevel}) {
+    Parameters p;
+    p.blend = blend;
+    const Frame frame(p);
+    const CyclePrediction one = predict(p, frame.quads);
+    EXPECT_EQ(one.fills, frame.fills);
+    for (const int width : {2, 4}) {
+      Parameters w = wide();
+      w.width = w.fragments = width;
+      const CyclePrediction prediction = predict(w, frame.quads);
+      EXPECT_EQ(prediction.fills, frame.fills);
+      EXPECT_EQ(prediction.requests, one.requests);
+      EXPECT_EQ(prediction.slots.requests, one.requests);
+      EXPECT_EQ(prediction.slots.all() % static_cast<unsigned>(width), 0u);
+      EXPECT_LT(prediction.cycles, one.cycles);
+    }
+  }
+}
+
+// The bits that the golden model gives with each request.
+TEST(Cycles, RequestsHaveTheRowsOfTheirTexelsAndTheEndOfTheirFragment) {
+  Parameters p = narrow();
+  for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {
+    spec::texture::Descriptor sampler;
+    sampler.layout = layout;
+    sampler.max_anisotropy_log2 = 4;
+    const tb::texture::EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
+    TextureGolden golden(p, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    for (std::int32_t row = 0; row < 4; ++row) {
+      spec::texture::Quad quad;
+      quad.coverage = 0b0101;
+      quad.t.fill((row + 1) * (spec::texture::kCoordinateOne / 64));  // between row and row + 1
+      Quad requests;
+      golden.process(quad, requests);
+      ASSERT_EQ(requests.size(), 2u);
+      EXPECT_EQ(requests[0].turned[0], layout == spec::texture::Layout::kLinear && row % 2 == 1);
+      EXPECT_EQ(requests[0].turned[1], layout == spec::texture::Layout::kLinear && row % 2 == 0);
+      EXPECT_TRUE(requests[0].last && requests[1].last);
+      quad.texture = 3;
+      golden.process(quad, requests);
+      ASSERT_EQ(requests.size(), 4u);
+      EXPECT_TRUE(requests[0].valid && !requests[2].valid && requests[2].last);
+      quad.texture = 0;
+      quad.s = {0, spec::texture::kCoordinateOne / 8, 0, spec::texture::kCoordinateOne / 8};
+      requests.clear();
+      golden.process(quad, requests);  // 16 samples
+      ASSERT_EQ(requests.size(), 32u);
+      for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(requests[i].last, i % 16 == 15) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace deburr::cycles_test
