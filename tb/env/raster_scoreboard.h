@@ -64,7 +64,7 @@ class RasterScoreboard final : public ScoreboardBase {
  private:
   std::uint64_t leftovers_here() const { return frame_.size() - at_; }
   std::string first_leftover() const override {
-    return lost_ > 0 ? "pixels of a frame before"
+    return lost_ > 0 ? "pixels of an earlier frame"
                      : fmt::format("{}: {}", pixel(at_), describe_(frame_[at_]));
   }
   std::string pixel(std::size_t position) const {

@@ -70,7 +70,7 @@ void pictures(std::string_view bytes) {
     require(image.width > 0 && image.height > 0 &&
                 image.pixels.size() ==
                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-            "a picture without its pixels");
+            "the number of pixels is not width x height");
   });
 }
 
@@ -80,7 +80,7 @@ void depths(std::string_view bytes) {
     const DepthImage image = read_depth(file.path());
     require(image.pixels.size() ==
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-            "a depth without its pixels");
+            "the number of depths is not width x height");
   });
 }
 
@@ -90,7 +90,7 @@ void mesh(std::string_view bytes, std::string_view extension, const ImportOption
     const Mesh read = import_mesh(file.path(), options);
     for (const Triangle& triangle : read.triangles)
       for (const std::uint32_t corner : triangle.vertex)
-        require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
+        require(corner < read.vertices.size(), "a triangle uses a vertex that is not in the mesh");
   });
 }
 // Read as a mesh, and as the materials of one; images that they name are not read.
@@ -109,7 +109,8 @@ void read_traces(std::string_view bytes) {
   taken_or_rejected([&] {
     traces::FragmentReader reader(file.path(), kTextures);
     traces::TracedQuad quad;
-    while (reader.next(quad)) require(quad.quad.texture < kTextures, "a texture that is not there");
+    while (reader.next(quad))
+      require(quad.quad.texture < kTextures, "a quad uses a texture that does not exist");
   });
 }
 
@@ -124,7 +125,8 @@ void configurations(std::string_view bytes) {
     const std::string resolved = set.resolved().dump(), yaml = set.yaml();
     const InputFile again(yaml, ".again.yaml");
     set.load(again.path());
-    require(set.resolved().dump() == resolved, "another configuration than was written");
+    require(set.resolved().dump() == resolved,
+            "the configuration changed when it was written and read again");
   });
 }
 
@@ -135,7 +137,7 @@ void weights(std::string_view bytes) {
     const std::string text = stimuli::weight_file_text(read, {});
     const auto again = stimuli::parse_weight_file("again", text);
     require(stimuli::entries_of(again) == stimuli::entries_of(read),
-            "other weights than were written");
+            "the weights changed when they were written and read again");
   });
 }
 

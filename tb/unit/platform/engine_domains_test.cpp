@@ -302,7 +302,7 @@ TEST(DomainFaults, RejectsLinkOfOtherDomain) {
   disturbance.bench.faults = {"drop:watched.quads:3"};
   EXPECT_THAT(([&] { place(kMorphological, "faulty", disturbance); }),
               testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(
-                  "no link of faulty.clock is named watched.quads; there are:\n  faulty.in")));
+                  "faulty.clock has no link named watched.quads; known:\n  faulty.in")));
 }
 
 void watch(IntervalRecorder& recorder, const Placed& placed) {

@@ -345,7 +345,7 @@ TEST_F(Parameters, ManifestRestoresParametersOfItsRun) {
   EXPECT_FALSE(set_.given("unit.colour"));
   EXPECT_FALSE(set_.given("unit.shuffle")) << "as it is by default";
   EXPECT_THAT(complaint([&] { set_.load("manifest.json", manifest, "frame"); }),
-              HasSubstr("this manifest is of a run of 'unit', and not of 'frame'"));
+              HasSubstr("this manifest belongs to a run of 'unit', not of 'frame'"));
 }
 
 struct Misnamed : Sample {};

@@ -249,7 +249,7 @@ class Configuration(CommandTest):
         self.assertNotEqual(again["configuration"]["texture.footprint"], first["configuration"]["texture.footprint"])
         self.assertEqual(again["configuration"]["texture.cache.ways"], 2)
         self.expect(2, "run", "frame", *config, "--out", self.path("out"),
-                    says="first/manifest.json:4: this manifest is of a run of 'texture', and not of 'frame'")
+                    says="first/manifest.json:4: this manifest belongs to a run of 'texture', not of 'frame'")
         self.expect(2, "run", "texture", *config, "--out", self.path("first"), says="its results would replace it")
 
     def test_manifest_of_other_defaults_is_applied(self):

@@ -188,7 +188,7 @@ class Figures(CommandTest):
 
 
 class Fields(CommandTest):
-    """Hardware decodes a field of a texture descriptor as another value than software wrote."""
+    """Hardware decodes a field of a texture descriptor as a different value than software wrote."""
 
     def test_texture_fields_are_decoded(self):
         small, large = ("--size", "48x32"), ("--size", "48x32", "--scene", "quad", "--set", "scene.texture_size=8")

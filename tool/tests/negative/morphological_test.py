@@ -643,7 +643,7 @@ class GuardFaults(BlockFaults):
 
 
 class Fields(BlockFaults):
-    """Hardware decodes a configuration field as another value than software wrote."""
+    """Hardware decodes a configuration field as a different value than software wrote."""
 
     def test_each_field_is_decoded(self):
         bits = random.Random(1)
