@@ -124,7 +124,7 @@ void ProtocolChecker::take(Payload& payload, const tlm_phase& phase, const sc_ti
     transaction.stage = Stage::kResponse;
   } else {
     require(phase == tlm::END_RESP, "phases", payload,
-            word(phase) + " is no phase of the protocol");
+            word(phase) + " is not a phase of the protocol");
     require(transaction.stage == Stage::kResponse, "phases", payload, "END_RESP before BEGIN_RESP");
     finish(payload);
   }

@@ -280,7 +280,7 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
     std::string known;
     for (const SceneName& each : kSceneNames) known += fmt::format(" {}", each.name);
     throw spec::ConfigError(fmt::format(
-        "there is no scene '{}'; known are:{}, or a mesh file (.obj, .gltf, .glb)", name, known));
+        "unknown scene '{}'; known:{}, or a mesh file (.obj, .gltf, .glb)", name, known));
   }
   texture_everything(scene.mesh, nullptr);
   finish(scene, options);
@@ -295,8 +295,8 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
   const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh);
   const bool plain = options.plain && !replace;
   if (!replace && !plain && scene.mesh.textures.empty())
-    scene.mesh.notes.push_back(
-        fmt::format("'{}' has no texture: all of it gets '{}'", path.string(), fallback.name));
+    scene.mesh.notes.push_back(fmt::format("'{}' has no texture: '{}' is used for all of it",
+                                           path.string(), fallback.name));
   texture_everything(scene.mesh, plain ? nullptr : &fallback);
   if (scene.mesh.textures.size() > spec::texture::kMaxTextures)
     throw spec::FileError(

@@ -63,7 +63,7 @@ TEST(Intervals, DetectsSumThatDiffersFromRun) {
   Json wrong = intervals();
   wrong["series"]["units"]["filter_pipeline"]["busy"] = {4, 10, 5};
   wrong["series"]["units"]["filter_pipeline"]["stalls"]["full"] = {0, 0, 0};
-  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy sums up to 19"));
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy adds up to 19"));
 }
 
 // In whichever series, interval and unit: every value counts, except values that only intervals
