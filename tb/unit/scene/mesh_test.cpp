@@ -260,7 +260,7 @@ TEST(Obj, NotesListOmittedStatements) {
 }
 
 // Seventeen colours: the last begins a second row of cells of four by four texels.
-TEST(Palette, HasOneCellPerPlainMaterial) {
+TEST(Palette, GivesEachPlainMaterialOneCell) {
   Mesh mesh;
   for (int i = 0; i < 17; ++i) {
     mesh.materials.push_back({"m", V3d(i / 16.0, 0.5, 2), -1});
