@@ -58,7 +58,7 @@ class Surveyor final : public YAML::EventHandler {
  private:
   struct Collection {
     YAML::anchor_t anchor;
-    std::uint64_t nodes;  // nodes so far, including this one and those that its aliases stand for
+    std::uint64_t nodes;  // nodes so far, including this one and the expanded aliases
   };
 
   void add(std::uint64_t nodes) {

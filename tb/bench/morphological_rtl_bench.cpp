@@ -82,7 +82,7 @@ std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int 
 Parameters parameters(const std::string& preset, int lanes) {
   const auto& names = spec::morphological::kPresetNames;
   const auto* const which = std::find(names.begin(), names.end(), preset);
-  DEBURR_CHECK(which != names.end(), "no preset " + preset);
+  DEBURR_CHECK(which != names.end(), "unknown preset " + preset);
   Parameters p = golden::morphological::preset_parameters(
       static_cast<spec::morphological::Preset>(which - names.begin()));
   p.lanes = lanes == 1   ? spec::morphological::Lanes::kOne
@@ -252,7 +252,7 @@ std::string trade(int predictors, int trial_cycles) {
 }
 
 int print_trade() {
-  std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 records |\n"
+  std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 descriptors |\n"
                "|---|---|---|---|---|---|---|---|---|\n";
   for (const int predictors : {1, 2, 4})
     for (int cycles = 1; cycles <= 8; ++cycles)

@@ -93,7 +93,7 @@ void mesh(std::string_view bytes, std::string_view extension, const ImportOption
         require(corner < read.vertices.size(), "a triangle uses a vertex that is not in the mesh");
   });
 }
-// Read as a mesh, and as the materials of one; images that they name are not read.
+// Reads the input as a mesh and as a material file; images that it names are not read.
 void obj(std::string_view bytes) {
   mesh(bytes, ".obj");
   const InputFile materials(bytes, ".mtl");
@@ -145,7 +145,8 @@ constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
 constexpr std::string_view kObj =
     "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
     "f 1/1/1 2/2/1 3/1/1\nf 2//1 4//1 3//1\n";
-// A byte order mark, a C, a bow tie, a hole with its bridge, a face without area, colours, a curve.
+// A byte order mark; faces: C-shaped, self-intersecting, with a hole and bridge, of zero area;
+// colours; a curve.
 constexpr std::string_view kPolygons =
     "\xEF\xBB\xBFv 0 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0\nv 1 2 0\nv 3 2 0\nv 3 3 0\nv 0 3 0\n"
     "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";

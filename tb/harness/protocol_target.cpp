@@ -63,7 +63,7 @@ tlm::tlm_sync_enum ProtocolTarget::forward(Payload& payload, tlm::tlm_phase& pha
   return tlm::TLM_COMPLETED;
 }
 
-// Returns false for a request that no memory can serve.
+// Returns false for an invalid request.
 bool ProtocolTarget::check_payload(const Payload& payload) {
   const std::size_t before = violations_.size();
   if (!payload.has_mm())

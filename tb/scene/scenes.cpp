@@ -135,8 +135,8 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
 
 void make_plane(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
-  // Three repeats per ten units. 160 units exceed what is visible, since the horizon lies two
-  // degrees above the picture's top edge.
+  // Three repeats per ten units. 160 units are more than visible: the horizon is two degrees above
+  // the top edge of the image.
   constexpr double kSide = 160.0, kRepeats = 0.3 * kSide;
   add_parallelogram(scene.mesh, V3d(-0.5 * kSide, 0, 4), V3d(kSide, 0, 0), V3d(0, 0, -kSide),
                     V2d(kRepeats, kRepeats), 0);

@@ -113,7 +113,7 @@ TEST_P(MemoryLatency, AcceptsOneAccessPerCycle) {
 
 INSTANTIATE_TEST_SUITE_P(Cycles, MemoryLatency, testing::Values(1, 2, 3, 7));
 
-// A unit requests a word in the cycle in which it needs it: one cycle too late for the memory.
+// The unit issues the read in the cycle in which it needs the word: one cycle too late.
 TEST(Memory, ReadIssuedTooLateIsRejected) {
   Ported p(2);
   p.read.read(9, 7);  // needed in cycle 10
@@ -524,7 +524,7 @@ TEST(Memory, AdjacentWordsLieInDifferentBanks) {
   }
 }
 
-// 41 words in 4 banks of 11, the last of which holds 8.
+// 41 words in 4 banks of 11; the last bank holds 8.
 TEST(Memory, BlockSizeIsRoundedUp) {
   Memory<int> memory("memory", {.words = 41,
                                 .word_bits = 4,

@@ -321,7 +321,7 @@ TEST(LinkChecker, DetectsPushIntoFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
               HasSubstr("rogue: cycle 2: a push into a full link"));
 }
-// The same for a link whose beats have no checker of their own: this one also checks widths.
+// The same with the general checker, which also checks widths.
 TEST(LinkChecker, DetectsPushIntoFullLinkWithWidths) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }, true),
               HasSubstr("rogue: cycle 2: a push into a full link"));

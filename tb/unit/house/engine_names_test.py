@@ -59,7 +59,7 @@ NAMED = {
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
             "tb/unit/golden/geometric/line_test.cpp"],
-        "the field's word for such methods": [
+        "the field's word for such methods, or a comparison with them": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "studies/quality/comparison.cpp",
             "studies/quality/harm.cpp", "tb/oracle/smaa_frames.h",
             "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",

@@ -52,7 +52,7 @@ FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
-# Namespaces follow folders: the tool and studies define names in their own and may declare names of others.
+# Namespaces follow folders: tool and studies define names in their own namespaces and may declare names of others.
 OPENED = re.compile(r"^namespace deburr::(tb|tool|studies)\b")
 DECLARED = re.compile(r"^((class|struct) \w+;|)$")
 ADDED_ENGINE = "tool/tests/system/added_engine/"

@@ -33,8 +33,8 @@ using Pixels = std::vector<Rgba8>;
 // Nearly transparent, opaque, transparent with a colour, half transparent.
 const Pixels kStraight = {
     {204, 199, 230, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {255, 128, 1, 128}};
-// The same with colours multiplied by alpha and rounded, and the result of the division: 8 * 255 /
-// 10 = 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. With alpha 0
+// The same with colours premultiplied by alpha and rounded, and the result of the division: 8 * 255
+// / 10 = 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. With alpha 0
 // colours are not divided.
 const Pixels kMultiplied = {{8, 8, 9, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {128, 64, 1, 128}};
 const Pixels kDivided = {
@@ -177,7 +177,7 @@ std::string dx10_dds(unsigned mode) {
          little(mode, 4) + block;
 }
 
-// Written by Pillow, lossless, with a box that declares the alpha: 1 opacity, 2 premultiplied.
+// Lossless file written by Pillow, with a box that declares the alpha: 1 opacity, 2 premultiplied.
 std::string jpeg2000(unsigned opacity) {
   std::string file = of_hex(
       "0000000c6a5020200d0a870a00000014667479706a703220000000006a7032200000002d6a7032680000001669"
@@ -274,7 +274,7 @@ TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
     for (std::size_t c = 0; c < 4; ++c)
       EXPECT_NEAR(image.pixels[100][c], colour[c], 4) << extension;
   }
-  // EXR: linear light multiplied by alpha; 0.5 is 188 on the sRGB curve.
+  // EXR: linear light premultiplied by alpha; 0.5 is 188 on the sRGB curve.
   EXPECT_EQ(
       read_image(write(folder / "of.exr", {},
                        std::vector<float>{0.02f, 0.01f, 0.04f, 0.04f, 0.5f, 0, 1, 1, 0.5f, 0, 2, 0,

@@ -233,7 +233,7 @@ TEST(Obj, BoxProjectionFollowsEachFaceNormal) {
   }
 }
 
-// The box of the whole mesh, including triangles with coordinates of their own.
+// The box of the whole mesh, including triangles that have texture coordinates.
 TEST(Obj, ProjectionBoxEnclosesWholeMesh) {
   const TemporaryFolder folder;
   const Mesh mesh = import_mesh(folder.write(
@@ -639,7 +639,7 @@ TEST(Gltf, MorphTargetsMoveByTheirWeights) {
   };
   const Mesh mesh = expect_positions({0, 0, 1}, {1, 0, 2}, {1, 1, 4});
   EXPECT_EQ(corner(mesh, 0, 1).uv, V2d(1.5, 0));
-  // (0, 0, 2) plus half of (0, 2, 0); (0, 0, 8) plus half of (0, 0, -16) has no direction.
+  // (0, 0, 2) plus half of (0, 2, 0); (0, 0, 8) plus half of (0, 0, -16) has length 0.
   EXPECT_NEAR((corner(mesh, 0, 0).normal - V3d(0, 1, 2) / std::sqrt(5.0)).length(), 0, 1e-12);
   file.nodes = R"([{"mesh":0,"weights":[0,1]}])";
   expect_positions({0, 0, 0}, {1, 0, 0}, {4, 1, 0});
