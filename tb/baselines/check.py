@@ -125,15 +125,15 @@ def main():
     parser.add_argument("program", type=pathlib.Path, help="the deburr command")
     parser.add_argument("folders", type=pathlib.Path, nargs="*", metavar="FOLDER",
                         help="only these folders of engines (all of tb/engines/engines.txt)")
-    parser.add_argument("--record", action="store_true", help="write what is measured")
+    parser.add_argument("--record", action="store_true", help="record the measured counts")
     options = parser.parse_args()
     if not comparison_works():
-        sys.exit("the comparison itself is broken")
+        sys.exit("the comparison missed an injected difference")
     counted = [check(options.program.resolve(), folder.resolve(), options.record)
                for folder in options.folders or engine_folders()]
     runs, failures = (sum(column) for column in zip(*counted))
     if failures:
-        print(f"{failures} of {runs} runs differ. If that is meant, an improvement too, record it: "
+        print(f"{failures} of {runs} runs differ. Record intended changes and improvements: "
               f"tb/baselines/check.py {options.program} --record")
     sys.exit(0 if runs and not failures else 1)
 

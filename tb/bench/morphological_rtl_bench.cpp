@@ -196,7 +196,8 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const spec::morphological::Work work = setup.engine.work();
   std::cout << fmt::format(
-      "{} cycles, {:.2f} Mcycle/s; last frame {} cycles; {:.1f} % edge pixels, {} record stalls "
+      "{} cycles, {:.2f} Mcycle/s; last frame {} cycles; {:.1f} % edge pixels, {} descriptor "
+      "stalls "
       "({} interlock), latency {}..{}\n",
       cycles, static_cast<double>(cycles) / seconds.count() / 1e6,
       setup.engine.sequencer.frame_cycles.value(),

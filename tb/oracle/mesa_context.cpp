@@ -79,7 +79,7 @@ std::unique_ptr<MesaContext> MesaContext::open(const std::string& driver,
     return nullptr;
   }
   if (context->name().find(driver) == std::string::npos) {
-    why = "Mesa offers " + context->name() + " where " + driver + " was asked for";
+    why = "Mesa offers " + context->name() + " instead of " + driver;
     return nullptr;
   }
   return context;

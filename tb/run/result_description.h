@@ -169,7 +169,7 @@ void describe(const Quality& q, Visitor& v) {
   v.each("identical", figures, &PsnrFigure::name, [&](const PsnrFigure& psnr) {
     v.item(psnr.identical(), "",
            "Whether the pictures are equal in every pixel that this PSNR counts; the infinite PSNR "
-           "is then null. Null without this flag: there is no such pixel.");
+           "is then null. If the PSNR is null without this flag, no pixel counts.");
   });
   constexpr std::string_view kBefore = "The same for the input picture.";
   v.value("flip", q.flip, "",
@@ -259,7 +259,7 @@ void describe(const Result& r, Visitor& v) {
     v.value("idle", unit.idle, "clk",
             "Cycles without work, or with nothing to do but wait for memory responses.");
     v.each("stalls", unit.stalls, &StallCycles::cause, [&](const StallCycles& stall) {
-      v.item(stall.cycles, "clk", "Cycles in which the unit had work and could do none of it.",
+      v.item(stall.cycles, "clk", "Cycles in which the unit had work but could do none of it.",
              stall.meaning);
     });
   });

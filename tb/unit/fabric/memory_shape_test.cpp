@@ -558,9 +558,9 @@ TEST(Memory, EveryWordOfAccessUsesItsBank) {
     for (std::uint64_t a = 0; a < 8; ++a) {
       first.read(++cycle, 16, count);
       if (a % 4 < count)
-        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " beside " << count;
+        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " next to " << count;
       else
-        EXPECT_NO_THROW(second.read(cycle, a)) << a << " beside " << count;
+        EXPECT_NO_THROW(second.read(cycle, a)) << a << " next to " << count;
     }
   }
 }
@@ -771,14 +771,14 @@ class Holder final : public rtl::Unit {
 TEST(Memory, DomainResetsMemory) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Holder holder("holder", clock);
-  Ported beside(1);
+  Ported outside(1);
   clock.run(5);
-  beside.read.read(clock.cycle(), 3);
+  outside.read.read(clock.cycle(), 3);
   EXPECT_EQ(holder.inside.memory.reads(), 5U);
-  EXPECT_EQ(beside.memory.reads(), 1U);
+  EXPECT_EQ(outside.memory.reads(), 1U);
   clock.set_reset_n(false);
   clock.run(1);
-  for (Ported* p : {&holder.inside, &beside}) {
+  for (Ported* p : {&holder.inside, &outside}) {
     EXPECT_EQ(p->memory.reads(), 0U);
     EXPECT_THROW(p->read.word(clock.cycle() + 1), spec::CheckFailed);
     EXPECT_EQ(p->memory.backdoor(7), 107);

@@ -469,7 +469,7 @@ TEST_F(OutOfStep, LostItemsCountOnceEach) {
   EXPECT_EQ(board_.mismatches(), 3u);
   EXPECT_EQ(board_.leftovers(), 0u);
   EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
-              HasSubstr("item 100: expected 100, got nothing, or it later: next came 103"));
+              HasSubstr("item 100: expected 100, got nothing so far; next came 103"));
 }
 TEST_F(OutOfStep, DuplicatedItemCountsOnce) {
   std::vector<int> come = counted();

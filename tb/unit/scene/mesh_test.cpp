@@ -346,7 +346,7 @@ TEST(MeshFiles, ListFilesOfRejectedObj) {
     return found;
   };
   EXPECT_THAT(names("none.obj"), ElementsAre("none.obj"));
-  EXPECT_THAT(names("picture.png"), ElementsAre()) << "nobody opens it";
+  EXPECT_THAT(names("picture.png"), ElementsAre()) << "no import opens it";
   folder.write("m.mtl", "newmtl a\nmap_Kd none.png\n");
   folder.write("m.obj", std::string("mtllib m.mtl\nusemtl a\n") + kSquare);
   EXPECT_THAT(import_error(folder / "m.obj"), HasSubstr("none.png"));
