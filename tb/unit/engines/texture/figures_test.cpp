@@ -15,7 +15,7 @@
 namespace deburr::tb::figures_test {
 namespace {
 
-// Not square, with more fragments than pixels.
+// A non-square frame with more fragments than pixels.
 const TextureScene& scene(spec::texture::Format format = spec::texture::Format::kRgba8) {
   static std::map<spec::texture::Format, TextureScene> all;
   if (const auto found = all.find(format); found != all.end()) return found->second;
