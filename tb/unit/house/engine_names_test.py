@@ -36,56 +36,56 @@ MADE = {
 # engine -> reason -> files that name it. A CMake list may name what the sources in its folder name.
 NAMED = {
     "geometric": {
-        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
-        "the rule `leave` is about what it has marked": [
+        "tests each pair of engines in separate clock domains": ["tb/unit/platform/engine_domains_test.cpp"],
+        "`bypass` uses the marks that it writes": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/bypass.h", "rtl_model/morphological/blend/blender.cpp",
             "spec/morphological/parameters.h", "tool/engines/morphological/morphological_role.cpp",
             "tb/unit/golden/morphological/frames_test.cpp"],
-        "methods are compared there, each by its name": ["studies/quality/comparison.cpp"],
-        "the paper whose method it is": ["studies/papers/papers_002.cpp"],
-        "tests call its functions of the C interface, and what is built from installed files does": [
+        "compares methods by their names": ["studies/quality/comparison.cpp"],
+        "the paper that describes its method": ["studies/papers/papers_002.cpp"],
+        "tests and installed examples call its functions of the C interface": [
             "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "Python has its equations in real numbers, and tests call its functions of the module": [
+        "the Python module provides its equations in real numbers": [
             "python/bindings/ideal_python.cpp"],
-        "tables of pages are measured, its own among them": ["scripts/reports/results.py"],
-        "an example of files, in what a script says of itself": ["scripts/mutate"],
+        "scripts measure the tables of its pages": ["scripts/reports/results.py"],
+        "an example in the help text of a script": ["scripts/mutate"],
     },
     "morphological": {
-        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
-        "it blends in the same light, by the same tables": [
+        "tests each pair of engines in separate clock domains": ["tb/unit/platform/engine_domains_test.cpp"],
+        "both engines blend in linear light with the same tables": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
             "tb/unit/golden/geometric/line_test.cpp"],
-        "the field's word for such methods, or what they are compared with": [
+        "morphological is the field's word for such methods": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "studies/quality/comparison.cpp",
             "studies/quality/harm.cpp", "tb/oracle/smaa_frames.h",
             "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",
             "tb/scene/reference.h"],
-        "papers whose methods it has": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
-        "lines and discs that its shares are measured and learned by": [
+        "papers that describe its methods": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
+        "lines and discs that measure and train its weights": [
             "scripts/train-shares", "tb/stimuli/line_fans.cpp",
             "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/weight_file.cpp",
             "tb/stimuli/weight_file.h", "studies/training/weight_samples.cpp", "studies/training/weight_samples.h",
             "studies/training/weight_trainer.cpp", "studies/training/weight_trainer.h", "studies/training/title_weights.cpp",
             "studies/training/title_weights.h", "studies/training/train_weights.cpp", "tb/unit/stimuli/weight_file_test.cpp"],
-        "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
-        "an example of an engine, in tests of what every engine has": [
+        "its contract computes table values in double precision": ["tb/unit/house/layers_test.py"],
+        "an example of an engine in tests that apply to all engines": [
             "tb/unit/env/injected_faults_test.cpp"],
-        "an example of an engine, in what is built from installed files": [
+        "an example of an engine in installed examples": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
             "examples/platform/painter.h", "examples/platform/software.cpp", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
-        "frames from Python are views and depths as it has them, and tests call its functions of the module": [
+        "the Python module takes frames in its format": [
             "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
             "tb/bench/python_frames.cpp", "tb/bench/python_golden.py"],
         "tests call its functions of the C interface": [
             "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "tables of pages are measured, its own among them": [
+        "scripts measure the tables of its pages": [
             "scripts/report", "scripts/reports/guides.py", "scripts/reports/results.py"],
     },
 }

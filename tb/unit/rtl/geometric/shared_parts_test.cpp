@@ -141,7 +141,6 @@ struct Latencies {
     }
   } edges{histogram};
   // Events in order, one word or letter each:
-  //
   //   L10*3  three edges leave in cycle 10      + -  the next one is kept or dropped
   //   W20    a group is written in cycle 20     = /  it is a line or not
   //   E      the end of the frame               G g  the last group of a line, or another group
