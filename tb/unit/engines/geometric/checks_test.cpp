@@ -112,7 +112,7 @@ TEST(GeometricChecks, RestartedFrameIsExpectedOnce) {
   EXPECT_EQ(c.wrong(), "");
 }
 
-TEST(GeometricChecks, NothingIsComparedWithoutGolden) {
+TEST(GeometricChecks, ComparesNothingWithoutGolden) {
   Checked c(false);
   c.checks.begin(c.frames[0]);
   c.checks.got(spec::geometric::LineRecord(), 1);

@@ -178,7 +178,7 @@ TEST(EdgeTable, DegenerateFacesKeepTheirNumbers) {
   EXPECT_EQ(screen.clipped, 0u);
 }
 
-TEST(EdgeTable, RejectsInvalidMeshesByName) {
+TEST(EdgeTable, RejectsInvalidMeshesWithTheCause) {
   const auto rejected = [](const Mesh& mesh, const char* why) {
     EXPECT_THAT([&] { build_edge_table(mesh); },
                 testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(why)));
@@ -246,7 +246,7 @@ TEST(EdgeTable, DiagonalsOfAConcaveFaceHaveNoFlag) {
   EXPECT_EQ(plain, 2u * 4 + 7 + 1);
 }
 
-TEST(ScreenEdges, FacingIsEquationOne) {
+TEST(ScreenEdges, FacingFollowsEquationOne) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   const Camera camera{V3d(3, 2.5, 5), V3d(0, 0, 0)};
   const ScreenEdges screen = project_edges(table, camera, 100, 80);

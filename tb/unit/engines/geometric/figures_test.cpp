@@ -472,8 +472,8 @@ TEST(GeometricFigures, ErrorsOfOneFrameOfThreeAreExpected) {
   }
 }
 
-// STATUS reports that one of the frames had an invalid edge, at any position. An edge is checked
-// only against the face and vertex counts of its own frame.
+// STATUS reports that one of the frames had an invalid edge, at any position. Each frame's edges
+// are checked against its own face and vertex counts.
 TEST(GeometricFigures, InvalidEdgesOfOneFrameOfThreeAreExpected) {
   Frame invalid = frames()[2];
   invalid.screen.edges[5].f0 = invalid.screen.faces;

@@ -84,7 +84,7 @@ class Bounds {
   static int count_of(Lanes lanes) {
     return spec::geometric::kLaneCount[static_cast<std::size_t>(lanes)];
   }
-  // Counts beats of edges, and vertex lookups of which both miss.
+  // Counts beats of edges, and pairs of vertex lookups that both miss.
   void read_edges(const Scene& scene) {
     const std::size_t lanes = static_cast<std::size_t>(count_of(b_.p.edge_lanes));
     golden::geometric::DirectMapped cache;

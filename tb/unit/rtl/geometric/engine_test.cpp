@@ -137,7 +137,7 @@ TEST(Registers, CountersAddUpUntilCleared) {
   EXPECT_EQ(b.bus.read(reg::kEdges), 0u);
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), 0u);
 }
-TEST(Parameters, RejectsWhatCannotBeBuilt) {
+TEST(Parameters, RejectsUnbuildableParameters) {
   EXPECT_THAT(in_child([] {
                 Parameters p;
                 p.reciprocal_table = 8;
@@ -295,7 +295,7 @@ TEST(Memories, RowsOfAnyLengthFit) {
 
 // ---- buffers whose size follows from the memory latency
 
-TEST(Sizes, MemoriesMatchThePage) {
+TEST(Sizes, BufferSizesMatchThePage) {
   const auto text = [](const Parameters& p, const rtl::MemoryCycles& memory) {
     const Parameters s = rtl::geometric::sized(p, memory);
     return std::to_string(s.fills) + " " + std::to_string(s.resolve_lines) + " " +
@@ -393,7 +393,7 @@ std::map<std::string, std::string> cycle_classes_of(const EngineBench& b) {
   return accounts;
 }
 // A line of eight pixels, M = 20; 303 cycles in total.
-TEST(CycleClasses, OneLineMatches) {
+TEST(CycleClasses, CyclesOfOneLineMatch) {
   Parameters p;
   p.frame_copy = true;
   EngineBench b(p);
@@ -414,7 +414,7 @@ TEST(CycleClasses, OneLineMatches) {
       {"coverage_unit", "busy 5, idle 298"},
       {"depth_test", "busy 141, depth 22, idle 140"},
       {"weight_combiner", "busy 135, idle 168"},
-      // Eight lines read and written: 32 beats, of which six share a cycle with another one.
+      // Eight lines read and written: 32 beats, six of them in a cycle with another one.
       {"frame_copier", "busy 26, downstream 2, memory 34, idle 241"},
       // Two blocks, each with one line read and one written.
       {"block_scanner", "busy 5, idle 298"},
@@ -429,7 +429,7 @@ TEST(CycleClasses, OneLineMatches) {
 }
 // Only the begin, and the end passing through all units and the resolve: a unit without reads does
 // not wait.
-TEST(CycleClasses, FrameWithoutEdgesMatches) {
+TEST(CycleClasses, CyclesOfEmptyFrameMatch) {
   EngineBench b;
   b.load(blank(16, 8));
   EXPECT_EQ(b.run(), 195u);
@@ -487,7 +487,7 @@ TEST(CycleClasses, LatencyCountsOnlyLinesWithAPassingPixel) {
   EXPECT_EQ(b.engine.edge_latency.max(), 103u);
 }
 // The same with split records, which drop the flat edge before its vertices are known and the
-// invalid one after that. One edge per cycle, so that no two leave together.
+// invalid one after that. With one edge per cycle, two edges never leave together.
 TEST(CycleClasses, SplitRecordsMeasureTheSameLines) {
   using spec::geometric::RecordsLayout;
   const auto latencies = [](RecordsLayout records) {
@@ -512,7 +512,7 @@ TEST(CycleClasses, SplitRecordsMeasureTheSameLines) {
 }
 // Small buffers everywhere and a single divider, so that units wait for each other, with every
 // stall cause except `fills` and the Resolver's `downstream`.
-TEST(CycleClasses, StalledFrameMatches) {
+TEST(CycleClasses, CyclesOfStalledFrameMatch) {
   Parameters p;
   p.coverage = spec::geometric::CoverageRule::kDistance;
   p.layout = spec::geometric::Layout::kRaster;
@@ -614,7 +614,7 @@ TEST_P(RandomCycles, RandomFramesLieBetweenTheBounds) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCycles, ::testing::Range(0, 40));
 
-TEST(CyclesOf, FlatEdges) {
+TEST(CyclesOf, FlatEdgesTakeOneCyclePerBeat) {
   for (const auto& [lanes, count] :
        {std::pair{Lanes::kOne, 1u}, {Lanes::kTwo, 2u}, {Lanes::kFour, 4u}}) {
     const std::string got = in_child([lanes = lanes, count = count] {
@@ -634,7 +634,7 @@ TEST(CyclesOf, FlatEdges) {
   }
 }
 // The begin clears one word of touched bits per cycle, or waits for the last facing bits.
-TEST(CyclesOf, TheBegin) {
+TEST(CyclesOf, BeginClearsOneWordPerCycle) {
   for (const auto& [height, faces, cycles] :
        {std::tuple{512, 1, 128}, {516, 1, 129}, {1200, 1, 300}, {64, 512 * 64, 128}}) {
     const std::string got = in_child([height = height, faces = faces] {
@@ -651,7 +651,7 @@ TEST(CyclesOf, TheBegin) {
     EXPECT_EQ(got, std::to_string(cycles + 50)) << height << " " << faces;
   }
 }
-TEST(CyclesOf, OneLongLine) {
+TEST(CyclesOf, LongLineTakesOneCyclePerGroup) {
   Parameters p;
   p.line_pixels = 8192;
   p.walkers = Lanes::kOne;
@@ -668,7 +668,7 @@ TEST(CyclesOf, OneLongLine) {
   // write.
   EXPECT_EQ(b.bus.read(reg::kEdgeCycles), 2000u + 1024 + 122);
 }
-TEST(CyclesOf, Dividers) {
+TEST(CyclesOf, DividedLinesStayWithinBounds) {
   for (const int dividers : {1, 3}) {
     const std::string got = in_child([dividers] {
       Parameters p;

@@ -178,7 +178,7 @@ Parameters kept(int lines) {
 
 // The only line of the second block is kept, and the previous block's line came long before. The
 // line is taken in the second cycle after its lookup, in stage 1 of the Resolver.
-TEST(KeptColours, LatencyOfABlockThatReadsNothing) {
+TEST(KeptColours, LatencyOfAKeptBlockMatchesDatasheets) {
   ResolveBench b(kept(4), 256, 64);
   // Block (1, 1) takes from the right and reads both lines; block (2, 1) needs only its own.
   b.touch(1, 1, 1u << 7, true, true);
@@ -217,7 +217,7 @@ TEST(KeptColours, OneCyclePerLine) {
 }
 
 // Hits do not need a free line of the store, but they need an entry in the order of lines.
-TEST(KeptColours, StallsWithoutAnEntry) {
+TEST(KeptColours, StallsWithoutAFreeEntry) {
   const auto waits = [](int lines) {
     return in_child([lines] {
       Parameters p = kept(lines);

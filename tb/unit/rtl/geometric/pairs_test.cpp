@@ -171,7 +171,7 @@ TEST(PairFetch, DroppedEdgesIgnoreABlockedOutput) {
   EXPECT_EQ(stalls(b.unit, "downstream"), 101u - 7);
 }
 // Cycles that wait for a line and cycles without a free entry are counted separately.
-TEST(PairFetch, StallsByCause) {
+TEST(PairFetch, StallsAreCountedByCause) {
   PairBench b;
   b.latency(b.ends, PairBench::number(3));
   // Without a wait, stage 2 has it one cycle after stage 1; here it has it M + 6 cycles later.

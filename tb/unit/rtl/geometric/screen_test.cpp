@@ -200,7 +200,7 @@ TEST(DepthScreen, DropsMatchGolden) {
     EXPECT_EQ(got, "compared") << bits;
   }
 }
-TEST(DepthScreen, StallsByCause) {
+TEST(DepthScreen, StallsAreCountedByCause) {
   ScreenBench b;
   b.latency(b.ends, ScreenBench::inside(0, 0));
   EXPECT_EQ(stalls(b.unit, "coarse"), 26u - 1) << "an answer is taken in one of them";

@@ -91,7 +91,7 @@ TEST(AnalyticWeightsBlock, EdgeThatEndsOnTheLineGetsATrapezoid) {
   // + 2^28) >> 29 = 0.
   EXPECT_THAT(weights(0), ::testing::ElementsAre(1, 0));
   EXPECT_THAT(weights(-66052), ::testing::ElementsAre(0, 1));
-  // Not at an end of the line.
+  // Slightly off these positions there is no trapezoid.
   EXPECT_THAT(weights(-1), ::testing::ElementsAre(0, 0));
   EXPECT_THAT(weights(-66051), ::testing::ElementsAre(0, 0));
 }

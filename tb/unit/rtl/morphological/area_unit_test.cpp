@@ -191,7 +191,7 @@ TEST_P(AreaLanes, DescriptorFinishesOneCycleAfterItsPop) {
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
-  // Pairs of columns share half as many banks as there are lanes, so lines wait once.
+  // Each pair of columns shares a bank, so lines wait once.
   const int banks = std::max(1, bench.lanes / 2), cycles = bench.lanes / banks;
   ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * cycles));
   expect_notices_a_clock(DescriptorStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
@@ -252,8 +252,8 @@ TEST(AreaUnitBlock, LinesWaitForTheFinishedOutput) {
 
 // ---- after a reset ------------------------------------------------------------------------------
 
-// The weights of a row stay in their memory, where a narrower frame has no columns. Nothing of them
-// may appear after its last column.
+// The weights of a row stay in their memory. A narrower frame must not show those of columns beyond
+// its width.
 TEST_P(AreaLanes, NarrowerFrameIgnoresOldColumns) {
   constexpr int kWide = 16, kNarrow = 8;
   Area bench(small(GetParam()), kWide, 9);
@@ -284,7 +284,7 @@ TEST_P(AreaLanes, NarrowerFrameIgnoresOldColumns) {
 
 // The product of the line's ends is known, but not yet the ends.
 TEST(TableEnds, ResetDropsLineInMeasurement) {
-  // What is stored and finished of a line that is popped in cycle 41.
+  // Counts of stored and of finished lines, for a line that is popped in cycle 41.
   const auto kept = [](bool reset, Cycle at) {
     return forked_text([=] {
       Area bench(with_area(AreaSource::kTableFull), 5, 3);

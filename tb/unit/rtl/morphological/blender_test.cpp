@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Each, BlenderConfiguration,
                                                               BlendRule::kStrongest),
                                             ::testing::Range(0, 3)));
 
-TEST(BlenderBlock, OnlyTheLastBeatWaitsForFramesDone) {
+TEST(BlenderBlock, LastBeatOfFrameWaitsForFramesDone) {
   constexpr Cycle kOpens = 40;
   Blending bench(small());
   bench.done.hold_push(kOpens - 1);

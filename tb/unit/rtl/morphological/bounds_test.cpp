@@ -92,7 +92,7 @@ class Bursts : public ::testing::TestWithParam<Build> {
     return least_beats(p, kDescriptors, p.steps == 0);
   }
 };
-TEST_P(Bursts, NoStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
+TEST_P(Bursts, BoundAvoidsStalls) { EXPECT_EQ(stalls(bound()), 0u); }
 class LongBursts : public Bursts {};
 TEST_P(LongBursts, RowsOneTenthShorterStall) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
 INSTANTIATE_TEST_SUITE_P(Builds, Bursts,
@@ -142,7 +142,7 @@ class Classes : public ::testing::TestWithParam<std::tuple<int, int, int>> {
     return std::max(kDescriptors, kDescriptors * (held - units) / units + 2 * held + 12);
   }
 };
-TEST_P(Classes, NoStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
+TEST_P(Classes, BoundAvoidsStalls) { EXPECT_EQ(stalls(bound()), 0u); }
 INSTANTIATE_TEST_SUITE_P(Builds, Classes,
                          ::testing::Values(std::tuple{0, 2, 4}, std::tuple{0, 1, 4},
                                            std::tuple{0, 1, 8}, std::tuple{1, 2, 4},
@@ -195,7 +195,7 @@ TEST_P(FifoDepth, FifoHoldsBothBursts) {
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
 }
-// Rows of 1200, 1920 and 2480 beats with as many descriptors as they may hold: the depth of the
+// Rows of 1200, 1920 and 2480 beats with the largest number of descriptors: the depth of the
 // formula suffices, and two thirds of it do not. The default of 256 suffices for rows of 1920
 // beats.
 INSTANTIATE_TEST_SUITE_P(Depths, FifoDepth,

@@ -165,7 +165,7 @@ EdgePlanes random_edges(int width, int height, std::uint64_t seed) {
   const std::uint32_t density = 50 + random.below(700);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      // There are no edges on the border.
+      // Edges never lie on the border.
       if (x > 0 && random.chance(density)) edges.left.set(x, y);
       if (y > 0 && random.chance(density)) edges.top.set(x, y);
     }
@@ -296,7 +296,7 @@ TEST_P(DiagonalCycles, LatencyMatchesDatasheet) {
   EXPECT_EQ(bench.unit.busy_cycles(), 2 * (bench.words(edges) + bench.delay() + kStages - 1));
 }
 
-// Without further beats a row is still finished, by the same number of shifts: a word of the row's
+// A row finishes even if no further beats come, by the same number of shifts: a word of the row's
 // last D beats does not wait for the next row.
 TEST_P(DiagonalCycles, RowFinishesWithoutTheNextRow) {
   const Parameters p = built_as(GetParam());
@@ -367,8 +367,7 @@ Memory& memory_of(Diagonals& bench, const std::string& name) {
 }
 using Rom = rtl::Memory<std::uint16_t>;
 
-// Ports match the table of the contract; there are only as many accesses as counted directions
-// need.
+// Ports match the table of the contract. Reads are limited to the directions that count.
 TEST_P(DiagonalCycles, PortsAndAccessesMatchTheContract) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);

@@ -167,8 +167,8 @@ TEST(EdgeMemory, WindowTracksItsRows) {
     window.read_beat(cycle++, shown.configuration, x);
     window.write_beat(cycle++, shown.configuration, x, newest + 2, {});
   }
-  // The corner of row y reads rows y and y - 1. Of line 39 both columns have come, of line 40 only
-  // the one before it.
+  // The corner of row y reads rows y and y - 1. Both columns of line 39 have come, but only the
+  // first column of line 40.
   for (const auto& [line, latest] :
        {std::pair{1, newest + 1}, {39, newest + 1}, {40, newest}, {41, newest}, {150, newest}}) {
     const auto ask = [&, line = line](int y) {

@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Both, PredictorAxes, ::testing::Values(Axis::kHorizonta
                            return param.param == Axis::kHorizontal ? "horizontal" : "vertical";
                          });
 
-TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
+TEST_P(PredictorAxes, MatchesTheContractExample) {
   // -3, [0, 3], 5, 8: one step of 3 to the left, steps of 2 and 3 to the right. The flat parts are
   // long, so no step follows. The run starts at column 23 on row 12.
   Parameters p = preset(Preset::kDeburrLine);

@@ -165,8 +165,8 @@ TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
 
 class DividerCapacity : public ::testing::TestWithParam<DividerTime> {};
 
-// While the lines are not taken, the divider holds as many as in free running, and the link two.
-// Then it stalls downstream. No line is lost, and the order is kept.
+// While the lines are not taken, the divider holds the same number as in free running, and the link
+// two. Then it stalls downstream. No line is lost, and the order is kept.
 TEST_P(DividerCapacity, CapacityMatchesThePipeline) {
   const auto [latency, interval] = GetParam();
   constexpr Cycle kOpens = 400;

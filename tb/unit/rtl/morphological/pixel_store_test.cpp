@@ -383,7 +383,7 @@ TEST(PixelStoreMemory, WriteWaitsForAnOutstandingEntry) {
 
 // Each kind of work that can be alone in a cycle: a response out of order, a line that is released
 // after such a response, a read that has waited for the link.
-TEST(PixelStoreMemory, OnlyLineCyclesAreBusy) {
+TEST(PixelStoreMemory, LineCyclesAreBusyOthersIdle) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
   bench.store_all();  // stored in 1 to 48
   bench.answer(60, 1, true);
@@ -408,7 +408,7 @@ TEST(PixelStoreMemory, OnlyLineCyclesAreBusy) {
   EXPECT_EQ(bench.store.idle_cycles(), 120u - 48u - 6u - 7u);
 }
 
-// Rows 4 and 5 wait for rows 0 and 1, of which nothing has been requested: idle.
+// Rows 4 and 5 wait for rows 0 and 1, which have not been requested yet: idle.
 TEST(PixelStoreMemory, IdleWhileReadsWaitForABuffer) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
   bench.store_all();

@@ -369,8 +369,8 @@ TEST_P(TextGuardEngine, GuardDelaysNoBeat) {
     }
 }
 
-// The source stops in the middle of a row: the beats that have come deliver as many as without the
-// TextGuard.
+// The source stops in the middle of a row: the beats that have come deliver the same output as
+// without the TextGuard.
 TEST_P(TextGuardEngine, GuardDelaysNoBeatOfAStoppedSource) {
   const Parameters p = of(GetParam());
   Parameters without = p;

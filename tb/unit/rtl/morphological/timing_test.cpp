@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Beats, ShortRows, ::testing::Values(1, 2, 4, 5, 16, 17,
 // Path of a descriptor, from the cycle that takes the slot in which its run is found.
 constexpr int kFound = 6;  // until a predictor takes it
 constexpr int kFinished =
-    5;  // and divider.latency: from there, if not extended, until it is finished
+    5;  // plus divider.latency: from there until it is finished, if not extended
 
 // A row shorter than that path waits for its descriptors. With a table, the line takes one stage
 // more at the input of the AreaUnit.
