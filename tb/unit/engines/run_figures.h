@@ -79,8 +79,8 @@ inline double sum_of(const std::vector<Json>& runs, const std::string& key) {
 // Compares a run of several frames with runs of each frame on its own, in order. Cycles of a frame
 // may differ by `cycles`.
 struct SeveralFrames {
-  std::set<std::string> of_the_last{}, largest{};  // figures of `work`; all other counts are sums
-  std::set<std::string> by_formula{};              // ratios, which the test computes itself
+  std::set<std::string> from_last{}, largest{};  // figures of `work`; all other counts are sums
+  std::set<std::string> by_formula{};            // ratios, which the test computes itself
 };
 inline void expect_sums(const Json& run, const std::vector<Json>& alone,
                         const SeveralFrames& figures, double cycles = 0) {
@@ -96,7 +96,7 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
   }
   for (const auto& [name, value] : run["work"].items()) {
     const std::string key = "/work/" + name;
-    if (figures.of_the_last.contains(name)) {
+    if (figures.from_last.contains(name)) {
       EXPECT_NEAR(value.get<double>(), number_at(alone.back(), key), cycles) << name;
     } else if (figures.largest.contains(name)) {
       double most = 0;

@@ -61,7 +61,9 @@ const std::vector<GeometricSetup>& setups() {
 }
 // The arbiter's turn carries over from frame to frame: cycles by which each frame with a copy may
 // differ.
-double cycles_of_turns(const GeometricSetup& setup) { return setup.geometric.frame_copy ? 2 : 0; }
+double arbitration_cycles(const GeometricSetup& setup) {
+  return setup.geometric.frame_copy ? 2 : 0;
+}
 
 struct Options : SimulationOptions {
   Options() {
@@ -71,11 +73,11 @@ struct Options : SimulationOptions {
 };
 
 // Figures, maps, and the data that the environment reports.
-Json run(const std::vector<Frame>& of, const GeometricSetup& setup,
+Json run(const std::vector<Frame>& sequence, const GeometricSetup& setup,
          const SimulationOptions& options = Options()) {
   return Json::parse(forked_text([&] {
     Simulation simulation(options);
-    GeometricEnvironment environment(simulation, of, setup);
+    GeometricEnvironment environment(simulation, sequence, setup);
     simulation.elaborate(environment);
     std::string error;
     try {
@@ -110,8 +112,8 @@ std::vector<Json> each_alone(const GeometricSetup& setup) {
 }
 
 const SeveralFrames kFigures = {
-    .of_the_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
-                    "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
+    .from_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
+                  "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
     .largest = {"memory_port_max_outstanding"},
     .by_formula = {"bytes_per_blended_pixel", "frame_bytes_per_blended_pixel", "columns_per_cycle",
                    "vertex_hits_percent", "depth_hits_percent", "weight_hits_percent",
@@ -159,7 +161,7 @@ TEST(GeometricFigures, ThreeFramesGiveSumsRatiosOrLastValues) {
   for (const GeometricSetup& setup : setups()) {
     const std::vector<Json> alone = each_alone(setup);
     const Json all = run(frames(), setup);
-    expect_sums(all, alone, kFigures, cycles_of_turns(setup));
+    expect_sums(all, alone, kFigures, arbitration_cycles(setup));
     expect_formulas(all, alone, setup.geometric.pipelined ? 13 : 2);
     EXPECT_EQ(all["latency"]["min"],
               std::min({number_at(alone[0], "/latency/min"), number_at(alone[1], "/latency/min"),
@@ -381,7 +383,7 @@ TEST(GeometricFigures, RepeatedFrameKeepsItsFigures) {
       EXPECT_NEAR(number_at(three, "/throughput/value") / number_at(one, "/throughput/value"), 1,
                   1e-3);
       EXPECT_NEAR(number_at(three, "/cycles"), 3 * number_at(one, "/cycles"),
-                  3 * cycles_of_turns(setup));
+                  3 * arbitration_cycles(setup));
     }
 }
 
@@ -429,11 +431,11 @@ TEST(GeometricFigures, ResetInFirstFrameChangesNoFigure) {
   }
 }
 
-std::uint64_t errors_of(const std::vector<Frame>& of, GeometricSetup setup, std::int64_t from,
+std::uint64_t errors_of(const std::vector<Frame>& sequence, GeometricSetup setup, std::int64_t from,
                         std::int64_t bytes) {
   setup.memory.error_address = from;
   setup.memory.error_bytes = bytes;
-  const Json r = run(of, setup);
+  const Json r = run(sequence, setup);
   EXPECT_EQ(number_at(r, "/checks/mismatches"), 0);
   const std::string error = r["error"];
   EXPECT_TRUE(error.empty() || error.starts_with("memory answered ")) << error;

@@ -183,7 +183,7 @@ TEST(KeptColours, LatencyOfAKeptBlockMatchesDatasheets) {
   // Block (1, 1) takes from the right and reads both lines; block (2, 1) needs only its own.
   b.touch(1, 1, 1u << 7, true, true);
   b.touch(2, 1, 1u << 5);
-  b.before_clock = [&b] {
+  b.before_cycle = [&b] {
     if (b.touched.pops() == 1 && !b.at["touched"].empty() &&
         b.clock.cycle() < b.at["touched"][0] + 100)
       b.touched.hold_pop(b.clock.cycle());

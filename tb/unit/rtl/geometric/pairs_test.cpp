@@ -77,12 +77,13 @@ TEST(PairFetch, LatencyMatchesDatasheetUnlessALineIsMissing) {
   // M + 6 cycles more than a hit.
   EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
   b.clock.run(10);
-  const std::string there = b.latency(b.ends, PairBench::number(9));
-  expect_notices_a_clock(PairFetch::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, there); });
+  const std::string hit_latency = b.latency(b.ends, PairBench::number(9));
+  expect_notices_a_clock(
+      PairFetch::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10)), "29");
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10, true)), "29");
-  EXPECT_EQ(b.latency(b.ends, PairBench::number(12)), there) << "each array has its own line";
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(12)), hit_latency) << "each array has its own line";
   EXPECT_EQ(b.unit.lookups.value(), 5u);
   EXPECT_EQ(b.unit.boundary_lookups.value(), 4u);
   EXPECT_EQ(b.unit.lines_read.value(), 3u);

@@ -34,7 +34,7 @@ constexpr std::array<int, 12> kNone = {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
 // Sets every value of one field at a time, at its position in the contract's table.
 TEST(FrameConfiguration, EachConfigurationBitSetsItsField) {
   Frame b({});
-  const auto as_it_is = [](int v) { return v; };
+  const auto unchanged = [](int v) { return v; };
   const auto choice = [](int v) { return v < 3 ? v : 0; };  // of three
   const auto bias = [](int v) { return std::clamp(v, 1, 24); };
   const auto depth = [](int v) { return std::min(v, 24); };
@@ -42,9 +42,10 @@ TEST(FrameConfiguration, EachConfigurationBitSetsItsField) {
     unsigned low, bits;
     int (*shown)(int);
   };
-  const Row rows[] = {{0, 2, choice},    {2, 2, choice},    {4, 2, choice},    {6, 2, choice},
-                      {8, 5, bias},      {13, 1, as_it_is}, {14, 1, as_it_is}, {15, 1, as_it_is},
-                      {16, 1, as_it_is}, {17, 1, as_it_is}, {18, 5, depth},    {23, 1, as_it_is}};
+  const Row rows[] = {{0, 2, choice},     {2, 2, choice},     {4, 2, choice},
+                      {6, 2, choice},     {8, 5, bias},       {13, 1, unchanged},
+                      {14, 1, unchanged}, {15, 1, unchanged}, {16, 1, unchanged},
+                      {17, 1, unchanged}, {18, 5, depth},     {23, 1, unchanged}};
   for (std::size_t field = 0; field < std::size(rows); ++field)
     for (std::uint32_t value = 0; value < 1u << rows[field].bits; ++value) {
       const std::uint32_t configuration = value << rows[field].low;

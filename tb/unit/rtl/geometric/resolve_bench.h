@@ -84,7 +84,7 @@ struct ResolveBench : Frame {
     resolve_from = clock.cycle();
     const std::uint64_t sent = arbiter.requests_out.link().pushes();
     while (!sequencer.idle()) {
-      if (before_clock) before_clock();
+      if (before_cycle) before_cycle();
       clock.run(1);
       const Cycle now = clock.cycle();
       const auto note = [&](const char* name, std::uint64_t count) {
@@ -111,7 +111,7 @@ struct ResolveBench : Frame {
   rtl::Link<rtl::geometric::BlockToken> blocks;
   Source<rtl::geometric::WeightToken> source;
   Cycle resolve_from = 0;
-  std::function<void()> before_resolve, before_clock;
+  std::function<void()> before_resolve, before_cycle;
   std::map<std::string, std::vector<Cycle>> at;  // cycles of the beats
   std::vector<spec::geometric::BlockRecord> resolved;
 };

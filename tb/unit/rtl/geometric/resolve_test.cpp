@@ -134,8 +134,8 @@ Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
 }
 TEST(Resolve, BlockIntervalMatchesThePage) {
   using spec::geometric::Lanes;
-  const auto of = [](Layout layout, std::uint16_t pixels, bool vertical,
-                     Lanes lanes = Lanes::kTwo) {
+  const auto interval_of = [](Layout layout, std::uint16_t pixels, bool vertical,
+                              Lanes lanes = Lanes::kTwo) {
     return in_child([&] {
       Parameters p;
       p.layout = layout;
@@ -145,18 +145,18 @@ TEST(Resolve, BlockIntervalMatchesThePage) {
     });
   };
   // Two pixels inside: one line, one write, one beat; the port takes two cycles.
-  EXPECT_EQ(of(Layout::kTiled, 0x0060, false), "2");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x0060, false), "2");
   // The upper row takes from the block above: two lines, two beats, one write.
-  EXPECT_EQ(of(Layout::kTiled, 0x000F, false), "3");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x000F, false), "3");
   // All pixels: eight beats.
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false), "8");
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kOne), "16");
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kFour), "4");
-  EXPECT_EQ(of(Layout::kTiled, 0x1FFF, false, Lanes::kFour), "4");
-  EXPECT_EQ(of(Layout::kTiled, 0x0FFF, false, Lanes::kFour), "3");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false), "8");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false, Lanes::kOne), "16");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x1FFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x0FFF, false, Lanes::kFour), "3");
   // Raster: four rows and the one above, four writes.
-  EXPECT_EQ(of(Layout::kRaster, 0x1111, false), "9");
-  EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
+  EXPECT_EQ(interval_of(Layout::kRaster, 0x1111, false), "9");
+  EXPECT_EQ(interval_of(Layout::kRaster, 0x2222, true), "8");
 }
 
 // The Resolver's busy cycles per block do not depend on the memory latency. All other cycles wait

@@ -83,9 +83,10 @@ TEST(DepthScreen, LatencyMatchesDatasheetUnlessALineIsMissing) {
   ScreenBench b;
   EXPECT_EQ(b.latency(b.ends, ScreenBench::inside(1, 1)), "31");
   b.clock.run(10);
-  const std::string there = b.latency(b.ends, ScreenBench::inside(1, 1));
-  expect_notices_a_clock(DepthScreen::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, there); });
+  const std::string hit_latency = b.latency(b.ends, ScreenBench::inside(1, 1));
+  expect_notices_a_clock(
+      DepthScreen::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   // The second miss comes one cycle later.
   EXPECT_EQ(b.latency(b.ends, ScreenBench::across(3, 1)), "32");
   EXPECT_EQ(b.unit.lookups.value(), 4u);

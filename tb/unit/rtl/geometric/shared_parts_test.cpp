@@ -145,7 +145,7 @@ struct Latencies {
   //   W20    a group is written in cycle 20     = /  it is a line or not
   //   E      the end of the frame               G g  the last group of a line, or another group
   //   P n    some of a group pass, or none      c x  it has candidates, or none
-  void happen(const std::string& events) {
+  void apply_events(const std::string& events) {
     std::istringstream words(events);
     for (std::string word; words >> word;) {
       const std::size_t times = word.find('*');
@@ -213,7 +213,7 @@ TEST(EdgeLatency, LatencyRunsFromReaderToLastGroup) {
            {"and nothing waits for it", "+= GcP W9 E L10 += GcP W17 W19 E", {7}},
            {"two frames, and one without a line", "L1 += GcP W4 E L11 += GcP W19 E E", {3, 8}}}) {
     Latencies l;
-    l.happen(row.events);
+    l.apply_events(row.events);
     EXPECT_EQ(l.all(), row.latencies) << row.what;
   }
 }
@@ -221,9 +221,9 @@ TEST(EdgeLatency, ResetDropsEdgesInFlight) {
   for (const char* const before :
        {"L1", "L1 +", "L1 +=", "L1 += g", "L1 += gc", "L1 += gcP", "L1 += gcP W4"}) {
     Latencies l;
-    l.happen(before);
+    l.apply_events(before);
     l.edges.reset();
-    l.happen("L10 += GcP W15 E");
+    l.apply_events("L10 += GcP W15 E");
     EXPECT_THAT(l.all(), ElementsAre(5)) << before;
   }
   // An edge classified as a boundary whose vertex pair has not come yet.
@@ -234,7 +234,7 @@ TEST(EdgeLatency, ResetDropsEdgesInFlight) {
   l.edges.leave(10, 1);
   l.edges.decided(true, true);
   l.edges.paired(true);
-  l.happen("= GcP W15 E");
+  l.apply_events("= GcP W15 E");
   EXPECT_THAT(l.all(), ElementsAre(5));
 }
 

@@ -41,7 +41,7 @@ struct Port {
   void step() {
     const std::uint64_t sent_before = sends().pushes(), got_before = gets().pops();
     const Cycle now = b.clock.cycle();
-    if (before_clock) before_clock(now);
+    if (before_cycle) before_cycle(now);
     b.clock.run(1);
     if (sends().pushes() != sent_before) sent.push_back(now);
     if (gets().pops() != got_before) got.push_back(now);
@@ -49,7 +49,7 @@ struct Port {
   rtl::Link<rtl::MemoryRequest>& sends() { return b.unit.memory.requests_out.link(); }
   rtl::Link<rtl::MemoryResponse>& gets() { return b.unit.memory.responses_in.link(); }
   CombinerBench& b;
-  std::function<void(Cycle)> before_clock;
+  std::function<void(Cycle)> before_cycle;
   std::vector<Cycle> sent, got;
   Cycle drawn = 0;
 };
@@ -131,7 +131,7 @@ TEST(WriteBuffer, FlushWaitsForTheLink) {
   b.in.push(from, CombinerBench::end());
   const std::uint64_t waited = stalls(b.unit, "downstream");
   Port port(b);
-  port.before_clock = [&](Cycle now) {
+  port.before_cycle = [&](Cycle now) {
     if (now - from >= 8 && now - from < 11) port.sends().hold_push(now);
   };
   port.run();

@@ -95,7 +95,7 @@ struct Area {
 };
 
 // The run of three pixels in the contract's table, with its first part on the first side.
-LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
+LineToken run_of_three(Axis axis, int line, int start, std::uint32_t slot) {
   LineToken token{};
   token.line.run = {
       axis, RunPart::kWhole, static_cast<std::uint16_t>(line), static_cast<std::uint16_t>(start), 3,
@@ -148,7 +148,7 @@ TEST_P(AreaLatency, LatencyMatchesDatasheet) {
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
   // One descriptor per row.
   for (int y = 0; y < 7; ++y)
-    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, y, 4, bench.slot_of(y, 0)));
+    bench.drivers_h[0]->add(0, run_of_three(Axis::kHorizontal, y, 4, bench.slot_of(y, 0)));
   bench.clock.run(last + 20);
   ASSERT_EQ(bench.weights_gate.taken.size(), last - first);
   std::size_t any = 0;
@@ -185,9 +185,9 @@ TEST_P(AreaLanes, DescriptorFinishesOneCycleAfterItsPop) {
     const auto at = static_cast<std::size_t>(lane);
     // One line comes long before its slot; the other comes after it but, as the interlock requires,
     // not later than the next row.
-    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, 2 * lane, even));
-    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, even));
-    bench.drivers_h[at]->add(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
+    bench.drivers_h[at]->add(2, run_of_three(Axis::kHorizontal, 0, 2 * lane, even));
+    bench.drivers_v[at]->add(2, run_of_three(Axis::kVertical, lane + 1, 0, even));
+    bench.drivers_h[at]->add(odd + 3, run_of_three(Axis::kHorizontal, 1, 2 * lane, odd));
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
@@ -221,7 +221,7 @@ TEST(AreaUnitBlock, DownstreamStallHoldsSlotsOnly) {
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag);
   // A stall of the weights output does not delay a descriptor.
-  bench.drivers_h[0]->add(150, three(Axis::kHorizontal, 0, 0, 1));
+  bench.drivers_h[0]->add(150, run_of_three(Axis::kHorizontal, 0, 0, 1));
   bench.clock.run(260);
   // The link holds two, sent in first + 9 and first + 10; the third goes in 201. In between, two
   // cycles are busy with the descriptor.
@@ -238,7 +238,8 @@ TEST(AreaUnitBlock, DownstreamStallHoldsSlotsOnly) {
 TEST(AreaUnitBlock, LinesWaitForTheFinishedOutput) {
   Area bench(small(), 5, 3, 0, 100);
   bench.send_slots(0);
-  for (int i = 0; i < 4; ++i) bench.drivers_v[0]->add(40, three(Axis::kVertical, i + 1, 0, 3));
+  for (int i = 0; i < 4; ++i)
+    bench.drivers_v[0]->add(40, run_of_three(Axis::kVertical, i + 1, 0, 3));
   bench.clock.run(80);
   // The last slot has left; waiting does not count as work.
   const std::uint64_t busy = bench.unit.busy_cycles();
@@ -259,7 +260,7 @@ TEST_P(AreaLanes, NarrowerFrameIgnoresOldColumns) {
   Area bench(small(GetParam()), kWide, 9);
   bench.send_slots(0);
   for (int x = kNarrow; x < kWide; ++x)
-    bench.drivers_v[0]->add(0, three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
+    bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
   // Both rows that remain in memory have weights there.
   bench.clock.run(bench.slots_before(kLag + 1) + 12);
   EXPECT_GT(bench.unit.vertical_edges.value(), 7u);
@@ -285,11 +286,11 @@ TEST_P(AreaLanes, NarrowerFrameIgnoresOldColumns) {
 // The product of the line's ends is known, but not yet the ends.
 TEST(TableEnds, ResetDropsLineInMeasurement) {
   // Counts of stored and of finished lines, for a line that is popped in cycle 41.
-  const auto kept = [](bool reset, Cycle at) {
+  const auto stored_and_finished = [](bool reset, Cycle at) {
     return forked_text([=] {
       Area bench(with_area(AreaSource::kTableFull), 5, 3);
       bench.send_slots(0);
-      bench.drivers_v[0]->add(40, three(Axis::kVertical, 1, 0, 3));
+      bench.drivers_v[0]->add(40, run_of_three(Axis::kVertical, 1, 0, 3));
       bench.clock.run(at);
       bench.clock.set_reset_n(!reset);
       bench.clock.run(1);
@@ -299,8 +300,9 @@ TEST(TableEnds, ResetDropsLineInMeasurement) {
              std::to_string(bench.finished_gate.taken.size()) + " finished";
     });
   };
-  EXPECT_EQ(kept(false, 42), "1 stored, 1 finished");
-  for (const Cycle at : {42, 43}) EXPECT_EQ(kept(true, at), "0 stored, 0 finished") << at;
+  EXPECT_EQ(stored_and_finished(false, 42), "1 stored, 1 finished");
+  for (const Cycle at : {42, 43})
+    EXPECT_EQ(stored_and_finished(true, at), "0 stored, 0 finished") << at;
 }
 
 // The ends of a line by the formulas of docs/reference/morphological/smaa.md: S13, ties round up,
@@ -360,7 +362,8 @@ TEST_P(AreaLanes, DescriptorDoesNotRepeatAfter4096Rows) {
     EXPECT_EQ(forked_text([&] {
                 Area bench(p, 11, 4096 + 8);
                 bench.send_slots(0);
-                bench.drivers_v[0]->add(0, three(Axis::kVertical, 8, 2, bench.slot_of(2, 8)));
+                bench.drivers_v[0]->add(0,
+                                        run_of_three(Axis::kVertical, 8, 2, bench.slot_of(2, 8)));
                 bench.clock.run(bench.slots_before(bench.height + kLag) + 20);
                 return std::to_string(bench.unit.vertical_edges.value());
               }),
@@ -373,7 +376,7 @@ TEST_P(AreaLanes, NewFrameHasNoOldDescriptors) {
   Area bench(with_area(AreaSource::kTableFull, GetParam()), kWidth, 9);
   bench.send_slots(0);
   for (int x = 0; x < kWidth; ++x)
-    bench.drivers_v[0]->add(0, three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
+    bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
   bench.clock.run(bench.slots_before(9 + kLag) + 40);
   EXPECT_EQ(bench.unit.descriptors.value(), static_cast<std::uint64_t>(kWidth));
   EXPECT_GT(bench.unit.vertical_edges.value(), 0u);
@@ -389,20 +392,20 @@ TEST_P(AreaLanes, NewFrameHasNoOldDescriptors) {
 // table, and one for its store.
 TEST_P(AreaLanes, EveryCycleOfALineIsBusy) {
   for (const bool table : {false, true})
-    EXPECT_EQ(forked_text([&] {
-                Area bench(
-                    table ? with_area(AreaSource::kTableFull, GetParam()) : small(GetParam()), 11,
-                    7);
-                bench.send_slots(0);
-                bench.clock.run(bench.slots_before(bench.height + kLag) + 40);
-                const std::uint64_t before = bench.unit.busy_cycles();
-                bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 4, bench.slots_before(6)));
-                bench.clock.run(20);
-                bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 0, bench.slots_before(6)));
-                bench.clock.run(20);
-                return std::to_string(bench.unit.busy_cycles() - before);
-              }),
-              table ? "6" : "4");
+    EXPECT_EQ(
+        forked_text([&] {
+          Area bench(table ? with_area(AreaSource::kTableFull, GetParam()) : small(GetParam()), 11,
+                     7);
+          bench.send_slots(0);
+          bench.clock.run(bench.slots_before(bench.height + kLag) + 40);
+          const std::uint64_t before = bench.unit.busy_cycles();
+          bench.drivers_h[0]->add(0, run_of_three(Axis::kHorizontal, 0, 4, bench.slots_before(6)));
+          bench.clock.run(20);
+          bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, 4, 0, bench.slots_before(6)));
+          bench.clock.run(20);
+          return std::to_string(bench.unit.busy_cycles() - before);
+        }),
+        table ? "6" : "4");
 }
 
 // One cycle more than without a table. Two banks per lane and axis: no line waits.
@@ -412,8 +415,8 @@ TEST_P(AreaLanes, TableFinishesDescriptorOneCycleLater) {
   const std::uint32_t slot = bench.slots_before(6) + 1;
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
-    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, lane, slot));
-    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, slot));
+    bench.drivers_h[at]->add(2, run_of_three(Axis::kHorizontal, 0, lane, slot));
+    bench.drivers_v[at]->add(2, run_of_three(Axis::kVertical, lane + 1, 0, slot));
   }
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
@@ -441,8 +444,10 @@ TEST_P(DiagonalsOfABeat, DiagonalsAreAwaitedAndReplaceWeights) {
   const std::uint32_t evaluated = bench.slots_before(kLag - 1), first = bench.slots_before(kLag),
                       last = bench.slots_before(kLag + 7);
   // Top edges of row 2, columns 3 to 5, and left edges of column 4.
-  bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
-  bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
+  bench.drivers_h[0]->add(
+      0, run_of_three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
+  bench.drivers_v[0]->add(0,
+                          run_of_three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
   for (std::uint32_t i = 0; i < 7u * 11u; ++i) {
     DiagonalWeightsToken token{};
     if (i == 2 * 11 + 4) {
@@ -490,7 +495,8 @@ class AreaTables : public ::testing::TestWithParam<AreaSource> {
   static void expect_used_early_in(unsigned stage, const char* memory) {
     Area bench(with_area(GetParam()), 5, 3);
     bench.send_slots(0);
-    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
+    bench.drivers_h[0]->add(0,
+                            run_of_three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
     // Popped one cycle after it was sent.
     bench.clock.run(bench.slots_before(kLag - 1) + stage + 1);
     expect_used_early(bench.unit, bench.clock, memory);
@@ -506,7 +512,7 @@ INSTANTIATE_TEST_SUITE_P(Each, AreaTables,
 TEST(AreaUnitMemory, RejectsColumnsBeyondTheLongestRow) {
   Area bench(small(), 5, 3);
   bench.send_slots(0);
-  bench.drivers_v[0]->add(20, three(Axis::kVertical, 4000, 0, 1));
+  bench.drivers_v[0]->add(20, run_of_three(Axis::kVertical, 4000, 0, 1));
   EXPECT_THAT([&] { bench.clock.run(40); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
 }
@@ -534,7 +540,7 @@ TEST(AreaUnitMemory, EachBankTakesOneLinePerCycle) {
   const std::uint32_t slot = bench.slots_before(3);
   for (int lane = 0; lane < 4; ++lane)
     bench.drivers_v[static_cast<std::size_t>(lane)]->add(
-        slot + 8, three(Axis::kVertical, 4 * lane + 3, 0, slot));
+        slot + 8, run_of_three(Axis::kVertical, 4 * lane + 3, 0, slot));
   bench.clock.run(slot + 30);
   ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {

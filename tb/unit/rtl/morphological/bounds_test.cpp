@@ -14,9 +14,9 @@ namespace {
 using spec::morphological::Preset;
 
 // Beats that a row needs for this number of adjacent descriptors of N steps at its end, if one
-// comes every second cycle (`one_a_clock`: every cycle).
-int least_beats(const Parameters& p, int descriptors, bool one_a_clock) {
-  const int apart = one_a_clock ? 1 : 2, trials = p.trial_cycles * p.steps;
+// comes every second cycle (`one_per_cycle`: every cycle).
+int least_beats(const Parameters& p, int descriptors, bool one_per_cycle) {
+  const int apart = one_per_cycle ? 1 : 2, trials = p.trial_cycles * p.steps;
   const int held =
       p.steps == 0 ? 1 : trials + std::max(p.trial_cycles, p.trial_cycles == 2 ? 4 : 3);
   // q: cycles per descriptor, times the predictors. way: latency of the last descriptor.

@@ -57,7 +57,7 @@ struct Predicting {
     return descriptor(line, start, length, 1 + 4 * 2);
   }
   // An L, for whose crossing only the class is searched.
-  RunToken l() {
+  RunToken l_shape() {
     stair(30, 20, 5, 20, {5}, 29);
     return descriptor(30, 20, 5, 1);
   }
@@ -284,7 +284,7 @@ TEST(EndpointPredictorBlock, ResetRestoresThePredictorOrder) {
 // takes one descriptor every four cycles, the second predictor two cycles after the first.
 TEST_P(PredictorAxes, ClassSearchCyclesMatchTheContract) {
   Predicting bench(deburr(), GetParam());
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 9; ++i) bench.source.add(0, token);
   bench.clock.run(60);
   EXPECT_THAT(cycles_of(bench.sink), ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
@@ -294,7 +294,7 @@ TEST_P(PredictorAxes, ClassSearchCyclesMatchTheContract) {
 TEST_P(PredictorAxes, ClassLatencyMatchesDatasheet) {
   const Parameters p = deburr();
   Predicting bench(p, GetParam());
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   Cycle least = 1000;
   for (int phase = 0; phase < 2 * p.trial_cycles; ++phase) {
     bench.clock.run(29);
@@ -314,7 +314,7 @@ TEST_P(TrialCycles, ClassIntervalMatchesDatasheet) {
   p.predictor_units = 1;
   p.trial_cycles = GetParam();
   Predicting bench(p);
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 4; ++i) bench.source.add(0, token);
   bench.clock.run(80);
   ASSERT_EQ(bench.sink.taken.size(), 4u);
@@ -330,7 +330,7 @@ TEST(EndpointPredictorBlock, ClassesTakeTwoCyclesWithTwoPorts) {
   p.predictor_units = 2;
   p.trial_cycles = 2;
   Predicting bench(p);
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 8; ++i) bench.source.add(0, token);
   bench.clock.run(80);
   ASSERT_EQ(bench.sink.taken.size(), 8u);

@@ -65,7 +65,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
   // been written.
   Trail run(
       const std::function<void(PixelBeat&)>& change,
-      const std::function<void()>& each_clock = [] {},
+      const std::function<void()>& each_cycle = [] {},
       const std::function<void()>& written = [] {}) {
     reset_by(bench.clock, 40);
     const Cycle begin = bench.clock.cycle();
@@ -80,7 +80,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     written();
     bench.bench->run(
         [&] {
-          each_clock();
+          each_cycle();
           return bench.sink.received() == beats.size() && bench.engine.idle();
         },
         100'000);
@@ -159,10 +159,10 @@ TEST_P(IgnoredBits, RegisterNoiseChangesNothing) {
     };
     // CONTROL is also written while a frame is inside. If all registers were, WRITTEN_WHILE_BUSY
     // would hide that no other was written.
-    const auto each_clock = [&] {
+    const auto each_cycle = [&] {
       noisy(*spec::register_named(spec::morphological::kRegisters, "CONTROL"));
     };
-    EXPECT_EQ(difference(fresh, run([](PixelBeat&) {}, each_clock, written)), "");
+    EXPECT_EQ(difference(fresh, run([](PixelBeat&) {}, each_cycle, written)), "");
   }
   EXPECT_GT(ignored, 100u);
 }

@@ -29,10 +29,10 @@ TEST(ParameterStoreBlock, LatchesConfigurationWithTheFrame) {
   EXPECT_TRUE(on.frame(8, 8).trim);
   on.bus.write(reg::kConfiguration, reset_value & ~kTrimBit);
   EXPECT_EQ(on.bus.read(reg::kConfiguration), reset_value & ~kTrimBit);
-  EXPECT_TRUE(on.units_see().trim) << "until the next frame begins";
+  EXPECT_TRUE(on.seen_by_units().trim) << "until the next frame begins";
   ASSERT_TRUE(on.latch());
-  EXPECT_FALSE(on.units_see().trim);
-  EXPECT_TRUE(on.units_see().safe);
+  EXPECT_FALSE(on.seen_by_units().trim);
+  EXPECT_TRUE(on.seen_by_units().safe);
   on.bus.write(reg::kConfiguration, ~0u);
   EXPECT_EQ(on.bus.read(reg::kConfiguration), 0x1FFFFFFFu) << "no bits beyond";
   on.control.reset();
@@ -41,13 +41,13 @@ TEST(ParameterStoreBlock, LatchesConfigurationWithTheFrame) {
 
 TEST(ParameterStoreBlock, AcceptsFramesWhileEnabled) {
   WiredRegisters registers(small());
-  EXPECT_TRUE(registers.lets_frames_in());
+  EXPECT_TRUE(registers.accepts_frames());
   registers.bus.write(reg::kControl, 0);
-  EXPECT_FALSE(registers.lets_frames_in());
-  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameConfiguration{})
+  EXPECT_FALSE(registers.accepts_frames());
+  EXPECT_EQ(registers.seen_by_units(), rtl::morphological::FrameConfiguration{})
       << "nothing is latched";
   registers.bus.write(reg::kControl, reg::kControlEnable);
-  EXPECT_TRUE(registers.lets_frames_in());
+  EXPECT_TRUE(registers.accepts_frames());
 }
 
 TEST(ParameterStoreBlock, EachPulseSetsItsStatusBit) {
@@ -96,7 +96,7 @@ TEST(ParameterStoreBlock, DiagonalStepsAreClampedToTheSearchRange) {
   WiredRegisters store(p);
   store.bus.write(reg::kSmaa, 4u | 31u << 8);
   store.frame(8, 8);
-  EXPECT_EQ(store.units_see().diagonal_steps, 4);
+  EXPECT_EQ(store.seen_by_units().diagonal_steps, 4);
 }
 
 TEST(ParameterStoreBlock, StepsAreClampedToTheWindow) {
@@ -106,7 +106,7 @@ TEST(ParameterStoreBlock, StepsAreClampedToTheWindow) {
     WiredRegisters store(p);
     store.bus.write(reg::kConfiguration, 1u << 7 | 31u << 9);
     store.frame(8, 8);
-    EXPECT_EQ(store.units_see().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
+    EXPECT_EQ(store.seen_by_units().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
   }
 }
 
@@ -147,27 +147,27 @@ TEST(FrameConfiguration, EachConfigurationBitSetsItsField) {
   p.window_rows = 42;
   p.diagonal_steps = 8;
   p.contiguous = true;
-  const auto as_it_is = [](int v) { return v; };
+  const auto unchanged = [](int v) { return v; };
   struct Field {
     const char* name;
     int low, bits;
     int (*shown)(int);
   };
-  for (const Field& field : {Field{"source", 0, 2, as_it_is},
-                             {"dynamic", 2, 1, as_it_is},
-                             {"dynamic_luma", 3, 2, as_it_is},
-                             {"local_contrast", 5, 2, as_it_is},
+  for (const Field& field : {Field{"source", 0, 2, unchanged},
+                             {"dynamic", 2, 1, unchanged},
+                             {"dynamic_luma", 3, 2, unchanged},
+                             {"local_contrast", 5, 2, unchanged},
                              {"predictor", 7, 2, [](int v) { return v % 3; }},
                              {"steps", 9, 5, [](int) { return 0; }},  // without a predictor
-                             {"contiguous", 14, 1, as_it_is},
-                             {"safe", 15, 1, as_it_is},
-                             {"linear_light", 16, 1, as_it_is},
-                             {"trim", 17, 1, as_it_is},
-                             {"crossings", 18, 1, as_it_is},
-                             {"table", 19, 1, as_it_is},
+                             {"contiguous", 14, 1, unchanged},
+                             {"safe", 15, 1, unchanged},
+                             {"linear_light", 16, 1, unchanged},
+                             {"trim", 17, 1, unchanged},
+                             {"crossings", 18, 1, unchanged},
+                             {"table", 19, 1, unchanged},
                              {"diagonal_steps", 20, 1, [](int v) { return 5 * v; }},
-                             {"corners", 21, 1, as_it_is},
-                             {"strongest", 22, 1, as_it_is},
+                             {"corners", 21, 1, unchanged},
+                             {"strongest", 22, 1, unchanged},
                              {"learned", 23, 1, [](int) { return 0; }},  // not built
                              {"bypass", 24, 3, [](int v) { return v < 5 ? v : 0; }}})
     for (int value = 0; value < 1 << field.bits; ++value) {
@@ -282,10 +282,10 @@ TEST(FrameConfiguration, RejectsSizesBeyondTheLimits) {
   const auto takes = [&](std::uint32_t width, std::uint32_t height) {
     r.bus.write(reg::kSize, width | height << 16);
     r.bus.write(reg::kStatus, ~0u);
-    const rtl::morphological::FrameConfiguration before = r.units_see();
+    const rtl::morphological::FrameConfiguration before = r.seen_by_units();
     const bool taken = r.latch();
     EXPECT_EQ((r.bus.read(reg::kStatus) & reg::kStatusFraming) == 0, taken);
-    EXPECT_EQ(r.units_see().width, taken ? width : before.width);
+    EXPECT_EQ(r.seen_by_units().width, taken ? width : before.width);
     return taken;
   };
   EXPECT_TRUE(takes(1, 1));

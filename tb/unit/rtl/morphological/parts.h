@@ -63,7 +63,7 @@ struct WiredRegisters : RegisterFile {
     sequencer.framing_out(framing);
     control.on_busy([&] { return !sequencer.idle(); });
   }
-  bool lets_frames_in() {
+  bool accepts_frames() {
     first_beat.raise(++now_);
     return enabled.read(now_);
   }
@@ -75,11 +75,11 @@ struct WiredRegisters : RegisterFile {
   const rtl::morphological::FrameConfiguration& frame(int width, int height) {
     software.set_size(width, height);
     EXPECT_TRUE(latch());
-    EXPECT_EQ(latched.read(now_).configuration, units_see());
-    return units_see();
+    EXPECT_EQ(latched.read(now_).configuration, seen_by_units());
+    return seen_by_units();
   }
   // The configuration in the cycle after the last call.
-  const rtl::morphological::FrameConfiguration& units_see() const {
+  const rtl::morphological::FrameConfiguration& seen_by_units() const {
     return configuration.read(now_ + 1);
   }
 

@@ -169,9 +169,9 @@ struct EngineBench {
     wanted += static_cast<std::uint64_t>(beats_a_row(frame, engine.parameters()) * frame.height);
   }
   // Runs until everything that was sent has come out.
-  void finish(const std::function<void()>& each_clock = {}, Cycle limit = 5'000'000) {
+  void finish(const std::function<void()>& each_cycle = {}, Cycle limit = 5'000'000) {
     const auto done = [&] {
-      if (each_clock) each_clock();
+      if (each_cycle) each_cycle();
       return sink.received() == wanted && engine.idle();
     };
     bench->run(done, limit);

@@ -295,7 +295,7 @@ void PrintTo(const Build& b, std::ostream* out) {
   *out << spec::morphological::kPresetNames[static_cast<std::size_t>(b.preset)] << " R "
        << b.search_rows << ' ' << b.settings;
 }
-Parameters of(const Build& b) {
+Parameters parameters_of(const Build& b) {
   Parameters p = preset(b.preset, b.search_rows, 20);
   p.steps = std::min(p.steps, 2);
   p.diagonal_steps = std::min(p.diagonal_steps, 4);
@@ -334,7 +334,7 @@ std::string text_of(const std::vector<Cycle>& cycles) {
 // Every beat is taken and delivered in the same cycle as in a build without the TextGuard, with
 // stalls on either side.
 TEST_P(TextGuardEngine, GuardDelaysNoBeat) {
-  const Parameters p = of(GetParam());
+  const Parameters p = parameters_of(GetParam());
   Parameters without = p;
   without.text_guard = false;
   for (const std::uint32_t source : {0u, 300u, 900u})
@@ -372,7 +372,7 @@ TEST_P(TextGuardEngine, GuardDelaysNoBeat) {
 // The source stops in the middle of a row: the beats that have come deliver the same output as
 // without the TextGuard.
 TEST_P(TextGuardEngine, GuardDelaysNoBeatOfAStoppedSource) {
-  const Parameters p = of(GetParam());
+  const Parameters p = parameters_of(GetParam());
   Parameters without = p;
   without.text_guard = false;
   const Frame frame = page(32, 60);
@@ -400,7 +400,7 @@ TEST_P(TextGuardEngine, GuardDelaysNoBeatOfAStoppedSource) {
 
 // With stalls at each link, and noise in words that were not written.
 TEST_P(TextGuardEngine, PixelsMatchGolden) {
-  const Parameters p = of(GetParam());
+  const Parameters p = parameters_of(GetParam());
   const Frame frame = page(61, 30);
   const auto hash_with = [&](const EngineBench::Options& options) {
     return forked<std::uint64_t>([&] {
