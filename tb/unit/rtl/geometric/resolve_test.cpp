@@ -47,8 +47,9 @@ TEST(Resolve, WordTakesOneCyclePerBlock) {
   EXPECT_EQ(b.resolved[4].y, 15);
 }
 
-// Software overwrites blocks in memory during a frame. A pixel must still take at most one half
-// from each neighbour, only from within the frame, and no address outside the regions is accessed.
+// Another initiator overwrites blocks in memory during a frame. A pixel must still take at most one
+// half from each neighbour, only from within the frame, and no address outside the regions is
+// accessed.
 TEST(Resolve, CorruptedWeightsStayWithinLimits) {
   for (const Layout layout : {Layout::kTiled, Layout::kRaster})
     for (const auto& [width, height, last_first] : {std::tuple{66, 6, false},

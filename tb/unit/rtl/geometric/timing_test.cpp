@@ -748,7 +748,7 @@ TEST(WeightCombiner, OneGroupPerCycleForAnyBlock) {
   b.source.add(CombinerBench::end());
   const Cycle cycles = b.until_drawn();
   EXPECT_EQ(b.unit.misses.value(), 501u);
-  // A row of 16 blocks of the cache's 128 is used.
+  // One row of the frame can use only 16 of the cache's 128 blocks.
   EXPECT_GT(b.unit.blocks_written.value(), 400u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
   // The response to the last write comes later.

@@ -116,7 +116,7 @@ TEST(CornerWeights, WeightsStayWithoutCornerRounding) {
   EXPECT_EQ(weights.second, 9);
 }
 
-// An edge requested in one cycle is returned in the next; one beat of weights can be requested per
+// The unit takes the edge in the cycle after the request; one beat of weights can be requested per
 // cycle.
 TEST(LearnedWeightsBlock, LatencyAndIntervalMatchDatasheet) {
   LearnedWeights unit("learned", 1);

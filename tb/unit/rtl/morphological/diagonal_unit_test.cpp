@@ -214,9 +214,8 @@ INSTANTIATE_TEST_SUITE_P(Each, DiagonalBuilds,
                                            Build{16, 1}, Build{16, 2}));
 
 // With border = clamp, pixels beyond the frame have the edges of the nearest pixel: the expected
-// words are those of a frame that contains these pixels. Widths start at one column, so rows are
-// also shorter than the beats that the next row needs while pixels of this row are still in the
-// unit.
+// words are those of a frame that contains these pixels. In the narrowest frames the next row
+// starts while pixels of this row are still in the unit.
 TEST_P(DiagonalBuilds, ClampRepeatsBorderEdges) {
   Parameters p = built_as(GetParam());
   p.border = spec::morphological::Border::kClamp;

@@ -168,7 +168,7 @@ TEST(EdgeMemory, WindowTracksItsRows) {
     window.write_beat(cycle++, shown.configuration, x, newest + 2, {});
   }
   // The corner of row y reads rows y and y - 1. Both columns of line 39 have come, but only the
-  // first column of line 40.
+  // left column of line 40.
   for (const auto& [line, latest] :
        {std::pair{1, newest + 1}, {39, newest + 1}, {40, newest}, {41, newest}, {150, newest}}) {
     const auto ask = [&, line = line](int y) {

@@ -157,8 +157,8 @@ TEST_P(IgnoredBits, RegisterNoiseChangesNothing) {
         if (info.writable() != 0) ignored += noisy(info);
       bench.bus.write(reg::kWeightsAddress, 0);  // writing an entry has incremented the address
     };
-    // CONTROL is also written while a frame is inside. If all registers were, WRITTEN_WHILE_BUSY
-    // would hide that no other was written.
+    // CONTROL is also written while a frame is inside. These writes are not counted: their number
+    // would hide that no other register was written.
     const auto each_cycle = [&] {
       noisy(*spec::register_named(spec::morphological::kRegisters, "CONTROL"));
     };
