@@ -185,7 +185,7 @@ TEST(MorphologicalFigures, ThreeFramesGiveSumsRatiosOrLastValues) {
     EXPECT_EQ(number_at(all, "/memory/lines_filled"), lines);
     EXPECT_EQ(number_at(all, "/checks/traffic_comparisons"), 2 * lines);
     EXPECT_EQ(number_at(all, "/memory/bytes_read"), 64 * lines);
-    // Every record of each frame is compared.
+    // Every run and line of each frame is compared.
     EXPECT_EQ(
         number_at(all, "/scoreboards/runs/comparisons"),
         work(all, "run_extractor_horizontal_runs") + work(all, "run_extractor_vertical_runs"));

@@ -468,7 +468,7 @@ Scene lines_among_others() {
   add(100, 2000);                                         // no neighbour above
   add(512 + 100, 2000);
   scene.edges.push_back({2, 2, 0, 0, flag::kBoundary});  // degenerate
-  add(512 + 100, 10);                                    // behind
+  add(512 + 100, 10);                                    // behind the surface
   add(20 * 256, 2000);                                   // empty
   add(3 * 256 + 180, 2000);
   return scene;
