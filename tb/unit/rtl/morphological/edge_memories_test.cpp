@@ -11,6 +11,7 @@
 
 #include "rtl_model/morphological/runs/port_schedule.h"
 #include "tb/base/random.h"
+#include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl::edge_memories_test {
