@@ -275,7 +275,7 @@ Payload::Bit Payload::bit(const std::string& text) const {
   }
   std::string known;
   for (const Field& one : fields_) known += fmt::format("\n  {} ({} bits)", one.name, one.bits);
-  throw spec::ConfigError(fmt::format("no field is named {}; there are:{}", text, known));
+  throw spec::ConfigError(fmt::format("unknown field {}; known:{}", text, known));
 }
 
 void Payload::flip(std::byte* payload, Bit bit) const {

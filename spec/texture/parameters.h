@@ -98,8 +98,9 @@ struct Parameters : Configuration, Build {};
 
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
-  v.choice("preset", p.preset, kPresetNames,
-           "Named configuration: sets the rules below. A rule that is given overrides it.");
+  v.choice(
+      "preset", p.preset, kPresetNames,
+      "Named configuration: sets the parameters below. A parameter that is given overrides it.");
   v.choice("axes", p.axes, kAxesNames,
            "Candidate directions of the major axis: the pixel's row and column (the paper), or "
            "four or eight directions, every 45 or 22.5 degrees.");

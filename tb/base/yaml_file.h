@@ -20,7 +20,7 @@ class YamlFile {
  public:
   static constexpr std::size_t kMaxBytes = 64u << 20;
 
-  // Limit of nodes after alias expansion: a few lines of nested aliases can stand for an
+  // Limit of nodes after alias expansion: a few lines of nested aliases can expand to an
   // unmanageable number.
   static constexpr std::uint64_t kMostAliasedNodes = 1'000'000;
 

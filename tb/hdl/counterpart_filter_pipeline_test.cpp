@@ -155,18 +155,18 @@ TEST(CounterpartFilterPipeline, MatchesUnderHeavyStalls) {
 
 // ---- injected faults in the SystemVerilog
 
-TEST(TwinFilterPipelineFaults, MissingSecondLevelIsDetected) {
+TEST(CounterpartFilterPipelineFaults, MissingSecondLevelIsDetected) {
   EXPECT_GE(compare<VFilterWrongOpen>(hdl::kVFilterWrongOpen, 300).golden_differ, 1u);
 }
-TEST(TwinFilterPipelineFaults, TruncationIsDetected) {
+TEST(CounterpartFilterPipelineFaults, TruncationIsDetected) {
   EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
 }
 // A sample of the aborted work continues after the reset.
-TEST(TwinFilterPipelineFaults, SampleKeptOverResetIsDetected) {
+TEST(CounterpartFilterPipelineFaults, SampleKeptOverResetIsDetected) {
   EXPECT_GE(compare<VFilterNotEmptied>(hdl::kVFilterNotEmptied, 300).golden_differ, 1u);
 }
 // Correct colours with different timing: the pipeline does not close gaps at its end.
-TEST(TwinFilterPipelineFaults, UnneededWaitIsDetected) {
+TEST(CounterpartFilterPipelineFaults, UnneededWaitIsDetected) {
   const Result r = compare<VFilterWrongHold>(hdl::kVFilterWrongHold, 300);
   EXPECT_EQ(r.golden_differ, 0u) << r.first;
   EXPECT_GE(r.cycles_differ, 1u);

@@ -167,15 +167,15 @@ INSTANTIATE_TEST_SUITE_P(Texture, CounterpartsInEngine,
                          });
 
 // One RTL unit among SystemC units, and two.
-class SomeTwinsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
+class SomeCounterpartsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(SomeTwinsInEngine, SameResultsInTheSameCycles) {
+TEST_P(SomeCounterpartsInEngine, SameResultsInTheSameCycles) {
   const TextureRunOptions options = storm(false);
   expect_equal(run(options, {}, 96, {}, 200), run(options, {}, 96, GetParam(), 200),
                GetParam().size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
+INSTANTIATE_TEST_SUITE_P(Texture, SomeCounterpartsInEngine,
                          testing::Values(std::vector<std::string>{"address"},
                                          std::vector<std::string>{"cache"},
                                          std::vector<std::string>{"filter"},
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
                          [](const auto& p) { return fmt::format("{}", fmt::join(p.param, "_")); });
 
 // The comparison of cycles detects a memory that takes one cycle more.
-TEST(TwinsInEngineFaults, OneMoreCycleIsDetected) {
+TEST(CounterpartsInEngineFaults, OneMoreCycleIsDetected) {
   TextureRunOptions later = calm(false);
   later.memory.latency += 1;
   later.texture.cache_fifo_depth = 107;

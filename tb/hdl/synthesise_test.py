@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/synthesise on cells of a few lines: figures that can be counted by hand, memories that stay memories, the
-cache, --check and what it must find, a row over the time limit, Ctrl-C, and its errors.
+"""Tests scripts/synthesise on small modules: figures that can be counted by hand, preserved memories, the cache,
+--check and the differences that it must find, a row over the time limit, Ctrl-C, and errors.
 
 usage: synthesise_test.py SOURCE [unittest options]"""
 import json
@@ -49,7 +49,7 @@ SLOW = """module slow (input logic clk, input logic [255:0] a, output logic [511
   always_ff @(posedge clk) p <= a * {a[127:0], a[255:128]};
 endmodule
 """
-CONFIGURATIONS = """VBoth both ways=3  # twice the cell
+CONFIGURATIONS = """VBoth both ways=3  # two instances of the cell
 VSmall small
 VPaper small axes=two footprint=half log2=mitchell count=floor
 """

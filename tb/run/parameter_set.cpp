@@ -71,7 +71,7 @@ class Manifest {
     const YAML::Node& root = yaml.root();
     if (const std::string unit = scalar_of(root, "unit"); !engine.empty() && unit != engine)
       yaml.fail(root["unit"],
-                fmt::format("this manifest is of a run of '{}', and not of '{}'", unit, engine));
+                fmt::format("this manifest belongs to a run of '{}', not of '{}'", unit, engine));
     for (const auto& parameter : entry_of(root, "parameters"))
       from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
     for (const auto& input : entry_of(root, "inputs"))
@@ -198,7 +198,7 @@ void ParameterSet::Binder::is_work(std::string_view name, GivenWork work) {
       prefix_.empty() ? std::string(name) : fmt::format("{}.{}", prefix_, name);
   const auto found = std::find_if(set_.parameters_.begin(), set_.parameters_.end(),
                                   [&](const Parameter& p) { return p.name == whole; });
-  DEBURR_CHECK(found != set_.parameters_.end(), "unknown '" + whole + "' is said to be work");
+  DEBURR_CHECK(found != set_.parameters_.end(), "unknown parameter '" + whole + "' marked as work");
   found->work = work;
 }
 
@@ -307,7 +307,7 @@ void ParameterSet::alias(std::string_view name, std::string_view word, std::stri
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const Parameter& p) { return p.name == name; });
   DEBURR_CHECK(found != parameters_.end(),
-               fmt::format("'{}' is a word of unknown '{}'", word, name));
+               fmt::format("alias '{}' of unknown parameter '{}'", word, name));
   found->aliases.emplace_back(word);
   found->parse = [parse = std::move(found->parse), word = std::string(word),
                   value = std::string(value)](std::string_view text) {

@@ -203,8 +203,8 @@ constexpr std::string_view kDownstream = "downstream";
 constexpr std::string_view kDescriptors = "descriptors";
 constexpr std::array<std::string_view, 5> kFinishDescriptors = {
     "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area_unit"};
-// Fractions of a unit's cycles: stalls below kNegligible are no bottleneck; units within kTie are
-// equally busy.
+// Fractions of a unit's cycles: stalls below kNegligible are not a bottleneck; units within kTie
+// are equally busy.
 constexpr double kNegligible = 0.01, kTie = 0.001;
 
 double cycles_of(const UnitCycles& unit) {

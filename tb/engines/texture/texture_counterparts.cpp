@@ -124,7 +124,7 @@ StandIns texture_counterparts(const std::vector<std::string>& units,
   return makers(std::move(chosen), seed);
 }
 
-StandIns texture_counterparts_there_are(const spec::texture::Parameters& as_built,
+StandIns available_texture_counterparts(const spec::texture::Parameters& as_built,
                                         std::uint64_t seed) {
   std::vector<const TextureCounterpart*> chosen;
   for (const CounterpartUnit& unit : known_units())

@@ -86,7 +86,7 @@ class TextureEnvironment final : public Environment {
 
   const Image& frame() const { return frame_; }
   // Per pixel, whether a colour has been received.
-  const std::vector<std::uint8_t>& came() const { return came_; }
+  const std::vector<std::uint8_t>& received() const { return received_; }
   // The golden model's picture of the same fragments; empty if SimulationOptions::golden is false.
   const Image& golden_frame() const { return checks_.golden_frame(); }
   const golden::texture::TextureWork& golden_work() const { return checks_.work(); }
@@ -100,9 +100,9 @@ class TextureEnvironment final : public Environment {
 
  private:
   // Additional initiator for the fault of an unrequested fetch.
-  struct Stranger : sc_core::sc_module {
-    explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
+  struct ExtraInitiator : sc_core::sc_module {
+    explicit ExtraInitiator(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<ExtraInitiator> memory{"memory"};
   };
 
   traces::QuadSource open() const;
@@ -121,14 +121,14 @@ class TextureEnvironment final : public Environment {
   platform::RegisterHost host_;
   platform::TextureDriver driver_;
   TextureMeter meter_;
-  Stranger stranger_;
+  ExtraInitiator extra_initiator_;
 
   traces::QuadSource source_;
   traces::TracedQuad quad_;  // currently sent
   SentQuads sent_;
   TextureChecks checks_;
   Image frame_;
-  std::vector<std::uint8_t> came_;
+  std::vector<std::uint8_t> received_;
   std::unique_ptr<TextureMaps> maps_;
   std::unique_ptr<TextureHistory> history_;
   bool ended_ = false;     // the frame is done

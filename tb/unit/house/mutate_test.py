@@ -19,7 +19,7 @@ enable_testing()
 add_executable(tiny_test tiny_test.cpp)
 add_test(NAME tiny_test.all COMMAND tiny_test)
 """,
-    "rtl_model/tiny/tiny.h": """// a < b and 1 + 1 are no code here
+    "rtl_model/tiny/tiny.h": """// a < b and 1 + 1 are not code here
 inline bool tested(int a) { return a < 7; }
 inline bool far_from_its_limit(int a) { return a < 9; }
 inline bool unmet(int a) { return a < 9; }

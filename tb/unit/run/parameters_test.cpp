@@ -240,11 +240,12 @@ TEST_F(Parameters, IneffectiveParameterIsRejectedAtItsOrigin) {
   EXPECT_THAT(complaint(),
               HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
   set_.imply("unit.cache.ways", "4", "preset small");
-  EXPECT_EQ(complaint(), "") << "a file may hold what the preset makes";
+  EXPECT_EQ(complaint(), "") << "a file may hold the preset's value";
   set_.set("unit.cache.ways", "2", "--ways");
   EXPECT_THAT(complaint(), StartsWith("--ways: "));
   set_.set("unit.cache.ways", "4", "--ways");
-  EXPECT_THAT(complaint(), StartsWith("--ways: ")) << "on the command line nothing is in vain";
+  EXPECT_THAT(complaint(), StartsWith("--ways: "))
+      << "the command line rejects every ineffective value";
 }
 
 TEST_F(Parameters, EveryTextureDefaultIsWithinItsRange) {
@@ -336,16 +337,16 @@ TEST_F(Parameters, ManifestRestoresParametersOfItsRun) {
                          {"name": "unit.source", "from": "given"}]})";
   set_.load("manifest.json", manifest, "unit");
   EXPECT_EQ(values_.ways, 8);
-  EXPECT_EQ(values_.cycles, 7) << "the default was another one";
-  EXPECT_EQ(values_.colour, Colour::kGreen) << "a preset makes it again, if it is chosen again";
-  EXPECT_EQ(values_.stalls, 0.5) << "nothing is said about it";
+  EXPECT_EQ(values_.cycles, 7) << "the default has changed";
+  EXPECT_EQ(values_.colour, Colour::kGreen) << "derived again from the preset";
+  EXPECT_EQ(values_.stalls, 0.5) << "the manifest does not list it";
   EXPECT_EQ(values_.source, "/elsewhere/in/x.png");
   EXPECT_TRUE(set_.given("unit.cache.ways"));
   EXPECT_TRUE(set_.given("unit.cycles"));
   EXPECT_FALSE(set_.given("unit.colour"));
   EXPECT_FALSE(set_.given("unit.shuffle")) << "as it is by default";
   EXPECT_THAT(complaint([&] { set_.load("manifest.json", manifest, "frame"); }),
-              HasSubstr("this manifest is of a run of 'unit', and not of 'frame'"));
+              HasSubstr("this manifest belongs to a run of 'unit', not of 'frame'"));
 }
 
 struct Misnamed : Sample {};

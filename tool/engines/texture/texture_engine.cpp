@@ -276,7 +276,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     tb::Mask came;
     came.width = unit.frame().width;
     came.height = unit.frame().height;
-    came.pixels = unit.came();
+    came.pixels = unit.received();
     // For a fragment file, pixels without a fragment are known only when all have arrived.
     const tb::Mask drawn = foreign() ? came : drawn_pixels(scene);
     const tb::Mask missing = without(drawn, came);

@@ -351,7 +351,7 @@ class Registers(Base):
 
 
 class Fields(Base):
-    """Hardware decodes a configuration field as another value than software wrote."""
+    """Hardware decodes a configuration field as a different value than software wrote."""
 
     def test_each_field_is_decoded(self):
         small, gpaa = ("--size", "96x64"), ("--size", "48x32", "--preset", "gpaa")

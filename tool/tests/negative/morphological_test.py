@@ -137,7 +137,7 @@ class Frames(Base):
     def test_accepts_depth_of_16_bit_grey(self):
         done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth",
                           self.write("d.png", png(16, 16, bits=16, channels=1)), says="PASS")
-        self.assertIn("'%s': 16 bits of grey taken as near / w" % self.path("d.png"), done.stderr)
+        self.assertIn("'%s': 16-bit grey read as near / w" % self.path("d.png"), done.stderr)
         self.assertNotIn("looks like a picture", done.stderr)
         self.frame(5, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("c.png", png(16, 16, bits=16)),
                    says=["c.png", "this one has 3 channels of uint16"])
@@ -643,7 +643,7 @@ class GuardFaults(BlockFaults):
 
 
 class Fields(BlockFaults):
-    """Hardware decodes a configuration field as another value than software wrote."""
+    """Hardware decodes a configuration field as a different value than software wrote."""
 
     def test_each_field_is_decoded(self):
         bits = random.Random(1)

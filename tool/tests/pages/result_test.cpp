@@ -918,9 +918,8 @@ TEST(Progress, ShowsTimesInTwoUnits) {
   EXPECT_EQ(Progress::fitted(60, "x", "y", 3, 4, 1, ""),
             "[##################......] x   75 %  3 y/s  0 s left");
   EXPECT_EQ(tb::out_of_cycles(12345, 678, 9000, "pixel"),
-            "not done after 12,345 cycles, which is all that --max-cycles (run.max_cycles) allows: "
-            "678 of 9,000 pixels are done; "
-            "raise it, or set it to 0 for no limit");
+            "not done after 12,345 cycles, the limit of --max-cycles (run.max_cycles): 678 of "
+            "9,000 pixels are done; raise the limit, or set it to 0 for none");
 }
 
 TEST(Progress, FitsEveryTerminal) {

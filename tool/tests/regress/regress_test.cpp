@@ -58,7 +58,7 @@ TEST(FailingCycle, UsesLastMoveBeforeDeadlock) {
   const nlohmann::json result = {
       {"reason",
        "clock: no link has moved a beat for 20000 cycles, now cycle 25000\n\n"
-       "links (beats of depth; beats in, out; cycle of last push, pop; ends):\n"
+       "links (beats of depth; beats in, out; cycle of last push, pop; producer -> consumer):\n"
        "  quads    2 of 2 FULL; 15, 13; 395, 394; driver -> texture\n"
        "  colours  0 of 2; 14, 14; 611, 612; filter -> sink\n"
        "  others   0 of 2; 0, 0; never, never; a -> b\n"},

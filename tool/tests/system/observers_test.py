@@ -129,7 +129,7 @@ class Intervals(unittest.TestCase):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 said = run(out, *arguments, "--windows", "300", "--fault", "lose-window", code=3)
-                self.assertIn("windows: units.", said)
+                self.assertIn("intervals: units.", said)
                 self.assertIn("window 2", said)
                 with self.assertRaises(AssertionError):
                     self.check(load(out, "intervals.json"), load(out))

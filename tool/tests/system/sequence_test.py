@@ -184,7 +184,7 @@ class Images(SequenceTest):
         write_png(self.path("small.png"), [[0] * 16] * 16)
         for says, *arguments in (
                 ("no file matches 'g*.png'", "--in", "g*.png"),
-                ("lists of a run are equally long", "--in", "f*.png", "--truth", "t_f1.png;t_f2.png"),
+                ("all lists of a run must have the same length", "--in", "f*.png", "--truth", "t_f1.png;t_f2.png"),
                 ("has an empty entry", "--in", "f1.png;;f2.png"),
                 ("frame.source lists 3 frames", "--in", "f*.png", "--frames", "3"),
                 ("an image file does not move", "--in", "f1.png", "--frames", "3"),
