@@ -291,7 +291,7 @@ int sc_main(int, char**) {
   host.bus.bind(unit.registers);
   unit.memory()->bind(memory.ports);
   deburr::rtl::Link<deburr::spec::texture::Quad> quads("quads");
-  deburr::rtl::Link<deburr::spec::texture::Colour> colours("colours");
+  deburr::rtl::Link<deburr::spec::texture::ColourGroup> colours("colours");
   unit.quads_in(quads);
   unit.colours_out(colours);
   clock.run(10);

@@ -166,7 +166,7 @@ class Platform {
   Painter painter_{"painter", clock_};
   Display display_{"display", clock_};
   deburr::rtl::Link<deburr::spec::texture::Quad> quads_{"quads"};
-  deburr::rtl::Link<deburr::spec::texture::Colour> colours_{"colours"};
+  deburr::rtl::Link<deburr::spec::texture::ColourGroup> colours_{"colours"};
   deburr::rtl::Link<deburr::spec::morphological::PixelBeat> pixels_{"pixels"};
   deburr::rtl::Link<deburr::spec::morphological::BlendedBeat> blended_{"blended"};
   deburr::platform::MemoryModel memory_{"memory", kPeriod, memory_parameters()};

@@ -132,6 +132,11 @@ PayloadNode PayloadBuilder::array(const std::string& name) {
   return node;
 }
 
+void PayloadBuilder::check_single() const {
+  DEBURR_CHECK(shape_.single.empty() || has_single_,
+               fmt::format("the payload has no array of payloads {} to shorten", shape_.single));
+}
+
 std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
                                   std::size_t listed) const {
   for (const auto& [what, fewer] : shape_.counts)

@@ -270,7 +270,9 @@ void FilterPipeline::encode(Cycle cycle) {
 
 inline void FilterPipeline::deliver(Cycle cycle, const Ticket& ticket,
                                     const std::array<std::uint32_t, 4>& rgba) {
-  spec::texture::Colour& colour = colours_out.emplace(cycle);
+  spec::texture::ColourGroup& group = colours_out.emplace(cycle);
+  group.count = 1;
+  spec::texture::Colour& colour = group.colour[0];
   colour.tag = ticket.tag;
   colour.lane = ticket.lane;
   colour.last = ticket.last;

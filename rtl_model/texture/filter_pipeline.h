@@ -37,7 +37,7 @@ class FilterPipeline final : public Unit {
   static constexpr int kStages = 9;  // stage 9 only with `encoded`
 
   In<TexelQuadToken> texels_in{"texels_in"};
-  Out<spec::texture::Colour> colours_out{"colours_out"};
+  Out<spec::texture::ColourGroup> colours_out{"colours_out"};
 
   FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::texture::Configuration& configuration, LatencyProbe& probe);

@@ -267,6 +267,14 @@ struct TexelQuadGroup {
   }
 };
 
+// Bits of colours_out: with width 1 those of a Colour.
+inline PayloadShape colours_shape(const spec::texture::Build& p) {
+  if (p.width == 1) return {.widths = {{"count", 0}}, .single = "colour"};
+  const auto width = static_cast<std::uint32_t>(p.width);
+  return {.widths = {{"count", static_cast<std::uint32_t>(std::bit_width(width))}},
+          .counts = {{"colour", width}}};
+}
+
 // Half a tile: distance by which the words of a rotated line are moved.
 inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
   return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);

@@ -203,19 +203,36 @@ TEST(ChooseCounterparts, AllOrSomeInTheirOrder) {
   EXPECT_THROW(counterpart_units("adress"), spec::ConfigError);
 }
 
-TEST(ChooseCounterparts, RejectsUnitsThatAreNotBuilt) {
-  spec::texture::Parameters p;
-  p.cache_ways = 4;
-  p.cache_fifo_depth = 107;
-  EXPECT_NO_THROW(texture_counterparts({"address", "filter"}, p, 1));
+std::string rejection(const std::vector<std::string>& units, const spec::texture::Parameters& p) {
   try {
-    texture_counterparts({"address", "cache"}, p, 1);
-    FAIL();
+    texture_counterparts(units, p, 1);
+    return "";
   } catch (const spec::ConfigError& error) {
-    const std::string text = error.what();
-    for (const char* part : {"unit cache", "cache.ways=4", "cache.ways=2", "configurations.txt"})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
+    return error.what();
   }
+}
+
+TEST(ChooseCounterparts, RejectsUnitsThatAreNotBuilt) {
+  using testing::AllOf, testing::HasSubstr;
+  spec::texture::Parameters p;
+  p.cache_fifo_depth = 107;
+  spec::texture::Parameters ways = p, coarse = p, level = p, wide = p;
+  ways.cache_ways = 4;
+  EXPECT_EQ(rejection({"address", "filter"}, ways), "");
+  EXPECT_THAT(rejection({"address", "cache"}, ways),
+              AllOf(HasSubstr("unit cache"), HasSubstr("cache.ways=4"), HasSubstr("cache.ways=2"),
+                    HasSubstr("configurations.txt")));
+  coarse.derivatives = spec::texture::Derivatives::kCoarse;
+  EXPECT_EQ(rejection({"cache", "filter"}, coarse), "");
+  EXPECT_THAT(rejection({"address"}, coarse),
+              AllOf(HasSubstr("unit address"), HasSubstr("derivatives=coarse")));
+  level.blend = spec::texture::Blend::kLevel;
+  EXPECT_EQ(rejection({"cache"}, level), "");
+  for (const char* unit : {"address", "filter"})
+    EXPECT_THAT(rejection({unit}, level), AllOf(HasSubstr(unit), HasSubstr("blend=level")));
+  wide.width = 4;
+  for (const char* unit : {"address", "cache", "filter"})
+    EXPECT_THAT(rejection({unit}, wide), AllOf(HasSubstr(unit), HasSubstr("width=4")));
 }
 
 }  // namespace

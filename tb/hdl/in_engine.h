@@ -127,19 +127,19 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
 
 template <class Model>
 class FilterInEngine final
-    : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour> {
+    : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup> {
  public:
   FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
-      : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour>(
-            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in,
-            unit.filter.colours_out),
+      : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup>(
+            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in, unit.filter.colours_out,
+            rtl::texture::colours_shape(unit.parameters())),
         filter_(unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});
   }
 
  private:
-  void pushed(rtl::Cycle cycle, const spec::texture::Colour&) override {
+  void pushed(rtl::Cycle cycle, const spec::texture::ColourGroup&) override {
     ++filter_.fragments;
     filter_.fragment_latency.record(probe_.leaves(cycle + 1));
   }

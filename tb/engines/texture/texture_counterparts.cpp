@@ -24,11 +24,12 @@ struct CounterpartUnit {
 const std::array<CounterpartUnit, 3>& known_units() {
   static const std::array<CounterpartUnit, 3> all = {
       {{"address",
-        {"axes", "footprint", "log2", "count", "count_cap", "kernel", "spread", "axis_cycles"}},
+        {"width", "fragments", "axes", "footprint", "log2", "count", "count_cap", "kernel",
+         "spread", "axis_cycles", "derivatives", "blend"}},
        {"cache",
-        {"cache.bytes", "cache.line_bytes", "cache.ways", "cache.replacement", "cache.outstanding",
-         "cache.fifo_depth"}},
-       {"filter", {"count", "kernel", "srgb_output"}}}};
+        {"width", "cache.bytes", "cache.line_bytes", "cache.ways", "cache.replacement",
+         "cache.outstanding", "cache.fifo_depth"}},
+       {"filter", {"width", "count", "kernel", "srgb_output", "blend"}}}};
   return all;
 }
 

@@ -21,6 +21,7 @@ constexpr std::size_t kLineBytes = 64;  // size of the line that is read twice
 TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScene& scene,
                                        const TextureSetup& setup, std::string name)
     : Environment(simulation, std::move(name)),
+      colours("colours", 2, rtl::texture::colours_shape(setup.texture)),
       scene_(scene),
       setup_(setup),
       faults_(simulation.faults(), this->name(), setup_),
@@ -58,11 +59,11 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   host_.bus.bind(unit_.registers);
   extra_initiator_.memory.bind(memory_.ports);
   if (this->name().empty()) {
-    sink_ = std::make_unique<Sink<spec::texture::Colour>>("sink", simulation.clock());
+    sink_ = std::make_unique<Sink<spec::texture::ColourGroup>>("sink", simulation.clock());
     sink_->beats_in(colours);
     sink_->keep(false);
-    sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-      check_output(cycle, colour);
+    sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+      check_output(cycle, group);
     };
   }
   if (simulation.options().coverage) coverage_.emplace(setup.texture);
@@ -168,7 +169,11 @@ Amount TextureEnvironment::amount() const {
 
 // ---- checking -----------------------------------------------------------------------------------
 
-void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Colour& colour) {
+void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+  for (const spec::texture::Colour& colour : group) check_colour(cycle, colour);
+}
+
+void TextureEnvironment::check_colour(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   ++delivered_;
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));

@@ -80,8 +80,8 @@ class TextureEnvironment final : public Environment {
   Coverage coverage() const override;
   void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
-  rtl::Link<spec::texture::Colour> colours{"colours"};
-  void check_output(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  rtl::Link<spec::texture::ColourGroup> colours;
+  void check_output(rtl::Cycle cycle, const spec::texture::ColourGroup& group);
   bool sent() const { return quad_driver_.done(); }  // all quads
 
   const Image& frame() const { return frame_; }
@@ -108,6 +108,7 @@ class TextureEnvironment final : public Environment {
   traces::QuadSource open() const;
   std::uint64_t fragments() const;
   void clear_outputs();
+  void check_colour(rtl::Cycle cycle, const spec::texture::Colour& colour);
   void fetch_again();
 
   const TextureScene& scene_;
@@ -116,7 +117,7 @@ class TextureEnvironment final : public Environment {
   rtl::Link<spec::texture::Quad> quads_{"quads"};
   Driver<spec::texture::Quad> quad_driver_;
   rtl::texture::TextureUnit unit_;
-  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // null in a composition
+  std::unique_ptr<Sink<spec::texture::ColourGroup>> sink_;  // null in a composition
   platform::MemoryModel memory_;
   platform::RegisterHost host_;
   platform::TextureDriver driver_;

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_
 
 TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                                const rtl::Link<spec::texture::Quad>& quads,
-                               const rtl::Link<spec::texture::Colour>& colours,
+                               const rtl::Link<spec::texture::ColourGroup>& colours,
                                const PixelAddress& pixel)
     : pixel_(pixel),
       line_bytes_(static_cast<std::uint32_t>(unit.parameters().cache_line_bytes)),
@@ -81,11 +81,12 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
       }));
   see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
   // Colours are recorded when taken, to include changes while they wait.
-  monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
-      clock, colours, Monitor<spec::texture::Colour>::Callback(),
-      [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-        if (Fragment* fragment = find(colour.tag, colour.lane))
-          fragment->delivered.emplace_back(colour, cycle);
+  monitors_.push_back(std::make_unique<Monitor<spec::texture::ColourGroup>>(
+      clock, colours, Monitor<spec::texture::ColourGroup>::Callback(),
+      [this](rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+        for (const spec::texture::Colour& colour : group)
+          if (Fragment* fragment = find(colour.tag, colour.lane))
+            fragment->delivered.emplace_back(colour, cycle);
       }));
 }
 

@@ -87,6 +87,16 @@ TEST(Payload, WidthIsSumOfBuiltFields) {
   EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // no field per lane
 }
 
+// The fields of the only element stand in the container, without the array's name.
+TEST(Payload, SingleElementHasNoIndex) {
+  const Payload payload = Payload::of<Beat>({.single = "corner"});
+  EXPECT_EQ(payload.bits(), 262U - 27);
+  EXPECT_NE(payload.find("column"), nullptr);
+  EXPECT_EQ(payload.find("corner.0.column"), nullptr);
+  for (const char* const no_array : {"corners", "slope", "edges", "place", "corner.0"})
+    EXPECT_THROW(Payload::of<Beat>({.single = no_array}), spec::CheckFailed) << no_array;
+}
+
 // Width 0: the engine is built without the field. It has no bit, no wave, no fault and no entry in
 // the types, and its value in the model is ignored.
 TEST(Payload, FieldOfWidthZeroIsNotBuilt) {

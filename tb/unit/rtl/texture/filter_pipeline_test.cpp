@@ -39,7 +39,7 @@ struct FilterBench {
   ClockDomain clock{"clock", period()};
   rtl::LatencyProbe probe;
   FilterPipeline unit;
-  Ends<TexelQuadToken, spec::texture::Colour> ends{clock};
+  Ends<TexelQuadToken, spec::texture::ColourGroup> ends{clock};
 };
 
 // A request that is a whole fragment.
@@ -88,7 +88,7 @@ TEST_P(FilterBuild, FragmentWithoutTextureIsZero) {
   b.clock.run(30);
   ASSERT_EQ(b.ends.sink.taken.size(), 2u);
   for (const auto& taken : b.ends.sink.taken)
-    EXPECT_THAT(taken.token.rgba, ElementsAre(0, 0, 0, 0));
+    EXPECT_THAT(taken.token.colour[0].rgba, ElementsAre(0, 0, 0, 0));
 }
 
 TEST_P(FilterBuild, LatencyMatchesDatasheet) {
@@ -116,8 +116,8 @@ TEST_P(FilterBuild, TakesOneRequestPerCycleAndSurvivesStalls) {
   for (std::size_t i = 0; i < 100; ++i) {
     const Cycle alone = i + 1 + latency;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 40 ? alone : alone + 17);
-    EXPECT_EQ(b.ends.sink.taken[i].token.tag, i);
-    EXPECT_EQ(b.ends.sink.taken[i].token.rgba[0], i);
+    EXPECT_EQ(b.ends.sink.taken[i].token.colour[0].tag, i);
+    EXPECT_EQ(b.ends.sink.taken[i].token.colour[0].rgba[0], i);
   }
   // The link takes one more colour and is free again one cycle after its consumer resumes: the
   // pipeline stalls as long as the consumer does, with a token in every stage.
@@ -150,7 +150,7 @@ struct BlendBench : FilterBench {
     clock.run(20);
     // The last of the four requests is taken in cycle 4.
     EXPECT_EQ(ends.sink.taken.at(colours).cycle, start + 4 + 8);
-    return ends.sink.taken.at(colours++).token.rgba[0];
+    return ends.sink.taken.at(colours++).token.colour[0].rgba[0];
   }
   bool by_level;
   std::size_t colours = 0;
@@ -185,7 +185,7 @@ TEST(TextureRtlFilter, ResetDropsPartialSums) {
   b.add(request(Format::kRgba8, grey(3, 0, 0, 0)));
   b.clock.run(20);
   ASSERT_EQ(b.ends.sink.taken.size(), 1u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 3);
+  EXPECT_EQ(b.ends.sink.taken[0].token.colour[0].rgba[0], 3);
 }
 
 // A single request, in each stage in turn.
