@@ -785,7 +785,7 @@ tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   constexpr std::array<Subject (*)(Builder&, Random&), kKinds.size()> kMakers = {
       model, town, props, circuit, thicket, wires, signs, room};
   const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
-  DEBURR_CHECK(found != kKinds.end(), "no such kind of scene");
+  DEBURR_CHECK(found != kKinds.end(), "unknown kind of scene");
   Random random(seed, kind);
   Builder out(random);
   const Subject subject = kMakers[static_cast<std::size_t>(found - kKinds.begin())](out, random);

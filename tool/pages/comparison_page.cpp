@@ -71,7 +71,7 @@ class ComparisonPage {
   // The compared inputs: the columns of every table.
   void fill_inputs(const Json& inputs) {
     mustache::data list{mustache::data::type::list};
-    HtmlTable table("|Directory:mono anywhere|What it is");
+    HtmlTable table("|Directory:mono anywhere|Title");
     std::string title;
     for (const Json& input : inputs) {
       mustache::data data;
@@ -79,7 +79,7 @@ class ComparisonPage {
       data.set("command", text_of(input.value("command", Json())));
       list << data;
       HtmlCell path = text_of(input.at("path"));
-      if (&input == &inputs.front()) path.add(" " + muted("(what the others are compared with)"));
+      if (&input == &inputs.front()) path.add(" " + muted("(baseline)"));
       table.row({letter(input.at("name")), path,
                  HtmlCell(text_of(input.at("title")))
                      .add(" " + muted(text_of(input.value("summary", Json()))))});
@@ -240,7 +240,7 @@ class ComparisonPage {
           "{} points, {} done, {} on its front", figure_text(counts.value("points", Json(0))),
           figure_text(counts.value("done", Json(0))), figure_text(counts.value("front", Json(0))));
       if (sweep.contains("joint_front"))
-        text += fmt::format(", {} on the front of all together", figure_text(sweep["joint_front"]));
+        text += fmt::format(", {} on the joint front", figure_text(sweep["joint_front"]));
       sweep["summary"] = text;
     }
     fill_inputs(sweeps);

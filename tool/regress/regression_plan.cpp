@@ -115,8 +115,9 @@ class RegressionPlanner {
     const std::string& engine = stimulus.configurations.engine;
     for (const Setting& each : settings)
       if (each.name == "run.check" && each.value == "none")
-        throw ConfigError(fmt::format("{}: {} has run.check = none: what nobody checks would pass",
-                                      testplan_.file.string(), name));
+        throw ConfigError(
+            fmt::format("{}: {} has run.check = none: unchecked runs would always pass",
+                        testplan_.file.string(), name));
     give("run.images", "false");
     give("run.coverage", "true");
     try {

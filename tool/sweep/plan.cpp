@@ -124,11 +124,11 @@ class Planner {
       return take(sample);
     });
     if (plan_.points == 0)
-      throw ConfigError(fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_),
-                                    check_.reasons()));
+      throw ConfigError(fmt::format("{}: all {} points are excluded: {}", plan_.file,
+                                    grouped(seen_), check_.reasons()));
     check_.tell(plan_);
     if (twice_ > 0)
-      plan_.left_out.push_back(fmt::format("{} that are the same as another one", grouped(twice_)));
+      plan_.left_out.push_back(fmt::format("{} that duplicate another point", grouped(twice_)));
     if (sweep_.sampling == SweepSampling::kRandom && plan_.points < sweep_.samples)
       plan_.left_out.push_back(fmt::format("{} of {} random points that were not found in {} draws",
                                            grouped(sweep_.samples - plan_.points),
@@ -358,7 +358,7 @@ Plan read_plan(const fs::path& directory) {
         fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
   try {
     const Json json = tb::parse_json(tb::read_file(file, kMaxPlanBytes));
-    if (json.at("schema") != kPlanSchema) throw FileError("of another version");
+    if (json.at("schema") != kPlanSchema) throw FileError("made by another version");
     Plan plan;
     plan.engine = json.at("engine");
     plan.title = json.at("title");

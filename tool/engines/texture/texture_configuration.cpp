@@ -59,7 +59,7 @@ void reject_unused_scene(const tb::ParameterSet& set) {
     set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.reference")->text() == "true")
     throw spec::ConfigError(
-        "run.reference: the scene of a file's fragments is unknown: leave it out");
+        "run.reference: fragments from a file have no known scene to compare with: leave it out");
 }
 
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {
