@@ -79,8 +79,9 @@ TEST_P(RejectedTestplan, MessageNamesLineAndReason) {
 const Case kRejected[] = {
     {"UnknownKey", "/colour: 3",
      "t.yaml:1: unknown key 'colour' (known: title, include, features, coverage, unmet)"},
-    {"UpperCaseId", "id: First", "t.yaml:2: 'id' = 'First' wants lower-case letters, digits and -"},
-    {"EmptyId", "id: ''", "t.yaml:2: 'id' = '' wants lower-case letters, digits and -"},
+    {"UpperCaseId", "id: First",
+     "t.yaml:2: 'id' = 'First' must consist of lower-case letters, digits and -"},
+    {"EmptyId", "id: ''", "t.yaml:2: 'id' = '' must consist of lower-case letters, digits and -"},
     {"IdMissing", "-id", "t.yaml:2: 'id' is missing"},
     {"TitleMissing", "-title", "t.yaml:2: 'title' is missing"},
     {"TracesMissing", "-traces", "t.yaml:2: 'traces' is missing"},
@@ -109,15 +110,15 @@ const Case kRejected[] = {
      "t.yaml:5: unknown key 'metrics' (known: engine, base, axes, points, sample, constraints, "
      "refused, name, seeds, random)"},
     {"ChecksNotAMap", "checks: [a]",
-     "t.yaml:6: 'checks' wants a map of scoreboards to numbers, got a list"},
+     "t.yaml:6: 'checks' must be a map of scoreboards to numbers, got a list"},
     {"CheckTwice", "checks: {a: 1, b: 2, a: 3}", "t.yaml:6: 'a' is given twice"},
     {"TooManyComparisons", "checks: {a: 1152921504606846977}",
      "t.yaml:6: 'a' = '1152921504606846977' is outside 1..1152921504606846976"},
     {"CoverageNotAList", "coverage: made/*",
      "t.yaml:7: 'coverage' wants a list, got a single value"},
     {"EmptyGlob", "coverage: ['']",
-     "t.yaml:7: '' is no glob: * stands for any text, ? for any character, and [, {, ! and \\ for "
-     "nothing"},
+     "t.yaml:7: '' is not a glob: * matches any text and ? any character; [, {, ! and \\ are not "
+     "supported"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, RejectedTestplan, testing::ValuesIn(kRejected), name_of_case);
@@ -129,17 +130,17 @@ const Case kRejectedIncludes[] = {
     {"IncludeNotAList", "/include: part_made.yaml",
      "t.yaml:1: 'include' wants a list, got a single value"},
     {"NoStimuliAnywhere", "/include: [part_other.yaml]\n-stimuli",
-     "t.yaml: the feature 'first' has no stimuli, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' has no stimuli, and no included file adds any"},
     {"NoTracesAnywhere", "/include: [part_other.yaml]\n-traces",
-     "t.yaml: the feature 'first' has no traces, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' has no traces, and no included file adds any"},
     {"NoChecksAnywhere", "/include: [part_other.yaml]\n-checks",
-     "t.yaml: the feature 'first' has no checks, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' has no checks, and no included file adds any"},
     {"CheckInTwoFiles", "/include: [part_made.yaml]\nchecks: {pixels: 3}",
      "part_made.yaml:5: 'pixels' is given twice"},
     {"IncludedFileWithTitle", "/include: [bad_title.yaml]",
      "bad_title.yaml:1: unknown key 'title' (known: features, coverage, unmet)"},
     {"IncludedFeatureTwice", "/include: [bad_twice.yaml]",
-     "bad_twice.yaml:3: there are two features 'first'"},
+     "bad_twice.yaml:3: duplicate feature 'first'"},
     {"AddedTitle", "/include: [bad_added.yaml]",
      "bad_added.yaml:3: unknown key 'title' (known: id, traces, stimuli, checks, coverage)"},
 };
@@ -192,7 +193,7 @@ TEST_F(TestplanParts, DividedPlanHasFewerSeedsAndItsOwnFolder) {
             "out/regressions/t-of-2-3");
   EXPECT_EQ(result("regress t.yaml collect --seed 3 --divide 2"),
             "FAIL regression t-of-2 --seed 3: 2 points, 0 passed, 0 failed in 0 signatures, 2 "
-            "missing; out/regressions/t-of-2-3/index.html: 'run' it again for what is missing");
+            "missing; out/regressions/t-of-2-3/index.html: use 'run' again for the missing runs");
   EXPECT_EQ(
       list_points("out/regressions/t-of-2-3"),
       R"(0 [first] [runs] [made.lanes=2] [0] made.lanes=2 run.images=false run.coverage=true run.seed=347513631 run.stall_seed=1671300517

@@ -276,10 +276,9 @@ TEST_F(Runs, DescribeRunsAndWarnings) {
   leave("d", 1000, "2");
   fs::remove(path_ / "d/manifest.json");
   const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
-  EXPECT_EQ(all["warnings"],
-            (Json{"B cannot be built: not implementable: memory cache (nine ports)",
-                  "B was interrupted: its figures cover what was done until then",
-                  "scene.width differs: A 8, B 9 (B is C here)"}));
+  EXPECT_EQ(all["warnings"], (Json{"B is not implementable: memory cache (nine ports)",
+                                   "B was interrupted: its figures cover only the completed part",
+                                   "scene.width differs: A 8, B 9 (B is C here)"}));
   EXPECT_EQ(all["runs"][1],
             (Json{{"name", "B"},
                   {"path", (path_ / "b").string()},
@@ -452,7 +451,7 @@ Arun, Brun, Crun|badge fail|worse
 Look.
 Parameters|Figures|Pictures|Values|Commands
 Directory|What it is
-A|out/Arun|(what the others are compared with)|Title A|of it
+A|out/Arun|(baseline)|Title A|of it
 B|out/Brun|Title B|of it
 C|out/Crun|Title C|of it
 --columns: 2
@@ -512,13 +511,13 @@ TEST_F(Runs, RejectsIncompleteRuns) {
       EXPECT_THAT(error.what(), HasSubstr(name));
     }
   };
-  rejected("none", "is not there");
+  rejected("none", "does not exist");
   put("empty/x", "");
   rejected("empty", "name the directory of a run");
   put("running/.deburr_run/claim.json", "{}");
-  rejected("running", "is not over, or was killed");
+  rejected("running", "is not finished or was killed");
   put("point/failure.json", "{}");
-  rejected("point", "point that failed");
+  rejected("point", "failed point of a sweep");
   put("planned/plan.json", "{}");
   rejected("planned", "collect");
   put("torn/result.json", "{");
@@ -625,7 +624,7 @@ TEST_F(Sweeps, MatchPointsByConfiguration) {
   EXPECT_EQ(all["metrics"][0]["maximise"], false);
   EXPECT_EQ(all["metrics"][1]["maximise"], true);
   EXPECT_FALSE(compared({"a", "a"})["worse"]);
-  EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
+  EXPECT_THAT(comparison_page(all), HasSubstr("1 on the joint front"));
 }
 
 TEST_F(Sweeps, PageShowsEveryKindOfCell) {
@@ -648,8 +647,8 @@ comparison of sweeps · texture
 A, B|badge fail|worse
 Parameters|Points in all|Fronts|Matched points|Points not in all
 Directory|What it is
-A|out/A|(what the others are compared with)|Cache|3 points, 3 done, 1 on its front, 1 on the front of all together
-B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the front of all together
+A|out/A|(baseline)|Cache|3 points, 3 done, 1 on its front, 1 on the joint front
+B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the joint front
 Parameters that differ, besides the axes
 Parameter|A|B
 latency|100|other|200

@@ -139,7 +139,7 @@ tile|Throughput|0.750|pixel/clk, 93.8 % of the bound 0.8
 tile|Latency p50|12|clk|p99 1,400, max 1,500
 tile|Read from memory|5.00|MiB|7,000 reads
 tile|PSNR, edge pixels|31.50|dB|-1.75 dB, before 33.25
-tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing
+tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time
 First mismatches
 Check|Where|Item|Field|Expected|Got|History
 colours|cycle 812|pixel (3, 0)|red|17|18|below
@@ -189,10 +189,10 @@ PSNR, silhouette pixels|-|22.13|-|dB
 FLIP, less is better|0.0500|0.0125|-0.0375
 SSIM|-|0.9877|-
 What was changed
-Pixels, against what went in|All|Right before|Unit
+Pixels, compared with the input|All|Correct input|Unit
 Changed by more than 2 codes|12.50|1.50|%
 Changed by more than 16 codes|3.25|0.50|%
-PSNR to what went in|identical|dB
+PSNR to the input|identical|dB
 Checks
 Check|Value|Meaning
 comparisons|1,000
@@ -236,7 +236,7 @@ Unit|Busy|Idle|Stalled, by cause
 luma|1,000|2,000|wait_fill 4,000, late 1
 blend|7|8|-
 Over time
-2 intervals of 1,000 cycles; 500 were asked for, which would be too many intervals.
+2 intervals of 1,000 cycles; intervals of 500 cycles were requested, which would be too many.
 Choose a window in a chart for the command that writes its waves.
 Unit
 Memory
@@ -385,7 +385,7 @@ TEST_F(Pages, ShowTilesForAvailableFigures) {
             "tile|Throughput|1.500|pixel\n"
             "tile|Latency p50|12|clk|p99 1,400, max 1,500\n"
             "tile|PSNR|41.26|dB|+5.76 dB, before 35.50\n"
-            "tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing\n"
+            "tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time\n"
             "--columns: 6\n");
   // Tiles of the engine replace the common ones; more than seven are placed in two rows.
   result_["interrupted"] = false;
@@ -407,8 +407,8 @@ TEST_F(Pages, ShowTilesForAvailableFigures) {
             "tile|Lines|7,000|line\n"
             "tile|On|yes\n"
             "tile|Throughput|1.500|pixel\n"
-            "tile|PSNR|identical|dB|of what came out\n"
-            "tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing\n"
+            "tile|PSNR|identical|dB|of the output\n"
+            "tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time\n"
             "--columns: 4\n");
   result_["checks"] = {{"comparisons", 0u},
                        {"mismatches", 0u},

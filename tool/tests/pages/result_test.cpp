@@ -602,7 +602,7 @@ TEST_F(Page, ShowsMainFiguresFirst) {
                               "<td class=\"n\">0.9875</td><td class=\"n\">+0.0375</td>"));
   EXPECT_THAT(page, HasSubstr("<td>Changed by more than 2 codes</td><td class=\"n\">12.50</td>"
                               "<td class=\"n\">1.50</td><td>%</td>"));
-  EXPECT_THAT(page, HasSubstr("<td>PSNR to what went in</td><td class=\"n\">38.25</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>PSNR to the input</td><td class=\"n\">38.25</td>"));
   EXPECT_THAT(page, HasSubstr("<td class=\"n\">identical</td>"));
   EXPECT_THAT(page, HasSubstr("PSNR, edge pixels</")) << "and not the frame's for want of a number";
   EXPECT_THAT(page, Not(HasSubstr("silhouette pixels"))) << "there was no depth";

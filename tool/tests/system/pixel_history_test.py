@@ -129,7 +129,7 @@ class PixelHistory(unittest.TestCase):
             if done.returncode == 0:
                 kept.add(engine)
             else:
-                self.assertIn(f"the engine {engine} keeps no history of a pixel", done.stdout + done.stderr)
+                self.assertIn(f"the engine {engine} does not record the history of a pixel", done.stdout + done.stderr)
         self.assertTrue(kept)
         self.assertEqual(kept, {*trials("followed"), *trials("followed_in_parts")})
 
@@ -141,7 +141,7 @@ class PixelHistory(unittest.TestCase):
                 if of_parts:
                     self.assertIn("pixel", result)
                 else:
-                    self.assertIn(f"the engine {engine} keeps no history of a pixel", self.said)
+                    self.assertIn(f"the engine {engine} does not record the history of a pixel", self.said)
 
     # Steps of each part; a fault in one part leaves the others unchanged.
     def test_parts_are_independent(self):
