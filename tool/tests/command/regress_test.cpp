@@ -72,7 +72,7 @@ RESULT: FAIL regression night --seed 7: 5 points, 4 passed, 1 failed in 1 signat
   EXPECT_EQ(printed("regress night.yaml run --seed 7"),
             R"(failed      1 x made: mismatch: colours: N of N
 broken      first: 3 of 4 runs passed; colours: 27 comparisons of 30
-broken      second: night.yaml:14: no run of this feature has a scoreboard 'pixels' (there are colours)
+broken      second: night.yaml:14: no run of this feature has a scoreboard 'pixels' (known: colours)
 )" + end);
   EXPECT_EQ(printed("regress night.yaml run --seed 7 --quiet"), end);
 }

@@ -128,7 +128,7 @@ class Testplans(CommandTest):
 
     def test_unknown_scoreboard_is_a_failed_check(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))
-        why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (there are colours, figures, line fills, "
+        why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (known: colours, figures, line fills, "
                "status registers): did you mean 'colours'?")
         self.expect(1, "regress", "t.yaml", "--seed", "1", says=("1 passed, 0 failed", why))
         with open(self.path("out/regressions/t-1/collected.json")) as file:

@@ -99,7 +99,7 @@ TEST_F(RegressionReport, FeaturesHaveTheirOwnRunsChecksAndBins) {
   EXPECT_EQ(of(first.checks[0]), std::tuple(30u, true, true));
   EXPECT_EQ(of(first.checks[1]), std::tuple(2u, false, true));
   EXPECT_THAT(first.checks[2].unknown,
-              HasSubstr("plan:3: no run of this feature has a scoreboard 'colour' (there are a/b, "
+              HasSubstr("plan:3: no run of this feature has a scoreboard 'colour' (known: a/b, "
                         "colours)"));
   EXPECT_EQ(of(second.checks[0]), std::tuple(4u, true, true));
   EXPECT_EQ(first.coverage[0].bins, 2u);
