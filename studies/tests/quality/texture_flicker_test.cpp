@@ -147,7 +147,7 @@ class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
 
 TEST_P(TextureFlickerOnPhotographs, RollIsWithinTenPercentOfTheEllipse) {
   if (photo().empty())
-    GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data beside the repository";
+    GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data next to the repository";
   const auto roll = flicker(photo(), Motion::kRoll, 16);
   const auto within = [&](Which ours, Which ellipse) {
     EXPECT_LE(roll[ours].mean, 1.1 * roll[ellipse].mean) << rows()[ours].name;
