@@ -204,7 +204,7 @@
       if (!map)
         return `${title} RGBA ${colour(index, pixel.x, pixel.y)}`;
       const value = valueOf(map, pixel);
-      return `${title} ${value === null ? 'has nothing there' : `${amount(value)} ${map.unit}`}`;
+      return `${title} ${value === null ? 'has no value there' : `${amount(value)} ${map.unit}`}`;
     }
     function tell() {
       byId('probe').textContent = pointed

@@ -157,7 +157,7 @@
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
     if (effects.length === 0)
-      element('p', 'None: there are no two values of an axis with points that have a value of this metric.',
+      element('p', 'None: no axis has two values with points that have this metric.',
               byId('effects'), 'muted');
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));

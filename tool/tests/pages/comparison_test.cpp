@@ -450,7 +450,7 @@ comparison of runs · texture
 Arun, Brun, Crun|badge fail|worse
 Look.
 Parameters|Figures|Pictures|Values|Commands
-Directory|What it is
+Directory|Title
 A|out/Arun|(baseline)|Title A|of it
 B|out/Brun|Title B|of it
 C|out/Crun|Title C|of it
@@ -461,7 +461,7 @@ worse|Worse:|nothing
 C against A
 better|Better:|nothing
 worse|Worse:|Cycles +25.00 %, PSNR -10.25 dB
-Parameters that differ
+Different parameters
 Parameter|A|B|C|Unit|Meaning
 ways|2|other|4|2|way|Ways.
 Figures
@@ -470,12 +470,12 @@ Cycles|1,000|width: 80.0%|better|800|-20.00 %|width: 64.0%|worse fails|1,250|+25
 PSNR|30.5|better|identical|worse|20.25|-10.25 dB|dB|Peak.
 Rate|-2.5|width: 0.2%|-|equal|1,234.6|width: 100.0%|R.
 Green is better and red is worse than A by more than the tolerance, bold where it fails the comparison;
-bars are shares of the row's largest value.
+bars are relative to the row's largest value.
 Pictures
 Show|Later|Before
 difference from A, 8 times
 Wheel:
-zoom all at one place.
+zoom all pictures together.
 Double click:
 whole picture.
 Later
@@ -486,7 +486,7 @@ Before
 A|c
 B|has no such picture.
 C|has no such picture.
-Every value that differs
+All different values
 1 values
 Value|A|B|C|Unit|Meaning
 work.rate|a|true|12,345|x|u|R.
@@ -645,16 +645,16 @@ TEST_F(Sweeps, PageShowsEveryKindOfCell) {
 Deburr &middot;
 comparison of sweeps · texture
 A, B|badge fail|worse
-Parameters|Points in all|Fronts|Matched points|Points not in all
-Directory|What it is
+Parameters|Common points|Fronts|Matched points|Other points
+Directory|Title
 A|out/A|(baseline)|Cache|3 points, 3 done, 1 on its front, 1 on the joint front
 B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the joint front
-Parameters that differ, besides the axes
+Different parameters, except the axes
 Parameter|A|B
 latency|100|other|200
-Points in all of them: 3
+Points in all sweeps: 3
 Matched by bytes, ways.
-1 points are not done in every sweep.
+1 points are not finished in every sweep.
 Metric|Better|Equal|Worse|Mean change|Least|Most|Unit|Meaning
 B|cycles|1|1|worse|1|-13.00 %|-50.00 %|+10.00 %|clk|m
 B|psnr|1|1|worse|1|-0.08 dB|-0.75 dB|+0.50 dB|dB|m
@@ -663,13 +663,13 @@ Fronts
 Across
 Up
 fronts only
-Large points are on their sweep's front;
-a line joins those that nothing of the same sweep beats in these two metrics.
+Large points are on their sweep's Pareto front;
+lines connect the points that are Pareto-optimal in these two metrics within their sweep.
 Matched points
-Show|all|those that are worse|those that differ|those on a front
-Points that are not done in every sweep: 1
-The points and the picture of the fronts need JavaScript;
-deburr compare --json has them all.
+Show|all|worse points|different points|points on a front
+Points that are not finished in every sweep: 1
+The points and the chart of the fronts need JavaScript;
+deburr compare --json prints all points.
 )page");
 }
 

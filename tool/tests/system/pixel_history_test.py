@@ -58,7 +58,7 @@ class PixelHistory(unittest.TestCase):
             self.assertEqual(history["steps"][-1]["clock"], max(cycles))
             self.assertIn(f"pixel       ({pixel.replace(',', ', ')}): {len(history['steps'])} steps, 0 of them differ",
                           self.said)
-            self.assertIn(f'<h2 id="pixel">What happened to pixel {pixel}</h2>', self.page)
+            self.assertIn(f'<h2 id="pixel">History of pixel {pixel}</h2>', self.page)
             for step in history["steps"]:
                 self.assertIn(f">{step['item']}</td>", self.page.replace("<wbr>", ""))
             waves = re.search(r'id="pixel-waves">(.*?)</pre>', self.page).group(1)
