@@ -467,7 +467,7 @@ namespace {
 void require(const fs::path& data) {
   if (const std::string missing = missing_data(data); !missing.empty())
     throw spec::FileError(fmt::format(
-        "there is no '{}': set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
+        "'{}' not found: set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
         missing));
 }
 

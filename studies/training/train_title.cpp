@@ -65,7 +65,7 @@ void check_output(const tool::TrainOptions& options) {
   if (const std::filesystem::path folder = out.parent_path();
       !folder.empty() && !tb::is_folder(folder))
     throw spec::FileError(
-        fmt::format("cannot write '{}': there is no folder '{}'", options.out, folder.string()));
+        fmt::format("cannot write '{}': folder '{}' does not exist", options.out, folder.string()));
   if (tb::is_folder(out))
     throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
   if (tb::is_there(out)) {

@@ -209,12 +209,7 @@ std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
         test = {test.name,        run.seconds,        JunitOutcome::kFailed,
                 run.failure.kind, run.failure.reason, command_of(run.point)};
       else if (run.state != PointState::kDone)
-        test = {test.name,
-                0,
-                JunitOutcome::kError,
-                "missing",
-                "there is no result",
-                command_of(run.point)};
+        test = {test.name, 0, JunitOutcome::kError, "missing", "no result", command_of(run.point)};
       report.add(test);
     }
     for (const CheckResult& check : feature.checks)
@@ -486,7 +481,7 @@ std::uint64_t seed_of_last_report(const fs::path& out, const std::string& testpl
   }
   if (!last)
     throw spec::FileError(
-        fmt::format("there is no report of '{}' in '{}': use 'run' first", testplan, all.string()));
+        fmt::format("no report of '{}' in '{}': use 'run' first", testplan, all.string()));
   return last->second;
 }
 
@@ -495,7 +490,7 @@ std::set<std::string> failed_in_report(const SweepPlace& place) {
   std::error_code error;
   if (!fs::exists(file, error))
     throw spec::FileError(
-        fmt::format("there is no report in '{}': use 'run' first", place.directory.string()));
+        fmt::format("no report in '{}': use 'run' first", place.directory.string()));
   const Json json = tb::try_parse_json(tb::read_file(file, kMaxReportBytes));
   if (!json.is_object() || json.value("schema", 0) != kReportSchema)
     throw spec::FileError(

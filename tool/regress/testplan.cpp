@@ -182,7 +182,7 @@ class TestplanFile {
     for (const std::string& name : names) {
       files.push_back((yaml_.path().parent_path() / name).lexically_normal());
       if (std::error_code error; !fs::is_regular_file(files.back(), error))
-        yaml_.fail(node, fmt::format("there is no file '{}'", files.back().string()));
+        yaml_.fail(node, fmt::format("file '{}' not found", files.back().string()));
     }
     return files;
   }
@@ -286,7 +286,7 @@ class TestplanFile {
     const std::vector<std::string>* const anchors = pages_.find(page);
     if (!anchors)
       yaml_.fail(node,
-                 fmt::format("there is no page '{}' in a folder above this file", page.string()));
+                 fmt::format("page '{}' not found in any folder above this file", page.string()));
     const std::string anchor = trace.substr(std::min(mark + 1, trace.size()));
     if (anchor.empty())
       yaml_.fail(node, fmt::format("'traces' = '{}' names no heading: append #HEADING, with - for "

@@ -62,10 +62,10 @@ void BoundEngine::resolve() {
                     kMostTimelineCycles));
   if (!run.timeline)
     for (const char* name : {"run.timeline_from", "run.timeline_to"})
-      set.reject(name, "there is no timeline without run.timeline (--timeline)");
+      set.reject(name, "it needs run.timeline (--timeline)");
   if (run.trace.empty())
     for (const char* name : {"run.trace_from", "run.trace_to"})
-      set.reject(name, "nothing is traced without run.trace (--trace)");
+      set.reject(name, "it needs run.trace (--trace)");
 }
 
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,

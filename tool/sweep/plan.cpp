@@ -354,8 +354,7 @@ Plan read_plan(const fs::path& directory) {
   const fs::path file = plan_file(directory);
   std::error_code error;
   if (!fs::exists(file, error))
-    throw FileError(
-        fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
+    throw FileError(fmt::format("no plan in '{}': run or plan it first", directory.string()));
   try {
     const Json json = tb::parse_json(tb::read_file(file, kMaxPlanBytes));
     if (json.at("schema") != kPlanSchema) throw FileError("made by another version");

@@ -106,7 +106,7 @@ void require_slurm(const std::string& conf) {
   std::error_code error;
   if (!fs::is_regular_file(file, error))
     throw FileError(fmt::format(
-        "there is no Slurm configuration '{}': name it with 'conf' in the profile, or with "
+        "Slurm configuration '{}' not found: name it with 'conf' in the profile, or with "
         "SLURM_CONF",
         file));
   const Answer ping = ask({"scontrol", "ping"}, conf);

@@ -169,7 +169,7 @@ class Rejects(Base):
         self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "holds no weights"])
         with open(self.path("mine.txt")) as file:
             self.assertEqual(file.read(), "a letter\n")
-        self.train(5, self.frame, self.reference, out="nowhere/x", says="there is no folder")
+        self.train(5, self.frame, self.reference, out="nowhere/x", says="does not exist")
         self.train(5, self.frame, self.reference, out="tunnel", says="it is a folder")
 
     def test_unwritable_output_fails_before_training(self):

@@ -47,7 +47,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     if (set.find("run.reference")->text() == "false" && frames_ == 1)
-      set.reject("scene.reference_samples", "nothing is compared without run.reference (--truth)");
+      set.reject("scene.reference_samples", "it needs run.reference (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
 

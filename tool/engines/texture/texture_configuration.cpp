@@ -48,8 +48,7 @@ void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
 
 void reject_unused_lookups(const tb::ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
-    set.reject("run.line_trace_lookups",
-               "there is no trace without run.line_trace (--line-trace text)");
+    set.reject("run.line_trace_lookups", "it needs run.line_trace (--line-trace text)");
 }
 
 void reject_unused_scene(const tb::ParameterSet& set) {

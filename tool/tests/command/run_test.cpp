@@ -245,10 +245,10 @@ const Case kRejected[] = {
      "configuration: run.pixel: the engine other does not record the history of a pixel: leave out "
      "--pixel; engines that do: made"},
     {"TraceFromWithoutTrace", "run made --trace-from 5",
-     "configuration: --trace-from: 'run.trace_from' = '5' has no effect: nothing is traced without "
+     "configuration: --trace-from: 'run.trace_from' = '5' has no effect: it needs "
      "run.trace (--trace)"},
     {"TraceToWithoutTrace", "run made --trace-to 5",
-     "configuration: --trace-to: 'run.trace_to' = '5' has no effect: nothing is traced without "
+     "configuration: --trace-to: 'run.trace_to' = '5' has no effect: it needs "
      "run.trace (--trace)"},
     {"EmptyTimeline", "run made --timeline --timeline-from 7 --timeline-to 7",
      "configuration: run.timeline_from = 7 and run.timeline_to = 7 leave no cycle: --timeline-to "
@@ -257,11 +257,11 @@ const Case kRejected[] = {
      "configuration: run.timeline_from = 7 and run.timeline_to = 100008: 100001 cycles are more "
      "than trace viewers open, at most 100000: choose a shorter range"},
     {"TimelineFromWithoutTimeline", "run made --timeline-from 5",
-     "configuration: --timeline-from: 'run.timeline_from' = '5' has no effect: there is no "
-     "timeline without run.timeline (--timeline)"},
+     "configuration: --timeline-from: 'run.timeline_from' = '5' has no effect: it needs "
+     "run.timeline (--timeline)"},
     {"TimelineToWithoutTimeline", "run made --timeline-to 5",
-     "configuration: --timeline-to: 'run.timeline_to' = '5' has no effect: there is no timeline "
-     "without run.timeline (--timeline)"},
+     "configuration: --timeline-to: 'run.timeline_to' = '5' has no effect: it needs "
+     "run.timeline (--timeline)"},
 };
 INSTANTIATE_TEST_SUITE_P(All, RejectedRun, testing::ValuesIn(kRejected), name_of_case);
 

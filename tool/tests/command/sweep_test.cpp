@@ -83,7 +83,7 @@ differs
 RESULT: PASS sweep first: 1 of 6 points done
 )");
   expect_failure("search first.yaml collect",
-                 "file: there is no plan in 'out/searches/first': run or plan it first");
+                 "file: no plan in 'out/searches/first': run or plan it first");
 }
 
 TEST_F(SweepCommand, ChangedFileIsReportedAndKeepsResults) {

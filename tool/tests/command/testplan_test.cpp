@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(All, RejectedTestplan, testing::ValuesIn(kRejected), na
 const Case kRejectedIncludes[] = {
     {"AddedFeatureNotInThePlan", "!include: ['part_*.yaml']",
      "part_made.yaml:3: 'title' is missing"},
-    {"MissingInclude", "/include: [part_none.yaml]", "t.yaml:1: there is no file 'part_none.yaml'"},
+    {"MissingInclude", "/include: [part_none.yaml]", "t.yaml:1: file 'part_none.yaml' not found"},
     {"IncludeNotAList", "/include: part_made.yaml",
      "t.yaml:1: 'include' wants a list, got a single value"},
     {"NoStimuliAnywhere", "/include: [part_other.yaml]\n-stimuli",

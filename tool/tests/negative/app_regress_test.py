@@ -71,7 +71,7 @@ class Testplans(CommandTest):
         self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
 
     def test_rejects_heading_of_changed_page(self):
-        self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
+        self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: page 'docs/units.md' not found")
         self.write("docs/unit.md", "# The units\n")
         self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': did you mean 'the-units'?")
         self.write("docs/unit.md", "Nothing.\n")
@@ -190,9 +190,9 @@ class Testplans(CommandTest):
         self.expect(2, "regress", "t.yaml", "rerun",
                     says="rerun needs --failed: 'rerun --failed' repeats the runs that failed")
         self.expect(2, "regress", "t.yaml", "--failed", says="--failed is only valid with 'rerun'")
-        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="there is no report of 't' in 'out/regressions'")
+        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="no report of 't' in 'out/regressions'")
         self.expect(5, "regress", "t.yaml", "rerun", "--failed", "--seed", "3",
-                    says="there is no report in 'out/regressions/t-3'")
+                    says="no report in 'out/regressions/t-3'")
         self.expect(0, "regress", "t.yaml", "--seed", "4")
         done = self.expect(0, "regress", "t.yaml", "rerun", "--failed")
         self.assertIn("rerun       0 of 0 runs that had failed pass now", done.stdout)
@@ -213,7 +213,7 @@ class Testplans(CommandTest):
         self.expect(5, "regress", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.write("t.yaml", HEAD)
         self.expect(5, "regress", "t.yaml", "status", "--seed", "1",
-                    says="there is no plan in 'out/regressions/t-1'")
+                    says="no plan in 'out/regressions/t-1'")
         self.expect(2, "regress", "t.yaml", "polish", says="polish")
         self.write("t.yaml", "features: [")
         self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")

@@ -160,7 +160,7 @@ class Definitions(Sweeps):
         self.reject("engine: [\n", "s.yaml:", "not valid YAML")
         self.reject("- engine\n", "expected a map, got a list")
         self.write("s.yaml", BASE + AXES)
-        self.expect(5, "sweep", "s.yaml", "status", says="there is no plan in 'out/sweeps/s'")
+        self.expect(5, "sweep", "s.yaml", "status", says="no plan in 'out/sweeps/s'")
         self.expect(2, "sweep", "s.yaml", "polish", says="polish")
 
 
@@ -200,7 +200,7 @@ class Searches(Sweeps):
 
     def test_rejects_missing_or_foreign_plan(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
-        self.expect(5, "search", "s.yaml", "status", says="there is no plan in 'out/searches/s'")
+        self.expect(5, "search", "s.yaml", "status", says="no plan in 'out/searches/s'")
         self.expect(0, "search", "s.yaml", "--runs", "8")
         self.write("s.yaml", BASE + AXES.replace("60", "70") + self.GOALS)
         self.expect(2, "search", "s.yaml", "collect", says="search again")

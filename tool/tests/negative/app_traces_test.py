@@ -129,7 +129,7 @@ class Fragments(CommandTest):
 
 class Lines(CommandTest):
     def test_rejects_options_without_effect_on_lines(self):
-        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="no trace without run.line_trace")
+        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="it needs run.line_trace")
         for more in ((), ("--show-config",)):
             self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
                         *more, says="morphological.storage = memory")

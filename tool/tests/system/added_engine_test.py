@@ -159,7 +159,7 @@ class Added(unittest.TestCase):
         shutil.copytree(os.path.join(SOURCE, "tb/testplan"), self.folder / "tb/testplan")
         for engine in engines():
             os.symlink(os.path.join(SOURCE, "tb/engines", engine), self.folder / "tb/engines" / engine)
-        self.deburr(2, "regress", "tb/testplan/smoke.yaml", "plan", says=f"there is no file 'tb/engines/{NAME}/smoke.yaml'")
+        self.deburr(2, "regress", "tb/testplan/smoke.yaml", "plan", says=f"file 'tb/engines/{NAME}/smoke.yaml' not found")
         os.symlink(FOLDER, self.folder / "tb/engines" / NAME)
         self.deburr(0, "regress", "tb/testplan/smoke.yaml", "plan", "--seed", "1")
         points = next(self.folder.rglob("points.jsonl"), None) or next(self.folder.rglob("points*"))

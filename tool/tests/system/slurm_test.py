@@ -296,7 +296,7 @@ class Slurm(OnCluster, unittest.TestCase):
         rejected("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
         rejected("sbatch rejects", "nowhere", partition="nowhere")
         begin = time.monotonic()
-        rejected("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
+        rejected("Slurm configuration '/nonexistent/slurm.conf' not found", code=5,
                 conf="/nonexistent/slurm.conf")
         self.assertLess(time.monotonic() - begin, 10, "clients hang for a minute")
 
