@@ -119,7 +119,7 @@ std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int 
   return result;
 }
 
-TEST(TextureFlicker, IsBelowThePapersInEveryMotion) {
+TEST(TextureFlicker, StaysBelowThePapersInEveryMotion) {
   const auto roll = flicker("stones", Motion::kRoll, 16),
              zoom = flicker("stones", Motion::kZoom, 8), pan = flicker("stones", Motion::kPan, 8);
   for (const std::size_t ours : {kFourCeil, kFourAny, kEightAny, kEightCeil}) {
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Photographs, TextureFlickerOnPhotographs,
                          testing::Values("brick", "grass", "gravel", "road_512"),
                          [](const auto& photo) { return std::string(photo.param); });
 
-TEST(TextureFlicker, IsZeroIfPictureFollowsItsReference) {
+TEST(TextureFlicker, VanishesIfPictureFollowsItsReference) {
   tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "gradient";

@@ -170,7 +170,7 @@ TEST_F(Life, NextRunCompletesInterruptedMove) {
   }
 }
 
-TEST_F(Life, OnlyOneRunHasTheDirectory) {
+TEST_F(Life, DirectoryBelongsToOneRun) {
   RunDirectory first(path_), second(path_);
   claim(first);
   EXPECT_THAT(text_of<spec::FileError>([&] { claim(second); }),
