@@ -177,7 +177,7 @@ void print_sweeps(const Json& comparison) {
       tb::print_wrapped(fmt::format("{}: {} points on the joint Pareto front\n",
                                     text(sweep.at("name")), tb::json_text(sweep["joint_front"])));
   std::vector<std::vector<std::string>> rows = {
-      {"", "better", "equal", "worse", "mean change", "least", "most"}};
+      {"", "better", "equal", "worse", "mean change", "smallest", "largest"}};
   for (std::size_t i = 1; i < sweeps.size(); ++i)
     for (std::size_t m = 0; m < comparison.at("metrics").size(); ++m) {
       const Json& sum = comparison.at("summary")[i - 1][m];

@@ -253,7 +253,7 @@ class ComparisonPage {
       axes += (axes.empty() ? "" : ", ") + text_of(axis);
     page_.set("axes", axes);
     HtmlTable rows(
-        "|Metric:name|Better:n|Equal:n|Worse:n|Mean change:n|Least:n|Most:n|Unit|"
+        "|Metric:name|Better:n|Equal:n|Worse:n|Mean change:n|Smallest:n|Largest:n|Unit|"
         "Meaning:muted meaning");
     const Json& metrics = comparison_.at("metrics");
     for (std::size_t i = 0; i < comparison_.at("summary").size(); ++i)

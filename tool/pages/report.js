@@ -597,7 +597,7 @@
     const name = byId('link').value, link = data.result.links[name], watched = intervals.series.links[name];
     add('link-time', 'line', [
       line('mean', css('--busy'), over(watched.occupancy, cycles)),
-      line('most', css('--warn'), watched.most)
+      line('maximum', css('--warn'), watched.most)
     ], 'beats', {suggestedMax: link.depth});
     const total = link.histogram.reduce((a, b) => a + b, 0);
     const beatTicks = roundTicks([...link.histogram.map((_, i) => i), link.histogram.length]);

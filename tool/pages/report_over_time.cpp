@@ -93,7 +93,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   page.set("intervals", table.html());
 
   HtmlTable links(
-      "Link:name|Waveform:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of cycles:n");
+      "Link:name|Waveform:name mono muted|Depth:n|Beats:n|Mean:n|Maximum:n|Full, % of cycles:n");
   const Json of_links = source.result.value("links", Json::object());
   for (const auto& [link, figures] : of_links.items())
     links.row({link, figures.value("link", ""), report_text(figures, "depth"),

@@ -80,7 +80,7 @@
   fill(byId('up'), columns, goals[1] ?? (metrics[1] ?? metrics[0]).name);
   fill(byId('colour'), columns.filter((c) => c.axis !== undefined), columns[0].name);
   byId('objectives').textContent = data.objectives.length === 0 ? '' : 'Objectives: ' +
-    data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
+    data.objectives.map((o) => `${o.maximise ? 'maximise' : 'minimise'} ${o.metric}`).join(', ') +
     (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '') +
     (limits.length > 0 ? `; limits: ${limits.join(', ')}` : '');
   // One front for each combination of the for_each axes, named by what distinguishes them.

@@ -193,9 +193,9 @@ TEST_F(SweepCommand, CompareCountsBetterAndWorsePoints) {
 A: 4 points on the joint Pareto front
 B: 1 points on the joint Pareto front
 
-          better  equal  worse  mean change    least     most
-B cycles       0      1      1      +4.17 %  +0.00 %  +8.33 %
-B rate         0      2      0      +0.00 %  +0.00 %  +0.00 %
+          better  equal  worse  mean change  smallest  largest
+B cycles       0      1      1      +4.17 %   +0.00 %  +8.33 %
+B rate         0      2      0      +0.00 %   +0.00 %  +0.00 %
 WORSE at made.lanes = 4, made.filter = wide
 REPRO: deburr compare out/sweeps/first out/sweeps/second
 RESULT: FAIL worse: cycles at 1 points of B

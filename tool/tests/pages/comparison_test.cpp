@@ -655,7 +655,7 @@ latency|100|other|200
 Points in all sweeps: 3
 Matched by bytes, ways.
 1 points are not finished in every sweep.
-Metric|Better|Equal|Worse|Mean change|Least|Most|Unit|Meaning
+Metric|Better|Equal|Worse|Mean change|Smallest|Largest|Unit|Meaning
 B|cycles|1|1|worse|1|-13.00 %|-50.00 %|+10.00 %|clk|m
 B|psnr|1|1|worse|1|-0.08 dB|-0.75 dB|+0.50 dB|dB|m
 B|lines|0|1|worse|2|+10.00 %|+0.00 %|+20.00 %|line|m

@@ -172,7 +172,7 @@ deburr run texture --size 4x3 --maps --pixel X,Y
 part|--ratio: 1.3333; --across: 100.00%; --down: 100.00%|PNG|After|After|after|After|Came out.
 part|--ratio: 1.3333; --across: 150.00%; --down: 300.00%|PNG|Map: Work|Map: Work|map_work|Map: Work
 Maps over the picture
-Map|Least|Mean|Most|Unit|Sum|Pixels|Values|Meaning
+Map|Minimum|Mean|Maximum|Unit|Sum|Pixels|Values|Meaning
 work|1|2.5|16|sample|4,000|1,004|map_work.pfm|map_work.pfm|Of each pixel.
 empty|0|0|0|u|0|0|map_empty.pfm|map_empty.pfm|None.
 Key figures
@@ -254,7 +254,7 @@ Links and FIFOs
 Number of stored beats at the end of each cycle.
 Link
 Every link
-Link|Waveform|Depth|Beats|Mean|Most|Full, % of cycles
+Link|Waveform|Depth|Beats|Mean|Maximum|Full, % of cycles
 codes|top.codes|4|9,000|1.26|3|2.6
 Memories
 1.49 Mbit of words (0.34 Mbit for frames of this width), 2.51 Mbit built, including copies for more read ports and padding of the last bank.
