@@ -513,7 +513,7 @@ Compared pictures(const PaperOptions& options) {
   return compared;
 }
 
-// ---- what the paper does not say ----------------------------------------------------------------
+// ---- beyond the paper ---------------------------------------------------------------------------
 
 PaperTable order_of_edges(const PaperOptions& options) {
   PaperTable table{

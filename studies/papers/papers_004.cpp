@@ -202,7 +202,7 @@ PaperTable figure_1() {
   return table;
 }
 
-// ---- section 3: what a synthesis gave -----------------------------------------------------------
+// ---- section 3: synthesis results ---------------------------------------------------------------
 
 // Our synthesis result, once available.
 struct Synthesis {
@@ -245,7 +245,7 @@ PaperTable synthesis(const Synthesis& ours) {
   return table;
 }
 
-// ---- what the approximations do to levels and counts --------------------------------------------
+// ---- effect of the approximations on levels and counts ------------------------------------------
 
 struct Flips {
   std::uint64_t fragments = 0, counts = 0;

@@ -22,7 +22,7 @@ constexpr std::array<SolidsName, 5> kNames = {
     {{"rods", "60 rods of one to seven pixels in any direction"},
      {"plates", "24 thin plates, one above the other"},
      {"crossing", "14 intersecting prisms"},
-     {"floor", "20 prisms that stand in a floor"},
+     {"floor", "20 prisms intersecting a floor"},
      {"far", "900 small prisms on a plain, seen from low above it"}}};
 
 double real(Random& random, double low, double high) {

@@ -127,7 +127,7 @@ void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
     if (!std::filesystem::exists(path))
       throw spec::FileError(fmt::format(
           "mesh '{}' not found: give the folder that has it with --data", path.string()));
-    // The first view matches the other tables, with a checkerboard if the mesh has no texture.
+    // The first view matches the other tables, with a checkerboard if the mesh lacks a texture.
     renderer.add(frames, path.filename().string(), views, [path](int view) {
       tb::SceneOptions plain;
       plain.plain = view != 0;

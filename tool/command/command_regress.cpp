@@ -144,7 +144,7 @@ class Regression {
       }
     }
     const std::string text = fmt::format(
-        "{}: {}; other runs have no current result, so the report is unchanged: use 'run' to "
+        "{}: {}; other runs lack a current result, so the report is unchanged: use 'run' to "
         "simulate them",
         what_, figures);
     Json failures = Json::array();
@@ -181,7 +181,8 @@ class Regression {
     return settings;
   }
 
-  // Failures group into few signatures: their waveforms are recorded here, whoever ran the points.
+  // Failures group into few signatures: their waveforms are recorded here, regardless of where the
+  // points ran.
   RegressionResult collect() const {
     RegressionResult result = collect_regression(testplan_, place_);
     const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);

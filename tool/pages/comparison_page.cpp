@@ -172,7 +172,7 @@ class ComparisonPage {
                       entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
         if (const std::string change = entry.value("change", ""); !change.empty())
           cell.add("<small>" + mustache::html_escape(change) + "</small>");
-        // A percentage of decibels has no meaning.
+        // A percentage of decibels is meaningless.
         const auto value = as_number(entry.at("value"));
         if (bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value))
           cell.add(fmt::format(R"(<div class="bar"><i style="width: {:.1f}%"></i></div>)",

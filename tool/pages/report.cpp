@@ -225,7 +225,7 @@ class ReportBuilder {
     return text;
   }
 
-  // The value under a dotted key; null if there is none.
+  // The value under a dotted key; null if absent.
   Json value_at(const std::string& key) const {
     const Json* node = &result_;
     for (std::size_t from = 0; from <= key.size();) {

@@ -45,7 +45,7 @@ class RegressionPlanner {
         const std::size_t before = points_.size();
         expand(feature, stimulus);
         if (points_.size() == before)
-          throw ConfigError(fmt::format("{}: feature '{}': stimulus '{}' has no point",
+          throw ConfigError(fmt::format("{}: feature '{}': stimulus '{}' has zero points",
                                         testplan_.file.string(), feature.id, stimulus.name));
       }
     if (points_.size() > kMostPoints)

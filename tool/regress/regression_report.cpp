@@ -106,7 +106,7 @@ Json to_json(const FailureSignature& signature, const RegressionResult& result,
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
-  // A rejected or killed run has no result.
+  // A rejected or killed run leaves no result.
   const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
   if (std::error_code error; fs::exists(result_file, error))
     json["example"]["result"] = seen_from(place, result_file);

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using SortedJson = nlohmann::json;
 
-// Null if the run has no result.
+// Null if the run lacks a result.
 SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;

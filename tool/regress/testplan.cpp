@@ -294,7 +294,7 @@ class TestplanFile {
                                    trace));
     if (std::find(anchors->begin(), anchors->end(), anchor) == anchors->end()) {
       const std::vector<std::string> near = tb::near_matches(anchor, *anchors);
-      yaml_.fail(node, fmt::format("'{}' has no heading '#{}'{}", page.string(), anchor,
+      yaml_.fail(node, fmt::format("'{}' lacks the heading '#{}'{}", page.string(), anchor,
                                    near.empty() ? ": check that the feature is still tested, and "
                                                   "name the heading that describes it now"
                                                 : tb::did_you_mean(near)));
@@ -412,8 +412,8 @@ Testplan read_testplan(const fs::path& file) {
   const auto require = [&](bool has, const Feature& feature, const char* what) {
     if (!has)
       throw spec::ConfigError(
-          fmt::format("{}: the feature '{}' has no {}, and no included file adds any",
-                      file.string(), feature.id, what));
+          fmt::format("{}: the feature '{}' lacks {}, and no included file adds any", file.string(),
+                      feature.id, what));
   };
   for (const Feature& feature : plan.features) {
     require(!feature.traces.empty(), feature, "traces");

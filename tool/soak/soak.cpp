@@ -142,7 +142,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
       if (n <= 0) open = false;
       text.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     } else {
-      // Sampled by CPU time: a child waiting for a processor makes no progress.
+      // Sampled by CPU time: a child waiting for a processor does not progress.
       if (const double worked = cpu_seconds(child); worked >= next_sample) {
         ended.resident.push_back(resident_bytes(child));
         next_sample = worked + kSamplePeriod * 1e-3;

@@ -417,7 +417,7 @@ class Reader {
                            },
                            [](const std::string&) { return std::vector<std::string>(); }});
     if (expression.names().empty())
-      fail(node, fmt::format("metric '{}': '{}' has no key of result.json", name, text));
+      fail(node, fmt::format("metric '{}': '{}' uses no key of result.json", name, text));
     expression.number(Trial());  // determines its type
     if (expression.names() != std::vector{text}) metric.expression = std::move(expression);
     return metric;
@@ -469,7 +469,7 @@ class Reader {
       if (key != "minimise" && key != "maximise" && key != "for_each")
         fail(entry.first,
              fmt::format("'objectives': unknown '{}' (known: minimise, maximise, for_each)", key));
-      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' wants a list", key));
+      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' must be a list", key));
       for (const auto& node : entry.second) {
         if (key == "for_each") {
           sweep_.front_axes.push_back(one_of(axes, node, "axis"));

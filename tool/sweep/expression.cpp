@@ -122,7 +122,7 @@ class Expression::Parser {
     return true;
   }
 
-  // A bare word has no value.
+  // A bare word is undefined.
   Term settled(const Operand& operand) const {
     if (operand.word.empty()) return operand.term;
     fail(fmt::format("'{}' is neither {} nor a number{}", operand.word, known_.name,

@@ -197,7 +197,7 @@ void PointNamer::tell(Plan& plan) const {
 PointChecker::PointChecker(const SweepDefinition& sweep, const Plan& plan)
     : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
 
-// Removes axes that have no effect on this point.
+// Removes axes without effect on this point.
 Sample PointChecker::without_idle_axes(const Sample& sample) const {
   Sample bare = sample, given = sample;
   for (std::size_t i = 0; i < sample.size(); ++i)

@@ -20,11 +20,11 @@
       reason: (p) => noValue(p, i) ?? '',
     })),
   ];
-  // JSON has no infinity: identical pictures are flagged next to their values.
+  // JSON cannot represent infinity: identical pictures are flagged next to their values.
   function valueOf(p, i) {
     return p.identical?.includes(data.metrics[i].name) ? Infinity : p.values[i];
   }
-  // Why a finished point has no value of a metric.
+  // Why a finished point lacks a metric.
   const noValue = (p, i) => p.no_value?.[data.metrics[i].name];
   const columnOf = (name) => columns.find((c) => c.name === name);
   const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;

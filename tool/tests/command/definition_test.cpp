@@ -10,7 +10,7 @@ namespace {
 
 class Definition : public PlannedPoints, public testing::WithParamInterface<Case> {
  protected:
-  // Writes s.yaml: the text, with an engine, axes and metrics added if it has none.
+  // Writes s.yaml: the text, with an engine, axes and metrics added if missing.
   Definition() {
     const std::string& text = GetParam().given;
     const auto has = [&](const char* key) { return text.find(key) != std::string::npos; };
@@ -39,7 +39,7 @@ const Case kRejected[] = {
     {"AxesNotAMap", "axes: [made.lanes]",
      "s.yaml:2: 'axes' must be a map of parameters to values, got a list"},
     {"AxisOfOneValue", "axes: {made.lanes: 3}",
-     "s.yaml:2: axis 'made.lanes' wants a list of values or {from: .., to: ..}, got a single "
+     "s.yaml:2: axis 'made.lanes' must be a list of values or {from: .., to: ..}, got a single "
      "value"},
     {"RangeWithoutEnd", "axes: {made.lanes: {from: 2}}",
      "s.yaml:2: axis 'made.lanes': a range needs 'from' and 'to'"},
@@ -108,13 +108,13 @@ const Case kRejected[] = {
      "s.yaml:4: 'objectives' must be a map of minimise and maximise, got a list"},
     {"UnknownObjective", "objectives: {minimize: [c]}",
      "s.yaml:4: 'objectives': unknown 'minimize' (known: minimise, maximise, for_each)"},
-    {"ObjectiveNotAList", "objectives: {minimise: c}", "s.yaml:4: 'minimise' wants a list"},
+    {"ObjectiveNotAList", "objectives: {minimise: c}", "s.yaml:4: 'minimise' must be a list"},
     {"ObjectiveTwice", "objectives: {minimise: [c], maximise: [c]}",
      "s.yaml:4: objective 'c' is given twice"},
-    {"ReportsNotABoolean", "reports: 3", "s.yaml:3: 'reports' = '3' wants true or false"},
+    {"ReportsNotABoolean", "reports: 3", "s.yaml:3: 'reports' = '3' must be true or false"},
     {"ChunkOfZero", "chunk: 0", "s.yaml:3: 'chunk' = '0' is outside 1..100000"},
     {"ChunkTooLarge", "chunk: 100001", "s.yaml:3: 'chunk' = '100001' is outside 1..100000"},
-    {"TitleNotText", "title: [x]", "s.yaml:3: 'title' wants a single value, got a list"},
+    {"TitleNotText", "title: [x]", "s.yaml:3: 'title' must be a single value, got a list"},
 };
 INSTANTIATE_TEST_SUITE_P(All, RejectedDefinition, testing::ValuesIn(kRejected), name_of_case);
 

@@ -52,7 +52,7 @@ const Case kMistakes[] = {
      "usage: --no-guess: removed in 0.4.0: a search always runs every generation; leave it out "
      "(see deburr search --help)"},
     {"NotAnInteger", "run made --windows x",
-     "configuration: --windows: 'run.interval_cycles' = 'x' wants an integer 0..1099511627776"},
+     "configuration: --windows: 'run.interval_cycles' = 'x' must be an integer 0..1099511627776"},
     {"PopulationNotMultipleOf4", "search first.yaml --population 10",
      "usage: --population: '10' is not a multiple of 4 in 8..4096 (see deburr search --help)"},
     {"PopulationTooLarge", "search first.yaml --population 4100",

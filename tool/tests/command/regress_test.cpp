@@ -84,7 +84,7 @@ TEST_F(RegressCommand, RerunUsesSeedOfLastReport) {
   check("first/runs/made.lanes=4/1", {{"colours", 3}});
   std::filesystem::remove_all(folder_of("second/one/base/0"));
   EXPECT_EQ(json("regress night.yaml rerun --failed --json"), Json::parse(R"({"exit_code": 0,
-      "outcome": "PASS regression night --seed 7: 1 of 1 previously failed runs pass now, 0 fail; other runs have no current result, so the report is unchanged: use 'run' to simulate them",
+      "outcome": "PASS regression night --seed 7: 1 of 1 previously failed runs pass now, 0 fail; other runs lack a current result, so the report is unchanged: use 'run' to simulate them",
       "command": "deburr regress night.yaml rerun --failed --json --seed 7",
       "counts": {"rerun": 1, "passed": 1, "failed": 0}, "failures": []})"));
   check("second/one/base/0", {{"colours", 2}, {"pixels", 5}});
@@ -169,7 +169,7 @@ TEST_F(RunRegression, RerunWithMissingRunsKeepsReport) {
       R"(failed      lanes/some/made.lanes=3/0: mismatch: 1 of 9 outputs and 0 of 0 memory accesses differ from the golden model
 failed      lanes/deadlock/base/0: deadlock: nothing moves, cycle 812
 REPRO: deburr run made --set made.lanes=3 --set run.images=false --set run.coverage=true --set run.seed=3138195282 --set run.stall_seed=2537445909
-RESULT: FAIL regression faulty --seed 5: 0 of 2 previously failed runs pass now, 2 fail; other runs have no current result, so the report is unchanged: use 'run' to simulate them
+RESULT: FAIL regression faulty --seed 5: 0 of 2 previously failed runs pass now, 2 fail; other runs lack a current result, so the report is unchanged: use 'run' to simulate them
 = 1
 )");
 }

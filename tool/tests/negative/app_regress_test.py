@@ -58,8 +58,8 @@ class Testplans(CommandTest):
 
     def test_rejects_missing_and_duplicate_keys(self):
         self.reject("title: Small\n", "t.yaml:1: 'features' is missing")
-        self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
-        self.reject("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
+        self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' must be a list, got an empty list")
+        self.reject("features: []\n", "t.yaml:1: 'features' must be a list, got an empty list")
         self.reject(HEAD.replace("    checks: {colours: 1}\n", ""),
                     "t.yaml:3: 'checks' and 'coverage' are both missing")
         self.reject(HEAD.replace("{colours: 1}", "{}"),
@@ -68,18 +68,18 @@ class Testplans(CommandTest):
         self.reject(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
                     "t.yaml:8: duplicate stimulus 'base'")
         self.reject(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
-        self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
+        self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' must consist")
 
     def test_rejects_heading_of_changed_page(self):
         self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: page 'docs/units.md' not found")
         self.write("docs/unit.md", "# The units\n")
-        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': did you mean 'the-units'?")
+        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' lacks the heading '#the-unit': did you mean 'the-units'?")
         self.write("docs/unit.md", "Nothing.\n")
-        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': check that the feature is still tested")
+        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' lacks the heading '#the-unit': check that the feature is still tested")
 
     def test_rejects_invalid_headings(self):
         for anchor in ("code", "Stalls", "stalls", "It filters."):
-            self.reject(HEAD.replace("#the-unit", "#" + anchor), f"t.yaml:5: 'docs/unit.md' has no heading '#{anchor}'")
+            self.reject(HEAD.replace("#the-unit", "#" + anchor), f"t.yaml:5: 'docs/unit.md' lacks the heading '#{anchor}'")
         for anchor in ("", "#"):
             self.reject(HEAD.replace("#the-unit", anchor), f"t.yaml:5: 'traces' = 'docs/unit.md{anchor}' names no heading")
         self.reject(HEAD.replace("docs/unit.md#the-unit", "{page: docs/unit.md, says: It filters.}"),
@@ -110,9 +110,10 @@ class Testplans(CommandTest):
         self.reject(HEAD + "coverage: ['morphological/*']\n",
                     "t.yaml:9: no bin of the plan's engines matches 'morphological/*'")
         self.reject(HEAD + "coverage: [{bins: texture/cache/hit, reason: None.}]\n",
-                    "t.yaml:9: 'coverage' wants a list of globs, got a map")
-        self.reject(HEAD + "coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
-        self.reject(HEAD + "unmet: [texture/cache/hit]\n", "t.yaml:9: 'unmet' wants maps of bins and reason, got a single value")
+                    "t.yaml:9: 'coverage' must be a list of globs, got a map")
+        self.reject(HEAD + "coverage: []\n", "t.yaml:9: 'coverage' must be a list, got an empty list")
+        self.reject(HEAD + "unmet: [texture/cache/hit]\n",
+                    "t.yaml:9: 'unmet' must be a list of maps of bins and reason, got a single value")
         self.reject(HEAD + "unmet: [{bins: texture/cache/hit}]\n", "t.yaml:9: 'reason' is missing")
         self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: ''}]\n", "t.yaml:9: 'reason' must be a text")
         self.reject(HEAD + "unmet: [{reason: None.}]\n", "t.yaml:9: 'bins' is missing")

@@ -36,7 +36,7 @@ class Definitions(Sweeps):
         self.reject(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
                     "'texture.cache.ways' = '17' is outside 1..8")
         self.reject(BASE + "axes: {texture.footprint: [half, hafl]}\n",
-                    "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
+                    "s.yaml:3: 'texture.footprint' = 'hafl' must be one of", "'half'?")
         self.reject(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
 
     def test_rejects_unknown_faults(self):
@@ -233,7 +233,7 @@ class Surroundings(Sweeps):
         def metric(text, *says):
             self.reject(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
 
-        metric("1 + 2", "metric 'it': '1 + 2' has no key of result.json")
+        metric("1 + 2", "metric 'it': '1 + 2' uses no key of result.json")
         metric("cycles +", "metric 'cycles +': unexpected end")
         metric("cycles 2", "unexpected '2'")
         metric("cycles > 2", "expected a number, got true or false")

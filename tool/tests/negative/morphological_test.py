@@ -151,7 +151,7 @@ class Frames(Base):
             self.assertEqual("looks like a picture" in done.stderr, noted)
 
     def test_rejects_depth_that_is_not_finite(self):
-        """Such a depth has no distance: silhouettes and edges would be found around it."""
+        """Such a depth is without distance: silhouettes and edges would be found around it."""
         depths = [0.25] * 256
         depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
         depth = ("--depth", self.write("nan.tif", float_tiff(16, 16, depths, channels=1)))

@@ -241,7 +241,7 @@ TEST_F(Runs, ListDifferencesFromTheFirst) {
   EXPECT_TRUE(cycles["cells"][2]["worse"]);
   const Json bits = row("figures", "memory_bits.total.physical");
   EXPECT_EQ(bits["cells"][1]["judgement"], "worse");
-  EXPECT_FALSE(bits["cells"][1]["worse"]) << "what it costs is no fault";
+  EXPECT_FALSE(bits["cells"][1]["worse"]) << "its cost is not a fault";
   EXPECT_EQ(bits["cells"][2]["judgement"], "equal");
   EXPECT_EQ(row("figures", "throughput.value")["unit"], "bilinear/clk");
   EXPECT_EQ(row("figures", "work.hits")["cells"][1]["judgement"], "") << "no direction";
@@ -691,7 +691,8 @@ TEST_F(Sweeps, IdenticalPictureIsBest) {
   EXPECT_EQ(lost["sweeps"][1]["joint_front"], 1);
   EXPECT_EQ(compared({"b", "a"})["points"][1]["judgements"][0], (Json{"worse", "better", ""}));
   const Json missing = compared({"a", "c"});
-  EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse") << "null without flag is no value";
+  EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse")
+      << "null without flag is not a value";
   EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
 }
 

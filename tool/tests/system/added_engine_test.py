@@ -184,7 +184,7 @@ class Added(unittest.TestCase):
         self.deburr(1, "run", "frame", *small, "--smoothing", NAME, "--fault", "posteriser.flip-bit", says="FAIL mismatch")
         for smoothing in (NAME, pair):
             self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")
-        # An engine that reads no marks makes no engine write them.
+        # If an engine reads no marks, no engine writes them.
         self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
         self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
         self.deburr(0, "run", "frame", "--help", says=f" or {pair}")

@@ -181,7 +181,7 @@ class PixelHistory(unittest.TestCase):
                     self.assertTrue(history["note"].startswith(note["says"]), history["note"])
                     self.assertEqual(history["differences"], 0)
 
-    # All fragments of a pixel, including hidden ones; none if there is none.
+    # All fragments of a pixel, including hidden ones; none if absent.
     def test_lists_all_fragments(self):
         run = ["--scene", "object", "--size", "64x64", "--no-images", "--set", "scene.visibility=overdraw"]
         parts = set()

@@ -553,10 +553,10 @@ class BadCalls(unittest.TestCase):
         rejected("depth: 1 of 5917 values lie outside 0..16777215, the first at (6, 4): a depth has 24 bits",
                  golden.morphological, image, depth)
         rejected("nobody", golden.morphological, image, nobody=1)
-        for name, value, words in (("preset", "mlab", "'preset' = 'mlab' wants one of mlaa, mlaa-slope, smaa"),
+        for name, value, words in (("preset", "mlab", "'preset' = 'mlab' must be one of mlaa, mlaa-slope, smaa"),
                                    ("steps", 99, "'steps' = '99' is outside 0..16"), ("steps", None, "'steps' = 'None'"),
-                                   ("steps", 1.5, "'steps' = '1.5' wants an integer 0..16"),
-                                   ("trim", "maybe", "'trim' = 'maybe' wants true or false"),
+                                   ("steps", 1.5, "'steps' = '1.5' must be an integer 0..16"),
+                                   ("trim", "maybe", "'trim' = 'maybe' must be true or false"),
                                    ("steps", image, "'steps' = '[")):
             rejected(words, golden.morphological, image, **{name: value})
         rejected("unknown parameter 'stepps'; known:", golden.morphological, image, stepps=4)
@@ -605,7 +605,7 @@ class BadCalls(unittest.TestCase):
         self.assertEqual(unit.parameters["axes"], "four", "all of them or none")
         rejected("must be a power of two", golden.TextureUnit, cache_bytes=3000)
         rejected("unknown field of a texture 'colour'; known:", unit.set_fields, 0, layout="linear", colour=1)
-        rejected("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
+        rejected("'format' = 'rgb' must be one of rgba8", unit.set_fields, format="rgb")
         rejected("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
         rejected("outside the memory of", unit.read, 1 << 30, 4)
         rejected("resize() makes it larger", unit.write, 1 << 30, numpy.zeros(4, numpy.uint8))
@@ -628,7 +628,7 @@ class BadCalls(unittest.TestCase):
         self.rejected("steps = 13 must be 12, 29 or 39", ideal.fxaa, image, steps=13)
         self.rejected("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
         self.rejected("", ideal.fxaa, image, treshold=1, error=TypeError)
-        self.rejected("'wrap_s' = 'mirror' wants one of repeat", ideal.TextureImage, image, wrap_s="mirror")
+        self.rejected("'wrap_s' = 'mirror' must be one of repeat", ideal.TextureImage, image, wrap_s="mirror")
         self.rejected("footprints: expected an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
         self.rejected("edges: ", ideal.smaa_weights, image)
         self.rejected("luma: ", ideal.smaa_edges, image)

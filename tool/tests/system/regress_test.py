@@ -368,7 +368,7 @@ class Failing(RegressTest):
         self.assertEqual([night["passed"] for night in self.collected()["trend"]], [POINTS, POINTS])
 
     def test_page_has_no_dead_links_and_no_empty_sections(self):
-        """A run that cannot read its texture has no result and no coverage."""
+        """A run that cannot read its texture leaves no result and no coverage."""
         self.write("bad.png", "no picture")
         unread = """  - id: unread
     title: A texture that cannot be read
@@ -410,7 +410,7 @@ class Failing(RegressTest):
         changed = {os.path.basename(os.path.dirname(path)) for path, inode in self.inodes().items()
                    if before.get(path) != inode}
         self.assertEqual(changed, failed)
-        # If other runs have no result, the report is the previous one, and the verdict covers only these runs.
+        # If other runs lack a result, the report is the previous one, and the verdict covers only these runs.
         os.remove(next(path for path in before if os.path.basename(os.path.dirname(path)) not in failed
                        and os.path.basename(os.path.dirname(path)) in {point[0] for point in self.points()}))
         report = self.collected()

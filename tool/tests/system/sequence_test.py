@@ -197,7 +197,7 @@ class Images(SequenceTest):
                                                  code=5))
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {width: [16, 17]}\n")
-        self.assertIn("wants a single value", self.deburr(self.ENGINE, "--config", "run.yaml", code=2))
+        self.assertIn("must be a single value", self.deburr(self.ENGINE, "--config", "run.yaml", code=2))
 
 
 class Meshes(SequenceTest):
