@@ -160,13 +160,13 @@ class Rejects(Base):
         self.train(2, f"{self.frame};{self.frame}", self.reference, says=["names 2 frames and --truth 1"])
         self.train(2, self.frame, self.write("small.png", png(48, 40)), says=["96 x 64", "48 x 40"])
         self.train(2, self.write("tiny.png", png(31, 31)), self.write("tiny2.png", png(31, 31)), says="at least 64")
-        self.train(2, self.frame, self.frame, says="is its reference within 2 codes")
+        self.train(2, self.frame, self.frame, says="equals its reference within 2 codes")
         self.nothing_written()
 
     def test_rejects_invalid_output(self):
         self.train(2, self.frame, self.reference, out="tunnel/before.png", says="is also an input")
         self.write("mine.txt", "a letter\n")
-        self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "holds no weights"])
+        self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "is not a file of weights"])
         with open(self.path("mine.txt")) as file:
             self.assertEqual(file.read(), "a letter\n")
         self.train(5, self.frame, self.reference, out="nowhere/x", says="does not exist")

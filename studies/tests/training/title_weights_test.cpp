@@ -114,7 +114,7 @@ TEST(TitleWeights, RejectUnusablePairs) {
   EXPECT_THAT(complaint({shapes(2), wide}),
               HasSubstr("'shapes1' has 96 x 96 pixels, its reference 97"));
   EXPECT_THAT(complaint({shapes(1, 31), shapes(2)}), HasSubstr("expected at least 32 x 32"));
-  EXPECT_THAT(complaint({shapes(1, 63)}), HasSubstr("has at least 64"));
+  EXPECT_THAT(complaint({shapes(1, 63)}), HasSubstr("needs at least 64"));
   TitlePair same = shapes(1);
   same.reference = same.frame;
   EXPECT_THAT(complaint({shapes(2), same}), HasSubstr("'shapes1' equals its reference"));

@@ -59,7 +59,7 @@ const Case kRejected[] = {
     {"RangeTooLong", "axes: {run.max_cycles: {from: 0, to: 2000000}}",
      "s.yaml:2: axis 'run.max_cycles' has 2000001 values: give 'step' or 'times'"},
     {"ChoicesOfOtherParameters", "axes: {a: {x: {made.lanes: 2}, y: {made.depth: 4}}}",
-     "s.yaml:2: axis 'a': 'y' gives made.depth, the first one made.lanes"},
+     "s.yaml:2: axis 'a': 'y' sets made.depth, the first entry sets made.lanes"},
     {"ChoiceNotAMap", "axes: {a: {x: {made.lanes: 2}, y: 3}}",
      "s.yaml:2: axis 'a': 'y' must be a map of parameters to values, like the other entries"},
     {"EmptyChoice", "axes: {a: {x: {}}}",
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(All, RejectedDefinition, testing::ValuesIn(kRejected), 
 class AcceptedDefinition : public Definition {};
 TEST_P(AcceptedDefinition, PlanHasExpectedNumberOfPoints) {
   EXPECT_EQ(result("sweep s.yaml plan"),
-            "PASS sweep s: " + GetParam().expected + ", 0 of them done; out/sweeps/s");
+            "PASS sweep s: " + GetParam().expected + ", 0 already done; out/sweeps/s");
 }
 
 const Case kAccepted[] = {

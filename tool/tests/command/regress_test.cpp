@@ -29,7 +29,7 @@ class RegressCommand : public PlannedPoints {
     write("docs/unit.md", "# Unit\n\nIt is so.\n");
     write("night.yaml", kNight);
     EXPECT_EQ(result("regress night.yaml plan --seed 7"),
-              "PASS regression night --seed 7: 5 points over 5 inputs, 0 of them done; "
+              "PASS regression night --seed 7: 5 points over 5 inputs, 0 already done; "
               "out/regressions/night-7");
     name_points("out/regressions/night-7");
   }

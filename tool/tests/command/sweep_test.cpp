@@ -64,9 +64,9 @@ class SweepCommand : public PlannedPoints {
 // ---- plan and status ----------------------------------------------------------------------------
 
 TEST_F(SweepCommand, PlanListsExcludedPointsAndCountsFinishedOnes) {
-  EXPECT_EQ(first_plan_, kLeftOut + kPlan + "0 of them done; out/sweeps/first\n");
+  EXPECT_EQ(first_plan_, kLeftOut + kPlan + "0 already done; out/sweeps/first\n");
   keep("2 near", 100, 1, 50);
-  EXPECT_EQ(printed("sweep first.yaml plan --quiet"), kPlan + "1 of them done; out/sweeps/first\n");
+  EXPECT_EQ(printed("sweep first.yaml plan --quiet"), kPlan + "1 already done; out/sweeps/first\n");
   EXPECT_THAT(printed("sweep first.yaml plan --json"), EndsWith("\n}\n! " + kLeftOut));
 }
 

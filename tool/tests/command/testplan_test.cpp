@@ -155,7 +155,7 @@ TEST_P(AcceptedTestplan, PlanHasExpectedNumberOfRuns) {
   write("t.yaml", patched(GetParam().given));
   EXPECT_EQ(result("regress t.yaml plan --seed 3"),
             "PASS regression t --seed 3: " + GetParam().expected +
-                ", 0 of them done; out/regressions/t-3");
+                ", 0 already done; out/regressions/t-3");
 }
 
 const Case kAccepted[] = {
@@ -189,7 +189,7 @@ TEST_F(TestplanParts, DividedPlanHasFewerSeedsAndItsOwnFolder) {
   // One seed in two is one seed.
   write("t.yaml", patched("stimuli: [{name: runs, engine: made, axes: {made.lanes: [2, 4]}}]"));
   EXPECT_EQ(result("regress t.yaml plan --seed 3 --divide 2"),
-            "PASS regression t-of-2 --seed 3: 2 points over 2 inputs, 0 of them done; "
+            "PASS regression t-of-2 --seed 3: 2 points over 2 inputs, 0 already done; "
             "out/regressions/t-of-2-3");
   EXPECT_EQ(result("regress t.yaml collect --seed 3 --divide 2"),
             "FAIL regression t-of-2 --seed 3: 2 points, 0 passed, 0 failed in 0 signatures, 2 "

@@ -44,7 +44,7 @@ class Testplans(CommandTest):
     def test_valid_plan_is_accepted(self):
         self.write("t.yaml", HEAD)
         self.expect(0, "regress", "t.yaml", "plan", "--seed", "1",
-                    says="PASS regression t --seed 1: 1 point over 1 input, 0 of them done")
+                    says="PASS regression t --seed 1: 1 point over 1 input, 0 already done")
 
     def test_rejects_unknown_names(self):
         self.reject(HEAD.replace("checks:", "check:"),
@@ -196,7 +196,7 @@ class Testplans(CommandTest):
                     says="no report in 'out/regressions/t-3'")
         self.expect(0, "regress", "t.yaml", "--seed", "4")
         done = self.expect(0, "regress", "t.yaml", "rerun", "--failed")
-        self.assertIn("rerun       0 of 0 runs that had failed pass now", done.stdout)
+        self.assertIn("rerun       0 of 0 previously failed runs pass now", done.stdout)
         self.assertIn("RESULT: PASS regression t --seed 4: ", done.stdout)
         self.write("out/regressions/t-4/collected.json", "{}")
         self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="is not a report of this version")

@@ -242,7 +242,7 @@ class Papers(Survival):
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 130, out + err)
-        self.assertIn("nothing was finished", out)
+        self.assertIn("no paper was finished", out)
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_interrupted_after_first_result_keeps_it(self):

@@ -123,7 +123,7 @@ class Configuration(Base):
         self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
         self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):
-            self.rejected(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
+            self.rejected(["combine", "no effect", "outermost equals max"], "geometric.combine=outermost",
                          f"geometric.depth_test={test}")
         self.rejected(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
         self.rejected(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
