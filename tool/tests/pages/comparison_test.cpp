@@ -513,7 +513,7 @@ TEST_F(Runs, RejectsIncompleteRuns) {
   };
   rejected("none", "does not exist");
   put("empty/x", "");
-  rejected("empty", "name the directory of a run");
+  rejected("empty", "name the directory of a complete run");
   put("running/.deburr_run/claim.json", "{}");
   rejected("running", "is not finished or was killed");
   put("point/failure.json", "{}");

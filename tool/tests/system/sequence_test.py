@@ -257,7 +257,7 @@ class Meshes(SequenceTest):
         self.write_box("m0.obj", 0)
         self.write_box("m1.obj", 1)
         self.result("texture", "first", "--in", "m0.obj", *self.SIZE, "--fragment-trace", "text")
-        self.assertIn("those of one frame", self.deburr("texture", "--in", "m?.obj", "--fragments",
+        self.assertIn("the fragments of one frame", self.deburr("texture", "--in", "m?.obj", "--fragments",
                                                         "first/fragments.trace", "--out", "rejected", code=2))
 
 
