@@ -88,9 +88,8 @@ Mesh mesh_of(const py::object& vertices, const py::object& edges, const py::obje
 golden::geometric::Bases bases_of(const py::object& given) {
   golden::geometric::Bases bases;
   if (given.is_none()) return bases;
-  golden::c::require(
-      py::isinstance<py::dict>(given),
-      "bases: expected a dictionary of addresses, got " + described(given));
+  golden::c::require(py::isinstance<py::dict>(given),
+                     "bases: expected a dictionary of addresses, got " + described(given));
   const struct {
     const char* name;
     std::uint32_t* base;

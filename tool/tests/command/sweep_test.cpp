@@ -272,10 +272,10 @@ done        1
 running     0
 failed      5
 queued      0
-failed      out/points/<2 1.5>: configuration: a gain of 1.5 is none
+failed      out/points/<2 1.5>: configuration: a gain of 1.5 is invalid
 failed      out/points/<2 2>: deadlock: nothing moves, cycle 812
 failed      out/points/<3 0.5>: mismatch: 1 of 9 outputs and 0 of 0 memory accesses differ from the golden model
-failed      out/points/<3 1.5>: configuration: a gain of 1.5 is none
+failed      out/points/<3 1.5>: configuration: a gain of 1.5 is invalid
 failed      out/points/<3 2>: deadlock: nothing moves, cycle 812
 RESULT: PASS sweep real: 1 of 6 points done
 )");
