@@ -65,7 +65,7 @@ class Sources:
     def below(self, top):
         """The names of a module and of all modules that it instantiates."""
         if top not in self.text:
-            raise Problem(f"there is no module {top} in hdl/")
+            raise Problem(f"no module {top} in hdl/")
         names, found = [top], []
         while names:
             name = names.pop()

@@ -260,7 +260,7 @@ class Synthesise(unittest.TestCase):
         said("no *.sv in", 2, "--hdl", str(self.root / "out"))
         said("above 0", 2, "--seconds", "0")
         for line, words in (("VBoth", "other:1: expected NAME TOP"), ("VBoth both ways", "expected NAME TOP"),
-                            ("VBoth absent ways=1", "there is no module absent"), ("# none", "no configuration")):
+                            ("VBoth absent ways=1", "no module absent"), ("# none", "no configuration")):
             self.write("other", line + "\n")
             said(words, 2, "--configurations", str(self.root / "other"))
         self.changed("hdl/texture/both.sv", ".sum(sum[7:0]))", ".summ(sum[7:0]))")

@@ -631,7 +631,7 @@ TEST_F(Page, OmitsHistogramOfOneValue) {
   r.latency = {47366, 47366, 47366, 47366, 47366, {{47366, 1000}}};
   const std::string page = page_of(r);
   EXPECT_THAT(page, Not(HasSubstr("id=\"latency\"")));
-  EXPECT_THAT(page, HasSubstr("47,366 clk, every one"));
+  EXPECT_THAT(page, HasSubstr("47,366 clk for every transaction"));
 }
 
 TEST_F(Page, InterruptedRunShowsComparedPart) {
