@@ -183,14 +183,14 @@ void YamlFile::require_keys(const YAML::Node& map, const std::vector<std::string
 
 std::string YamlFile::scalar(const YAML::Node& node, std::string_view what) const {
   if (!node.IsScalar())
-    fail(node, fmt::format("'{}' wants a single value, got {}", what, kind(node)));
+    fail(node, fmt::format("'{}' must be a single value, got {}", what, kind(node)));
   return node.Scalar();
 }
 
 bool YamlFile::boolean(const YAML::Node& node, std::string_view what) const {
   const std::string text = scalar(node, what);
   if (text != "true" && text != "false")
-    fail(node, fmt::format("'{}' = '{}' wants true or false", what, text));
+    fail(node, fmt::format("'{}' = '{}' must be true or false", what, text));
   return text == "true";
 }
 

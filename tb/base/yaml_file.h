@@ -57,7 +57,7 @@ class YamlFile {
       read = std::from_chars(text.data(), last, value);
     }
     if (read.ec != std::errc() || read.ptr != last)
-      fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
+      fail(node, fmt::format("'{}' = '{}' must be a number", what, text));
     return value;
   }
   // Range 1..most.

@@ -152,7 +152,7 @@ class YamlLoader {
         continue;
       }
       if (!entry.second.IsScalar())
-        yaml_.fail(entry.first, fmt::format("'{}' wants a single value, got {}", name,
+        yaml_.fail(entry.first, fmt::format("'{}' must be a single value, got {}", name,
                                             YamlFile::kind(entry.second)));
       set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
     }
@@ -211,7 +211,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("must be an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -227,7 +227,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("must be an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = static_cast<std::int32_t>(parsed);
         return "";
@@ -243,7 +243,7 @@ void ParameterSet::Binder::real(std::string_view name, double& value, double min
       [&value, min, max](std::string_view text) -> std::string {
         double parsed = 0;
         if (!parse_number(text, parsed) || !std::isfinite(parsed))
-          return fmt::format("wants a number {}..{}", min, max);
+          return fmt::format("must be a number {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -271,7 +271,7 @@ void ParameterSet::Binder::boolean(std::string_view name, bool& value, std::stri
         else if (text == "false" || text == "off" || text == "no")
           value = false;
         else
-          return "wants true or false";
+          return "must be true or false";
         return "";
       });
 }
@@ -288,7 +288,7 @@ void ParameterSet::Binder::add_choice(std::string_view name,
       [names, set](std::string_view text) -> std::string {
         const auto found = std::find(names.begin(), names.end(), text);
         if (found == names.end())
-          return fmt::format("wants one of {}{}", join(names, ", "),
+          return fmt::format("must be one of {}{}", join(names, ", "),
                              did_you_mean(tb::near_matches(text, {names.begin(), names.end()})));
         set(static_cast<std::size_t>(found - names.begin()));
         return "";

@@ -148,7 +148,7 @@ class CompositionRole {
   // Prefixes of these names.
   virtual std::vector<std::string> prefixes() const = 0;
   virtual void apply_preset(tb::ParameterSet& set) = 0;
-  // Called after every preset: rejects settings that have no effect or are invalid.
+  // Called after every preset: rejects invalid settings and those without effect.
   virtual void resolve(tb::ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }

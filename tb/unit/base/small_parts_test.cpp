@@ -247,13 +247,13 @@ TEST_F(Files, YamlNodesReturnTypedValues) {
            {[&] { yaml.count(root["zero"], "z", 9); }, "f.yaml:8: 'z' = '0' is outside 1..9"},
            {[&] { yaml.count(root["list"][1], "n", 9); }, "f.yaml:2: 'n' = '-2' is outside 1..9"},
            {[&] { yaml.number<std::int64_t>(root["list"][2], "n"); },
-            "f.yaml:2: 'n' = '1e3' wants a number"},
+            "f.yaml:2: 'n' = '1e3' must be a number"},
            {[&] { yaml.number<double>(root["list"][3], "n"); },
-            "f.yaml:2: 'n' = 'x' wants a number"},
+            "f.yaml:2: 'n' = 'x' must be a number"},
            {[&] { yaml.boolean(root["map"]["c"], "c"); },
-            "f.yaml:3: 'c' = 'False' wants true or false"},
+            "f.yaml:3: 'c' = 'False' must be true or false"},
            {[&] { yaml.scalar(root["map"], "m"); },
-            "f.yaml:3: 'm' wants a single value, got a map"},
+            "f.yaml:3: 'm' must be a single value, got a map"},
            {[&] { yaml.require_keys(root["list"], keys); }, "f.yaml:2: expected a map, got a list"},
            {[&] {
               yaml.require_keys(root["map"], {"b", "d"});

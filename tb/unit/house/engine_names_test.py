@@ -66,7 +66,7 @@ NAMED = {
             "tb/scene/reference.h"],
         "papers that describe its methods": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
         "images that measure and train its blend weights": [
-            "scripts/train-shares", "tb/stimuli/line_fans.cpp",
+            "scripts/train-weights", "tb/stimuli/line_fans.cpp",
             "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/weight_file.cpp",
             "tb/stimuli/weight_file.h", "studies/training/weight_samples.cpp", "studies/training/weight_samples.h",
             "studies/training/weight_trainer.cpp", "studies/training/weight_trainer.h", "studies/training/title_weights.cpp",

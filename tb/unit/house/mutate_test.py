@@ -41,7 +41,7 @@ class Mutate(unittest.TestCase):
 
         survivors, text = mutate("--all", "--work", work / "first")
         self.assertIn("| `all` | 9 | 3 | 3 | 0 | 50.0 (50.0 to 50.0) |", text)
-        self.assertIn("3 mutants have no switch, or no test meets them", text)
+        self.assertIn("3 mutants without a switch or without a test that reaches them", text)
         results = (work / "first/results.jsonl").read_text(encoding="utf-8")
         self.assertEqual(mutate("--all", "--work", work / "first"), (survivors, text))
         self.assertEqual((work / "first/results.jsonl").read_text(encoding="utf-8").strip(), results.strip(), "resumed")

@@ -106,13 +106,13 @@ TEST_F(Parameters, ErrorNamesOriginValueAndRange) {
   };
   for (const Case& c : {Case{"unit.cache.ways", "17", "is outside 1..16"},
                         Case{"unit.cache.ways", "0", "is outside 1..16"},
-                        Case{"unit.cache.ways", "4.5", "wants an integer"},
-                        Case{"unit.cache.ways", "", "wants an integer"},
-                        Case{"unit.cache.ways", "99999999999999999999", "wants an integer"},
+                        Case{"unit.cache.ways", "4.5", "must be an integer"},
+                        Case{"unit.cache.ways", "", "must be an integer"},
+                        Case{"unit.cache.ways", "99999999999999999999", "must be an integer"},
                         Case{"unit.colour", "gren", "did you mean 'green'?"},
-                        Case{"unit.shuffle", "maybe", "wants true or false"},
+                        Case{"unit.shuffle", "maybe", "must be true or false"},
                         Case{"unit.stalls", "1", "is outside 0..0.9"},
-                        Case{"unit.stalls", "nan", "wants a number"}}) {
+                        Case{"unit.stalls", "nan", "must be a number"}}) {
     const std::string text = complaint([&] { set_.set(c.name, c.value, "--set"); });
     EXPECT_THAT(text, StartsWith("--set: "));
     EXPECT_THAT(text, HasSubstr(c.name));
@@ -131,7 +131,7 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
   for (const char* value :
        {"0x", "0x-1", "-0x1", "0X10", "0x1g", "1f", "0x 1", "0xffffffffffffffffff"})
     EXPECT_THAT(complaint([&] { set_.set("unit.cycles", value, "--set"); }),
-                HasSubstr("wants an integer"))
+                HasSubstr("must be an integer"))
         << value;
   EXPECT_THAT(complaint([&] { set_.set("unit.cache.ways", "0x11", "--set"); }),
               HasSubstr("is outside 1..16"));
@@ -139,7 +139,7 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
 
 TEST_F(Parameters, AcceptsSynonymsOfValues) {
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "scarlet", "test"); }),
-              HasSubstr("wants one of"));
+              HasSubstr("must be one of"));
   set_.alias("unit.colour", "scarlet", "red");
   set_.set("unit.colour", "scarlet", "test");
   EXPECT_EQ(values_.colour, Colour::kRed);
@@ -147,7 +147,7 @@ TEST_F(Parameters, AcceptsSynonymsOfValues) {
   set_.set("unit.colour", "green", "test");
   EXPECT_EQ(values_.colour, Colour::kGreen);
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "carlet", "test"); }),
-              testing::AllOf(HasSubstr("wants one of"), EndsWith("; scarlet is red")));
+              testing::AllOf(HasSubstr("must be one of"), EndsWith("; scarlet is red")));
 }
 
 TEST_F(Parameters, UnknownNamesShowNearMatches) {
@@ -273,7 +273,7 @@ TEST_F(Parameters, SwitchHasThreeWordsPerPosition) {
   }
   for (const char* word : {"True", "1", "0", "", "yes "})
     EXPECT_THAT(complaint([&] { set_.set("unit.shuffle", word, "test"); }),
-                HasSubstr("wants true or false"));
+                HasSubstr("must be true or false"));
 }
 
 // The whole resolved configuration of a run, as text and typed.

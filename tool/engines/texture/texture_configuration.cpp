@@ -52,8 +52,7 @@ void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
 
 void reject_unused_lookups(const tb::ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
-    set.reject("run.line_trace_lookups",
-               "there is no trace without run.line_trace (--line-trace text)");
+    set.reject("run.line_trace_lookups", "it needs run.line_trace (--line-trace text)");
 }
 
 void reject_unused_scene(const tb::ParameterSet& set) {
@@ -63,7 +62,7 @@ void reject_unused_scene(const tb::ParameterSet& set) {
     set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.reference")->text() == "true")
     throw spec::ConfigError(
-        "run.reference: the scene of a file's fragments is unknown: leave it out");
+        "run.reference: fragments from a file have no known scene to compare with: leave it out");
 }
 
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {

@@ -98,10 +98,10 @@ class TextureRole final : public PictureDrawer {
             "Texturing",
             "bilinears",
             "work.texture_bilinears",
-            "the texture unit's bilinears, one a clock"};
+            "the texture unit's bilinears, one per cycle"};
   }
   std::string_view caption() const override {
-    return "textured: what the texture unit left in the frame buffer";
+    return "textured: the frame buffer after the texture unit";
   }
 
   void add_scene(tb::ParameterSet& set) override {

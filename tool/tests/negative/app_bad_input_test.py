@@ -250,7 +250,8 @@ class Configuration(CommandTest):
         self.assertEqual(again["configuration"]["texture.cache.ways"], 2)
         self.expect(2, "run", "frame", *config, "--out", self.path("out"),
                     says="first/manifest.json:4: this manifest belongs to a run of 'texture', not of 'frame'")
-        self.expect(2, "run", "texture", *config, "--out", self.path("first"), says="its results would replace it")
+        self.expect(2, "run", "texture", *config, "--out", self.path("first"),
+                    says="the results would overwrite the input")
 
     def test_manifest_of_other_defaults_is_applied(self):
         self.run_texture(0)
@@ -325,8 +326,8 @@ class Configuration(CommandTest):
                     says=["'--colour'", "deburr run texture --help"])
         self.expect(2, "run", "nothing", says=["deburr run nothing", ", ".join(engines())])
         self.expect(2, "frobnicate", says=["deburr frobnicate", "compare"])
-        self.expect(2, says=["deburr what?", "compare"])
-        self.expect(2, "run", says=["deburr run what?", "morphological"])
+        self.expect(2, says=["deburr: missing command", "compare"])
+        self.expect(2, "run", says=["deburr run: missing command", "morphological"])
 
     def test_typing_errors_are_corrected(self):
         self.expect(2, "run", "morphlogical", "--size", "8x8", says="did you mean 'morphological'?")
@@ -356,7 +357,7 @@ class Configuration(CommandTest):
 
     def test_unknown_paper_lists_known_ones(self):
         for option in ((), ("--only",)):
-            self.expect(2, "papers", *option, "999", says="no paper '999' here: known are 000")
+            self.expect(2, "papers", *option, "999", says="unknown paper '999' (known: 000")
 
     def test_trace_pattern_without_match_is_rejected(self):
         self.run_texture(2, "--trace", "texture.nothing*",
@@ -591,7 +592,7 @@ class StandardOutput(CommandTest):
             done = subprocess.run([DEBURR, "run", "texture", "--size", "16x16", "--out", b"q\xff", *more],
                                   cwd=self.directory, capture_output=True, check=False)
             self.assertEqual(done.returncode, 2)
-            self.assertIn(b"word 6 of the command line is not UTF-8", done.stderr)
+            self.assertIn(b"argument 6 is not valid UTF-8", done.stderr)
             if more:
                 self.assertEqual(json.loads(done.stdout)["exit_code"], 2)
         self.assertEqual(os.listdir(self.directory), [])

@@ -64,7 +64,7 @@ class Images(CommandTest):
                    "axes: {memory.latency: [1, 9, 50, 200], texture.cache.ways: [1, 2, 4]}\n"
                    "objectives: {minimise: [cycles, memory_bits]}\n")
         self.expect(5, "search", "s.yaml", "--population", "8", "--out", self.path("found"), program=program,
-                    says=("libdeburr_evolution.so", "beside the program", "libpagmo-dev", "scripts/demo --complete"))
+                    says=("libdeburr_evolution.so", "next to the program", "libpagmo-dev", "scripts/demo --complete"))
         self.assertFalse(os.path.exists(self.path("found/points")))
         self.expect(5, "papers", "--quick", "--out", self.path("papers"), program=program,
                     says=("deburr_papers", "No such file", "scripts/demo --complete"))

@@ -98,9 +98,9 @@ class Fragments(CommandTest):
                 self.rejected(content, *says)
 
     def test_rejects_trace_without_samples(self):
-        self.rejected(TITLE + "end 0\n", "covers no fragment", code=2)
+        self.rejected(TITLE + "end 0\n", "has no covered fragment", code=2)
         self.rejected(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
-                     "covers no fragment in 1 quads", code=2)
+                     "has no covered fragment in 1 quads", code=2)
 
     def test_rejects_missing_file_and_folder(self):
         for name, says in (("missing", "no such file"), (".", "not a regular file")):
@@ -120,15 +120,16 @@ class Fragments(CommandTest):
         self.run_texture(0, "--fragment-trace", "text")
         before = open(self.path("out/fragments.trace"), "rb").read()
         self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--fragment-trace", "text",
-                    "--out", "out", says="would replace it")
+                    "--out", "out", says="would overwrite the input")
         # Nor is it removed with the results of the run that made it.
-        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out", says="would replace it")
+        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out",
+                    says="would overwrite the input")
         self.assertEqual(open(self.path("out/fragments.trace"), "rb").read(), before)
 
 
 class Lines(CommandTest):
     def test_rejects_options_without_effect_on_lines(self):
-        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="no trace without run.line_trace")
+        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="it needs run.line_trace")
         for more in ((), ("--show-config",)):
             self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
                         *more, says="morphological.storage = memory")

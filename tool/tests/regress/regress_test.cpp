@@ -197,7 +197,7 @@ TEST(Trend, ReportsSlowdownFromOneFifth) {
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
   after.cycles = 4'790'000;
   EXPECT_THAT(falls_between(before, after),
-              ElementsAre("speed from 100 to 80 thousand cycles a second"));
+              ElementsAre("speed from 100 to 80 thousand cycles per second"));
   after.seconds = 59.9;  // too short
   after.cycles = 1'000;
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
@@ -237,7 +237,7 @@ TEST(Trend, ReadsBackWrittenTrend) {
   EXPECT_EQ(trend_text(read_trend(file)), text);
   tb::write_file_atomically(file, text + "{}\n");
   EXPECT_THAT([&] { read_trend(file); },
-              testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is no night")));
+              testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is not an entry")));
 }
 
 TEST(Junit, CountsAndEscapes) {

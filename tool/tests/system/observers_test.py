@@ -301,7 +301,7 @@ class Timeline(unittest.TestCase):
                                     (("--timeline", "--timeline-to", "100001"), "at most 100000"),
                                     (("--timeline", "--timeline-from", "9000000", "--timeline-to", "9000001"),
                                      "the timeline is empty"),
-                                    (("--timeline-from", "1"), "no timeline without")):
+                                    (("--timeline-from", "1"), "it needs run.timeline")):
                 self.assertIn(says, run(out, *ENGINES["texture"], *arguments, code=2))
 
 

@@ -298,7 +298,7 @@ TEST(Errors, TextIsKeptAndTruncatedToBuffer) {
   const int status = deburr_set(handle.get(), "axes", "three");
   EXPECT_EQ(status, DEBURR_ARGUMENT);
   const std::string whole = error_of(handle.get(), status);
-  EXPECT_EQ(whole, "deburr_set: 'axes' = 'three' wants one of two, four, eight");
+  EXPECT_EQ(whole, "deburr_set: 'axes' = 'three' must be one of two, four, eight");
   expect_ok(handle, deburr_check(handle.get()));
   EXPECT_EQ(error_of(handle.get(), status), whole);
   EXPECT_EQ(error_of(handle.get(), DEBURR_OK), "");
