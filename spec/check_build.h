@@ -23,7 +23,7 @@
 
 namespace deburr::spec {
 
-inline constexpr std::size_t kMostRuleNames = 3;
+inline constexpr std::size_t kMostRuleNames = 6;
 
 template <class Parameters>
 struct BuildRule {
