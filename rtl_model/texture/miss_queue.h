@@ -11,6 +11,7 @@
 // Source    Igehy et al., 1998.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <systemc>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fill_buffer.h"
@@ -43,6 +45,17 @@ class MissQueue final : public Unit {
   Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
   Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
   Counter max_waiting{"max_waiting", "lines", "largest number of lines waiting to be requested"};
+
+  // Configured number of entries; for 0 those that cover the latency of memory.
+  static constexpr std::int32_t entries(const spec::texture::Build& build,
+                                        const MemoryCycles& memory) {
+    if (build.cache_outstanding != 0) return build.cache_outstanding;
+    constexpr std::int32_t kInHundredCycles = 32, kMultiple = 4, kLeast = 8;
+    const std::int32_t entries =
+        (kInHundredCycles * build.width * memory.latency + 100 * kMultiple - 1) /
+        (100 * kMultiple) * kMultiple;
+    return std::clamp(entries, kLeast, spec::texture::kMostOutstanding);
+  }
 
   static Datasheet datasheet();
 

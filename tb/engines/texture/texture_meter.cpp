@@ -38,7 +38,7 @@ void TextureMeter::collect(Result& result) const {
 }
 
 void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
-  const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
+  const rtl::texture::TagUnit& tags = unit_.cache.tag_stage;
   const std::uint64_t lookups = tags.hits.value() + tags.merged.value() + tags.misses.value();
   const auto of_lookups = [&](const rtl::Counter& count) {
     return 100 * ratio(count.value(), lookups);

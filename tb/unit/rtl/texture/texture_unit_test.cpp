@@ -373,7 +373,7 @@ TEST(TextureRtlUnit, DefaultLatencyFifoFitsTheMemory) {
   const rtl::texture::TextureUnit plain("plain", clock, {}), slow("slow", clock, {}, {300, 4}),
       slowest("slowest", clock, {}, {4090, 1}), as_ordered("as_ordered", clock, ordered, {300, 4});
   const auto depth = [](const rtl::texture::TextureUnit& unit) {
-    const std::uint64_t built = unit.cache.latency_fifo.entries.words();
+    const std::uint64_t built = unit.cache.narrow->latency_fifo.entries.words();
     EXPECT_EQ(static_cast<std::uint64_t>(unit.parameters().cache_fifo_depth), built);
     return built;
   };
