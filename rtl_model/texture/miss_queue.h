@@ -50,10 +50,11 @@ class MissQueue final : public Unit {
   static constexpr std::int32_t entries(const spec::texture::Build& build,
                                         const MemoryCycles& memory) {
     if (build.cache_outstanding != 0) return build.cache_outstanding;
-    constexpr std::int32_t kInHundredCycles = 32, kMultiple = 4, kLeast = 8;
+    // A fill takes 12 cycles outside of memory; 32 entries per request and 112 cycles.
+    constexpr std::int32_t kEntries = 32, kOutside = 12, kCycles = 112, kMultiple = 4, kLeast = 8;
     const std::int32_t entries =
-        (kInHundredCycles * build.width * memory.latency + 100 * kMultiple - 1) /
-        (100 * kMultiple) * kMultiple;
+        (kEntries * build.width * (memory.latency + kOutside) + kCycles * kMultiple - 1) /
+        (kCycles * kMultiple) * kMultiple;
     return std::clamp(entries, kLeast, spec::texture::kMostOutstanding);
   }
 
