@@ -38,9 +38,14 @@ std::int32_t transfer_of(const Parameters& p, const MemoryTiming& memory) {
   return (p.cache_line_bytes + memory.bytes_per_cycle - 1) / memory.bytes_per_cycle;
 }
 
+// The same, rounded down, as the depth of the FIFO counts it.
+std::int32_t whole_transfer(const Parameters& p, const MemoryTiming& memory) {
+  return memory.bytes_per_cycle == 0 ? 1 : std::max(1, p.cache_line_bytes / memory.bytes_per_cycle);
+}
+
 Parameters resolved(Parameters p, const MemoryTiming& memory) {
   if (p.cache_fifo_depth == 0) {
-    p.cache_fifo_depth = memory.latency + 4 * std::max(1, transfer_of(p, memory)) + 3;
+    p.cache_fifo_depth = memory.latency + 4 * whole_transfer(p, memory) + 3;
     if (p.width > 1) p.cache_fifo_depth += 16;
   }
   if (p.cache_outstanding == 0) {
