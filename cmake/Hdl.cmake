@@ -62,7 +62,7 @@ function(deburr_hdl_model class)
   set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_LIBRARIES deburr_${class})
   set_property(TARGET deburr_${class} PROPERTY DEBURR_HDL_TOP ${ARG_TOP})
   if(NOT ARG_FAULT)
-    set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_TWINS ${class})
+    set_property(GLOBAL APPEND PROPERTY DEBURR_HDL_COUNTERPARTS ${class})
   endif()
 endfunction()
 

@@ -40,7 +40,7 @@ def entries(sources, tests):
     # A compiler may name a source by any path that ends so.
     known = {name: next((s for s in sources if f"/{file}".endswith("/" + s["source"])), None)
              for name, file in tests}
-    wrong += [f"{name} stands in no source of the list" for name, source in known.items() if not source]
+    wrong += [f"{name} is in no source of the list" for name, source in known.items() if not source]
     for source in sources:
         own = [name for name in known if known[name] is source]
         if not own:

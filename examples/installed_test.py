@@ -23,7 +23,7 @@ PREFIX = BUILD / "examples/prefix"
 INCLUDE = PREFIX / "include/deburr"
 EXAMPLES = PREFIX / "share/deburr/examples"
 PYTHON = PREFIX / "lib/python3/dist-packages"
-# Paths only: whether a file is installed is what the tests check.
+# Only paths: the tests check whether a file is installed.
 PYTHON_BUILT = any((BUILD / "python").rglob("_golden*.so"))
 # The minimum that a user's shell has; nothing of Deburr.
 EMPTY = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "LC_ALL": "C.UTF-8"}
@@ -101,7 +101,7 @@ def block_of(page, word):
 
 
 def not_printed(block, said):
-    """Lines of a page that a program has not printed; ... stands for any text."""
+    """Lines of a page that a program did not print; ... matches any text."""
     lines = [" ".join(line.split()) for line in said.splitlines()]
     wanted = [" ".join(line.split()) for line in block.splitlines()]
     return [line for line in wanted
@@ -117,7 +117,7 @@ class Scratch(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def as_on_the_page(self, commands, code=0):
-        """Output for a reader of a page who has installed into ~/deburr and has nothing else of Deburr."""
+        """Output of a page's commands with only an installation in ~/deburr."""
         home = self.folder / "home"
         home.mkdir(exist_ok=True)
         if not (home / "deburr").exists():
@@ -291,7 +291,7 @@ int sc_main(int, char**) {
   host.bus.bind(unit.registers);
   unit.memory()->bind(memory.ports);
   deburr::rtl::Link<deburr::spec::texture::Quad> quads("quads");
-  deburr::rtl::Link<deburr::spec::texture::Colour> colours("colours");
+  deburr::rtl::Link<deburr::spec::texture::ColourGroup> colours("colours");
   unit.quads_in(quads);
   unit.colours_out(colours);
   clock.run(10);

@@ -8,7 +8,7 @@ namespace platform {
 
 namespace {
 
-// What software writes into the registers of texture 0.
+// The register values that software writes for texture 0.
 deburr::spec::texture::Descriptor floor_texture() {
   using namespace deburr::spec::texture;
   Descriptor d;

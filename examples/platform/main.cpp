@@ -166,7 +166,7 @@ class Platform {
   Painter painter_{"painter", clock_};
   Display display_{"display", clock_};
   deburr::rtl::Link<deburr::spec::texture::Quad> quads_{"quads"};
-  deburr::rtl::Link<deburr::spec::texture::Colour> colours_{"colours"};
+  deburr::rtl::Link<deburr::spec::texture::ColourGroup> colours_{"colours"};
   deburr::rtl::Link<deburr::spec::morphological::PixelBeat> pixels_{"pixels"};
   deburr::rtl::Link<deburr::spec::morphological::BlendedBeat> blended_{"blended"};
   deburr::platform::MemoryModel memory_{"memory", kPeriod, memory_parameters()};
@@ -227,20 +227,21 @@ int sc_main(int argc, char** argv) {
         std::printf("%s: %s\n", each.name, each.rule);
       return 0;
     }
-    if (i + 1 == argc) return platform::usage(("what is " + word + "?").c_str());
+    if (i + 1 == argc) return platform::usage(("unknown option, or no value: " + word).c_str());
     const char* const value = argv[++i];
     if (word == "--out") {
       options.out = value;
     } else if (word == "--quantum") {
       char* end = nullptr;
       options.quantum = std::strtol(value, &end, 10);
-      if (*end || options.quantum < 0) return platform::usage("--quantum wants nanoseconds");
+      if (*end || options.quantum < 0)
+        return platform::usage("--quantum needs a number of nanoseconds");
     } else if (word == "--plant") {
       for (const platform::ViolationInfo& each : platform::violations())
         if (std::strcmp(each.name, value) == 0) options.injected = &each;
-      if (!options.injected) return platform::usage("no such violation (see --violations)");
+      if (!options.injected) return platform::usage("unknown violation (see --violations)");
     } else {
-      return platform::usage(("what is " + word + "?").c_str());
+      return platform::usage(("unknown option, or no value: " + word).c_str());
     }
   }
   return platform::run(options);

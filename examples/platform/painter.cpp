@@ -84,7 +84,7 @@ void Painter::reset() {
 
 Activity Painter::tick(Cycle cycle) {
   if (!painting_) return deburr::rtl::kIdle;
-  const bool took = take_colour(cycle), asked = send_quad(cycle), sent = send_pixel(cycle);
+  const bool took = take_colours(cycle), asked = send_quad(cycle), sent = send_pixel(cycle);
   return took || asked || sent ? deburr::rtl::kBusy : deburr::rtl::kStalledDownstream;
 }
 
@@ -101,10 +101,12 @@ bool Painter::send_quad(Cycle cycle) {
   return true;
 }
 
-bool Painter::take_colour(Cycle cycle) {
+bool Painter::take_colours(Cycle cycle) {
   if (!colours_in.can_pop(cycle)) return false;
-  put(frame_, colours_in.take(cycle));
-  --awaited_;
+  for (const Colour& colour : colours_in.take(cycle)) {
+    put(frame_, colour);
+    --awaited_;
+  }
   return true;
 }
 

@@ -24,6 +24,7 @@ namespace platform {
 
 using deburr::spec::morphological::Rgba8;
 using deburr::spec::texture::Colour;
+using deburr::spec::texture::ColourGroup;
 using deburr::spec::texture::Quad;
 
 struct Frame {
@@ -50,7 +51,7 @@ void put(
 class Painter final : public deburr::rtl::Unit {
  public:
   deburr::rtl::Out<Quad> quads_out{"quads_out"};
-  deburr::rtl::In<Colour> colours_in{"colours_in"};
+  deburr::rtl::In<ColourGroup> colours_in{"colours_in"};
   deburr::rtl::Out<deburr::spec::morphological::PixelBeat> pixels_out{"pixels_out"};
   deburr::rtl::RegisterBlock registers{"registers", kPainterRegisters};
 
@@ -62,7 +63,7 @@ class Painter final : public deburr::rtl::Unit {
 
  private:
   bool send_quad(deburr::rtl::Cycle cycle);
-  bool take_colour(deburr::rtl::Cycle cycle);
+  bool take_colours(deburr::rtl::Cycle cycle);
   bool send_pixel(deburr::rtl::Cycle cycle);
 
   Frame frame_;

@@ -91,7 +91,7 @@ void ProtocolChecker::take(Payload& payload, const tlm_phase& phase, const sc_ti
   if (phase == tlm::BEGIN_REQ) {
     require(found == transactions_.end(), "phases", payload,
             "BEGIN_REQ of a transaction that is under way");
-    require(payload.has_mm(), "memory manager", payload, "the payload has none");
+    require(payload.has_mm(), "memory manager", payload, "the payload has no memory manager");
     require(payload.get_ref_count() > 0, "memory manager", payload,
             "the initiator holds no reference");
     check_request(payload);
@@ -124,7 +124,7 @@ void ProtocolChecker::take(Payload& payload, const tlm_phase& phase, const sc_ti
     transaction.stage = Stage::kResponse;
   } else {
     require(phase == tlm::END_RESP, "phases", payload,
-            word(phase) + " is no phase of the protocol");
+            word(phase) + " is not a phase of the protocol");
     require(transaction.stage == Stage::kResponse, "phases", payload, "END_RESP before BEGIN_RESP");
     finish(payload);
   }
@@ -190,7 +190,7 @@ tlm_sync_enum ProtocolChecker::backward(Payload& payload, tlm_phase& phase, sc_t
 unsigned ProtocolChecker::transport_dbg(Payload& payload) {
   const unsigned done = to_target->transport_dbg(payload);
   require(done <= payload.get_data_length(), "debug", payload,
-          "more bytes than were asked for: " + std::to_string(done));
+          "more bytes than requested: " + std::to_string(done));
   return done;
 }
 
@@ -200,9 +200,9 @@ bool ProtocolChecker::get_direct_mem_ptr(Payload& payload, tlm::tlm_dmi& dmi) {
   const std::uint64_t address = payload.get_address();
   require(dmi.get_dmi_ptr() != nullptr, "direct memory", payload, "no pointer");
   require(dmi.get_start_address() <= address && address <= dmi.get_end_address(), "direct memory",
-          payload, "the address is not in the range that is given");
+          payload, "the requested address is outside the returned range");
   require(payload.is_read() ? dmi.is_read_allowed() : dmi.is_write_allowed(), "direct memory",
-          payload, "what was asked for is not allowed");
+          payload, "the requested access is not allowed");
   return true;
 }
 

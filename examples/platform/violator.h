@@ -66,7 +66,7 @@ class Violator final : public sc_core::sc_module {
   void b_transport(Payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(Payload& payload);
   bool get_direct_mem_ptr(Payload& payload, tlm::tlm_dmi& dmi);
-  // Of the transactions that wait for their response.
+  // Transactions that wait for their response.
   Payload* another(const Payload& payload) const;
   void send(Payload& payload, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
   // True if this violation is due now; it is then done.

@@ -45,7 +45,7 @@ std::int64_t number_in_range(std::string_view name, std::string_view text, std::
                              std::int64_t max) {
   const std::string range = std::to_string(min) + ".." + std::to_string(max);
   const std::optional<std::int64_t> value = integer_of(text);
-  if (!value) reject_value(name, text, "wants an integer " + range);
+  if (!value) reject_value(name, text, "must be an integer " + range);
   if (*value < min || *value > max) reject_value(name, text, "is outside " + range);
   return *value;
 }
@@ -53,14 +53,14 @@ std::int64_t number_in_range(std::string_view name, std::string_view text, std::
 std::size_t code_of(std::string_view name, std::string_view text,
                     std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) reject_value(name, text, "wants one of " + joined(names));
+  if (found == names.end()) reject_value(name, text, "must be one of " + joined(names));
   return static_cast<std::size_t>(found - names.begin());
 }
 
 bool switch_of(std::string_view name, std::string_view text) {
   const bool on = text == "true" || text == "on" || text == "yes",
              off = text == "false" || text == "off" || text == "no";
-  if (!on && !off) reject_value(name, text, "wants true or false");
+  if (!on && !off) reject_value(name, text, "must be true or false");
   return on;
 }
 

@@ -79,7 +79,7 @@ struct TextureHandle final : deburr_golden {
 
   ParameterTexts<spec::texture::Parameters> texts{
       "texture", [](const spec::texture::Parameters& p) {
-        return spec::texture::preset_parameters(p.preset);
+        return spec::texture::preset_parameters(p.preset, p.build);
       }};
   std::vector<std::uint8_t> memory;
   std::array<DescriptorWords, spec::texture::kMaxTextures> textures{};

@@ -38,13 +38,13 @@ Marks marks_of(Bypass bypass, const ImageView& image, int x, int y) {
   return marks;
 }
 
-bool is_left(Bypass bypass, Marks marks) {
+bool is_bypassed(Bypass bypass, Marks marks) {
   return bypass == Bypass::kBeside ? marks != 0 : has(marks, 0);
 }
 
 spec::morphological::BlendProbe remaining(Bypass bypass, Marks marks,
                                           const spec::morphological::BlendProbe& probe) {
-  if (is_left(bypass, marks)) return {};
+  if (is_bypassed(bypass, marks)) return {};
   if (bypass != Bypass::kHalf) return probe;
   spec::morphological::BlendProbe result = probe;
   const auto halve = [&](std::uint8_t& weight, std::size_t neighbour) {
@@ -59,7 +59,7 @@ void BypassCoverage::count_pixel(Bypass bypass, Marks marks,
                                  const spec::morphological::BlendProbe& probe,
                                  const ImageView& image, int x, int y) {
   if (bypass == Bypass::kNone || bypass == Bypass::kMasked) return;
-  const bool left = is_left(bypass, marks);
+  const bool left = is_bypassed(bypass, marks);
   if (bypass == Bypass::kBeside) {
     if (left) {
       const unsigned all = marks;
@@ -84,15 +84,15 @@ void BypassCoverage::count_pixel(Bypass bypass, Marks marks,
 }
 
 std::vector<CoverageBin> BypassCoverage::bins() const {
-  std::vector<CoverageBin> result = {{"left/marked/own", own_[0]}, {"left/half/own", own_[1]}};
+  std::vector<CoverageBin> result = {{"bypass/marked/own", own_[0]}, {"bypass/half/own", own_[1]}};
   for (std::size_t i = 0; i < beside_.size(); ++i) {
     const std::string_view which = i < kPlaces.size() ? kPlaces[i].name : "several";
-    result.push_back({"left/beside/" + std::string(which), beside_[i]});
+    result.push_back({"bypass/beside/" + std::string(which), beside_[i]});
   }
   for (std::size_t border = 0; border < 4; ++border) {
     const std::string name = "border/" + std::string(kBorderNames[border]);
     result.push_back({name + "/blended", borders_[border][0]});
-    result.push_back({name + "/left", borders_[border][1]});
+    result.push_back({name + "/bypassed", borders_[border][1]});
   }
   for (std::size_t i = 0; i < half_.size(); ++i) {
     const std::string_view which = i < 4 ? kPlaces[i + 1].name : "nothing";

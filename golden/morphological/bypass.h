@@ -3,9 +3,9 @@
 //
 // docs/reference/morphological/algorithm.md, "Bypassed pixels". Bins count pixels with a weight
 // that can be dropped or taken:
-//   left/<marked|half>/own             the pixel itself is marked
-//   left/beside/<which>                which pixel of the five is marked, or `several`
-//   border/<border>/<left|blended>     with leave = beside, pixels on the border of the frame
+//   bypass/<marked|half>/own           the pixel itself is marked
+//   bypass/beside/<which>              which pixel of the five is marked, or `several`
+//   border/<border>/<bypassed|blended> with bypass = beside, pixels on the border of the frame
 //   half/<which>                       the weight of a marked neighbour is halved
 //   half/nothing                       a weight of 1 becomes 0, and the pixel has no other
 // Every bin is reachable (tb/unit/golden/morphological/bypass_test.cpp).
@@ -30,7 +30,7 @@ constexpr bool is_marked(const spec::morphological::Rgba8& pixel) { return (pixe
 using Marks = std::uint8_t;
 Marks marks_of(spec::morphological::Bypass bypass, const ImageView& image, int x, int y);
 
-bool is_left(spec::morphological::Bypass bypass, Marks marks);
+bool is_bypassed(spec::morphological::Bypass bypass, Marks marks);
 // The weights after the rule; `edges` remains 0.
 spec::morphological::BlendProbe remaining(spec::morphological::Bypass bypass, Marks marks,
                                           const spec::morphological::BlendProbe& probe);

@@ -346,12 +346,12 @@ PixelWeights MorphologicalGolden::gather(int x, int y) const {
   return s;
 }
 
-// Applies the text guard and the rule `leave` to a pixel with a weight.
+// Applies the text guard and `bypass` to a pixel with a weight.
 spec::morphological::BlendProbe MorphologicalGolden::remaining_probe(
     const ImageView& image, int x, int y, const spec::morphological::BlendProbe& probe) {
   const Marks marks = marks_of(parameters_.bypass, image, x, y);
   if (parameters_.text_guard && guard_.at(x, y).guarded()) {
-    if (everything_) guard_coverage_.count_kept(is_left(parameters_.bypass, marks));
+    if (everything_) guard_coverage_.count_kept(is_bypassed(parameters_.bypass, marks));
     return {};
   }
   if (everything_) bypass_coverage_.count_pixel(parameters_.bypass, marks, probe, image, x, y);

@@ -67,7 +67,7 @@ constexpr std::array<std::string_view, 6> kCauseBins = {
     "guarded", "one-colour", "more-colours", "few-in-rows", "few-in-columns", "few"};
 constexpr std::array<std::string_view, 6> kJustBins = {"3-in-rows", "3-in-columns", "24",
                                                        "2-in-rows", "2-in-columns", "23"};
-constexpr std::array<std::string_view, 2> kKeptBins = {"by-guard", "by-leave-too"};
+constexpr std::array<std::string_view, 2> kKeptBins = {"by-guard", "by-bypass-too"};
 constexpr std::array<std::string_view, 4> kBorderBins = {"top", "left", "right", "bottom"};
 
 }  // namespace

@@ -12,7 +12,7 @@
 //   text/few                  all holds except the sum of both
 //   text/just/<which>         guarded with the smallest number in rows, in columns, of both; or not
 //                             guarded, with one fewer
-//   text/kept/<which>         guarded with a weight: by the guard only, or by `leave` as well
+//   text/kept/<which>         guarded with a weight: by the guard only, or by `bypass` as well
 //   text-border/<border>      guarded on the border of the frame
 // Every bin is reachable (tb/unit/golden/morphological/text_guard_test.cpp).
 #pragma once
@@ -65,7 +65,7 @@ class TextGuard {
 class GuardCoverage {
  public:
   void count_frame(const TextGuard& guard, int width, int height);
-  // Counts a guarded pixel with a weight; `left`: `leave` bypasses it as well.
+  // Counts a guarded pixel with a weight; `left`: `bypass` drops it as well.
   void count_kept(bool left) { ++kept_[left ? 1 : 0]; }
   // Every bin, hit or not, always in the same order.
   std::vector<CoverageBin> bins() const;

@@ -49,7 +49,7 @@ Parameters resolved(Parameters p, const MemoryTiming& memory) {
     if (p.width > 1) p.cache_fifo_depth += 16;
   }
   if (p.cache_outstanding == 0) {
-    const std::int64_t lines = (std::int64_t{32} * p.width * memory.latency + 99) / 100;
+    const std::int64_t lines = (std::int64_t{32} * p.width * (memory.latency + 12) + 111) / 112;
     p.cache_outstanding = static_cast<std::int32_t>(
         std::clamp<std::int64_t>((lines + 3) / 4 * 4, 8, spec::texture::kMostOutstanding));
   }

@@ -13,8 +13,8 @@ std::string described(const py::handle& given) {
 }
 
 void reject_array(std::string_view name, std::string_view wanted, const py::handle& given) {
-  throw golden::c::ArgumentError(std::string(name) + ": " + std::string(wanted) + " is wanted; " +
-                                 described(given) + " was given");
+  throw golden::c::ArgumentError(std::string(name) + ": expected " + std::string(wanted) +
+                                 ", got " + described(given));
 }
 
 py::array checked(const py::handle& given, std::string_view name, const py::dtype& dtype,

@@ -78,7 +78,7 @@ py::dtype dtype_of() {
 
 using Shape = std::vector<py::ssize_t>;
 
-// Read only. The array keeps `owner` alive.
+// A read-only array that keeps `owner` alive.
 template <class T>
 py::array view(const std::vector<T>& values, Shape shape, const py::handle& owner) {
   const py::dtype dtype = dtype_of<T>();
@@ -108,7 +108,7 @@ py::array owned(std::vector<T>&& values) {
 // "float64 of (480, 640, 3)", "None".
 std::string described(const py::handle& given);
 
-// ArgumentError: "pixels: uint8 of (height, width, 4) is wanted; None was given".
+// ArgumentError: "pixels: expected uint8 of (height, width, 4), got None".
 [[noreturn]] void reject_array(std::string_view name, std::string_view wanted,
                                const py::handle& given);
 // A C-contiguous array of this dtype and number of dimensions.

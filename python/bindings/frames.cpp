@@ -68,7 +68,7 @@ FrameDepth frame_depth(const py::handle& given, int width, int height) {
   if (array.shape(0) != height || array.shape(1) != width)
     reject_array(
         "depth",
-        "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + "),",
+        "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + ")",
         given);
   check_depths(array, 2);  // the caller of deburr.golden
   const auto size = static_cast<std::size_t>(array.size());
@@ -89,7 +89,7 @@ FrameDepth frame_depth(const py::handle& given, int width, int height) {
 std::function<bool(std::uint32_t)> error_lines(const py::handle& given) {
   if (given.is_none()) return nullptr;
   const py::array array = checked_list<std::uint32_t>(
-      given, "error_lines", "uint32 of (lines,), addresses of lines of memory,");
+      given, "error_lines", "uint32 of (lines,), addresses of memory lines");
   const auto addresses = elements<std::uint32_t>(array);
   auto lines =
       std::make_shared<std::unordered_set<std::uint32_t>>(addresses.begin(), addresses.end());

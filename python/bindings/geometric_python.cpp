@@ -43,7 +43,7 @@ struct GeometricFrame {
 
   Shape shape() const { return {golden->height(), golden->width()}; }
   void require_detail(const char* what) const {
-    golden::c::require(detail, std::string(what) + " were not kept: give detail=True");
+    golden::c::require(detail, std::string(what) + " were not recorded: give detail=True");
   }
 };
 
@@ -88,9 +88,8 @@ Mesh mesh_of(const py::object& vertices, const py::object& edges, const py::obje
 golden::geometric::Bases bases_of(const py::object& given) {
   golden::geometric::Bases bases;
   if (given.is_none()) return bases;
-  golden::c::require(
-      py::isinstance<py::dict>(given),
-      "bases: a dictionary of addresses is wanted; " + described(given) + " was given");
+  golden::c::require(py::isinstance<py::dict>(given),
+                     "bases: expected a dictionary of addresses, got " + described(given));
   const struct {
     const char* name;
     std::uint32_t* base;
@@ -181,28 +180,29 @@ void add_geometric(py::module_& module) {
           [of](const py::object& self) {
             return view(of(self).golden->weights(), of(self).shape(), self);
           },
-          "uint8 of (height, width, 4), U0.8: of the neighbours up, down, left, right.")
+          "uint8 of (height, width, 4), U0.8: blend weights of the upper, lower, left and right "
+          "neighbour.")
       .def_property_readonly(
           "work",
           [](const GeometricFrame& frame) {
             return figures(golden::c::counters_of(
                 spec::geometric::kWorkCounts, spec::geometric::kRegisters, frame.golden->work()));
           },
-          "What was done, by the names of the registers.")
+          "Work counters, by the names of the registers.")
       .def_property_readonly(
           "classes",
           [of](const py::object& self) {
             of(self).require_detail("classes");
             return view(of(self).golden->classes(), self);
           },
-          "What became of each edge, by the place in EDGE_CLASSES; with detail.")
+          "Class of each edge, as an index into EDGE_CLASSES; with detail.")
       .def_property_readonly(
           "lines",
           [of](const py::object& self) {
             of(self).require_detail("lines");
             return view(of(self).golden->lines(), self);
           },
-          "Records of the lines that were walked; with detail.")
+          "Records of the walked lines; with detail.")
       .def_property_readonly(
           "candidates",
           [of](const py::object& self) {
@@ -217,9 +217,9 @@ void add_geometric(py::module_& module) {
             return view(of(self).golden->blocks(), self);
           },
           "Blocks of 4 x 4 pixels as they were resolved; with detail.")
-      .def_property_readonly("traffic", traffic_of,
-                             "Lines of memory by region, reads and writes apart, each in order; "
-                             "with detail.")
+      .def_property_readonly(
+          "traffic", traffic_of,
+          "Memory lines by region, reads and writes separately, each in order; with detail.")
       .def_property_readonly(
           "memory_errors",
           [](const GeometricFrame& frame) { return frame.golden->memory_errors(); },

@@ -98,7 +98,7 @@ py::array fxaa(const py::object& pixels, double threshold, double least_threshol
   } else if (steps == 39) {
     settings.steps = ideal::kFxaaSteps39;
   } else {
-    require(steps == 29, "steps = " + std::to_string(steps) + " wants one of 12, 29, 39");
+    require(steps == 29, "steps = " + std::to_string(steps) + " must be 12, 29 or 39");
     settings.steps = ideal::kFxaaSteps29;
   }
   return filtered(pixels,
@@ -136,7 +136,7 @@ ideal::SmaaEdges smaa_edges_of(const py::object& edges) {
 
 py::array smaa_edges(const py::object& luma, double threshold) {
   const py::array values =
-      checked(luma, "luma", py::dtype::of<double>(), 2, "float64 of (height, width), 0..1,");
+      checked(luma, "luma", py::dtype::of<double>(), 2, "float64 of (height, width), 0..1");
   ideal::SmaaLuma frame;
   frame.height = static_cast<int>(values.shape(0));
   frame.width = static_cast<int>(values.shape(1));
@@ -248,18 +248,18 @@ py::array pixel_footprints(const py::object& quads, int width, int height) {
   const py::array array =
       checked_list<spec::texture::Quad>(quads, "quads", "an array of QUAD of (n,)");
   require(width >= 1 && height >= 1, "a texture of " + std::to_string(width) + " x " +
-                                         std::to_string(height) + " texels has none");
+                                         std::to_string(height) + " texels has no footprints");
   return owned(ideal::pixel_footprints(elements<spec::texture::Quad>(array), width, height));
 }
 
 double psnr(const py::object& reference, const py::object& pixels) {
   const py::array colours =
-      checked(reference, "reference", py::dtype::of<double>(), 2, "float64 of (n, 4), 0..255,");
+      checked(reference, "reference", py::dtype::of<double>(), 2, "float64 of (n, 4), 0..255");
   const py::array bytes =
       checked(pixels, "pixels", py::dtype::of<std::uint8_t>(), 2, "uint8 of (n, 4)");
-  if (colours.shape(1) != 4) reject_array("reference", "float64 of (n, 4), 0..255,", reference);
+  if (colours.shape(1) != 4) reject_array("reference", "float64 of (n, 4), 0..255", reference);
   if (bytes.shape(1) != 4 || bytes.shape(0) != colours.shape(0))
-    reject_array("pixels", "uint8 of as many colours as the reference has,", pixels);
+    reject_array("pixels", "uint8 of (n, 4) with the n of the reference", pixels);
   return ideal::psnr(
       {static_cast<const ideal::Colour*>(colours.data()),
        static_cast<std::size_t>(colours.shape(0))},
@@ -273,7 +273,7 @@ py::array geometric_weights(const py::object& lines, const py::object& depth,
   const py::array all =
       checked_list<ideal::ScreenLine>(lines, "lines", "an array of SCREEN_LINE of (n,)");
   const py::array depths =
-      checked(depth, "depth", py::dtype::of<double>(), 2, "float64 of (height, width), near / w,");
+      checked(depth, "depth", py::dtype::of<double>(), 2, "float64 of (height, width), near / w");
   const int height = static_cast<int>(depths.shape(0)), width = static_cast<int>(depths.shape(1));
   const std::span<const double> values(static_cast<const double*>(depths.data()),
                                        static_cast<std::size_t>(depths.size()));
@@ -333,8 +333,8 @@ void add_filters(py::module_& module) {
              "left, bit 1 above.",
              py::arg("luma"), py::arg("threshold") = s.threshold);
   module.def("smaa_weights", &smaa_weights,
-             "SMAA's weights of every edge: float64 of (height, width, 4), of the upper edge what "
-             "the upper pixel and what this one takes, of the left edge likewise.",
+             "SMAA's weights of every edge: float64 of (height, width, 4), blend weights at the "
+             "upper edge for the upper pixel and for this one, then at the left edge likewise.",
              py::arg("edges"), py::arg("search_steps") = s.search_steps,
              py::arg("diagonal_steps") = s.diagonal_steps,
              py::arg("corner_keeps") = s.corner_keeps);
@@ -366,7 +366,7 @@ void add_textures(py::module_& module) {
       .def_property_readonly("width", [](const TextureImage& t) { return t.image.width(); })
       .def_property_readonly("height", [](const TextureImage& t) { return t.image.height(); });
   module.def("pixel_footprints", &pixel_footprints,
-             "What each covered lane of quads covers of a texture of width x height texels: an "
+             "Footprint of each covered lane of quads on a texture of width x height texels: an "
              "array of FOOTPRINT, in the order of colours.",
              py::arg("quads"), py::arg("width"), py::arg("height"));
   module.def(

@@ -49,7 +49,7 @@ struct MorphologicalFrame {
   Shape shape() const { return {golden->height(), golden->width()}; }
   Shape shape(py::ssize_t channels) const { return {golden->height(), golden->width(), channels}; }
   void require_detail(const char* what) const {
-    golden::c::require(detail, std::string(what) + " were not kept: give detail=True");
+    golden::c::require(detail, std::string(what) + " were not recorded: give detail=True");
   }
 };
 
@@ -60,18 +60,19 @@ MorphologicalFrame smooth_morphological(const py::object& pixels, const py::obje
   set_all(texts, parameters);
   const FramePixels frame = frame_pixels(pixels);
   const int width = frame.view.width, height = frame.view.height;
-  golden::c::require(edges.is_none() || depth.is_none(),
-                     "edges and depth were given: depth is there to find edges by; give one");
+  golden::c::require(
+      edges.is_none() || depth.is_none(),
+      "edges and depth were given: depth is only used to find edges; give one of them");
   const FrameDepth depths = frame_depth(depth, width, height);
   py::array bits;
   if (!edges.is_none()) {
     constexpr const char* kWanted = "uint8 of (height, width)";
     bits = checked(edges, "edges", py::dtype::of<std::uint8_t>(), 2, kWanted);
     if (bits.shape(0) != height || bits.shape(1) != width)
-      reject_array("edges",
-                   "the size of the pixels, (" + std::to_string(height) + ", " +
-                       std::to_string(width) + "),",
-                   edges);
+      reject_array(
+          "edges",
+          "the size of the pixels, (" + std::to_string(height) + ", " + std::to_string(width) + ")",
+          edges);
   }
   auto errors = error_lines(lines);
   using Detail = MorphologicalGolden::Detail;
@@ -145,8 +146,8 @@ void add_morphological(py::module_& module) {
                              "to the upper one.")
       .def_property_readonly(
           "weights", weights_of,
-          "uint8 of (height, width, 4), U0.8: of the upper edge what the upper pixel and what this "
-          "one takes, of the left edge what the left pixel and what this one takes.")
+          "uint8 of (height, width, 4), U0.8: blend weights at the upper edge for the upper pixel "
+          "and for this one, then at the left edge for the left pixel and for this one.")
       .def_property_readonly(
           "work",
           [](const MorphologicalFrame& frame) {
@@ -154,31 +155,31 @@ void add_morphological(py::module_& module) {
                                                   spec::morphological::kRegisters,
                                                   frame.golden->work()));
           },
-          "What was done, by the names of the registers.")
+          "Work counters, by the names of the registers.")
       .def_property_readonly(
           "probes",
           [of](const py::object& self) {
             of(self).require_detail("probes");
             return view(of(self).golden->probes(), of(self).shape(), self);
           },
-          "How each pixel was mixed, records of (height, width); with detail.")
+          "How each pixel was blended, records of (height, width); with detail.")
       .def_property_readonly(
           "decisions",
           [of](const py::object& self) {
             of(self).require_detail("decisions");
             return view(of(self).golden->decisions(), of(self).shape(), self);
           },
-          "Which rule chose the axis of each pixel, uint8 of (height, width); with detail.")
+          "Rule that chose the axis of each pixel, uint8 of (height, width); with detail.")
       .def_property_readonly(
           "runs",
           [of](const py::object& self) {
             of(self).require_detail("runs");
             return view(of(self).golden->runs(), self);
           },
-          "Every run of edges with its line and what the predictor made of it; with detail.")
+          "Every run of edges with its line and the predictor's result; with detail.")
       .def_property_readonly(
           "traffic", [](const MorphologicalFrame& frame) { return owned(frame.golden->traffic()); },
-          "Lines of memory that storage = memory writes and reads, in order.")
+          "Memory lines that storage = memory writes and reads, in order.")
       .def_property_readonly(
           "memory_errors",
           [](const MorphologicalFrame& frame) { return frame.golden->memory_errors(); },

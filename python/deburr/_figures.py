@@ -35,7 +35,7 @@ class Figures(collections.abc.Mapping[str, typing.Any]):
         try:
             return self._values[name]
         except KeyError:
-            raise AttributeError(f"there is no figure '{name}'; there are {', '.join(self._values)}") from None
+            raise AttributeError(f"unknown figure '{name}' (known: {', '.join(self._values)})") from None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError("figures cannot be changed")

@@ -43,11 +43,11 @@ class TextureUnit:
         descriptor's registers; width, height, levels and max_lod follow from the arrays unless given."""
         for level in levels if isinstance(levels, (list, tuple)) else [levels]:
             if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
-                raise ValueError("levels: uint8 of (height, width, bytes of a texel) is wanted; "
-                                 + described(level) + " was given")
+                raise ValueError("levels: expected uint8 of (height, width, bytes of a texel), got "
+                                 + described(level))
         levels = [levels] if isinstance(levels, numpy.ndarray) else list(levels)
         if not levels:
-            raise ValueError("levels: at least one is wanted")
+            raise ValueError("levels: expected at least one")
         before = self._unit.words(texture)
         try:
             end = self._describe(texture, levels, fields)
@@ -70,7 +70,7 @@ class TextureUnit:
         for number, level in enumerate(levels):
             wanted = (max(1, height >> number), max(1, width >> number), size)
             if level.shape != wanted:
-                raise ValueError(f"level {number}: uint8 of {wanted} is wanted; {described(level)} was given")
+                raise ValueError(f"level {number}: expected uint8 of {wanted}, got {described(level)}")
         return self._unit.place(texture, self._end)
 
     def set_fields(self, texture: int = 0, **fields: typing.Any) -> None:
@@ -134,10 +134,9 @@ def mip_levels(texels: Array) -> list[Array]:
     """Returns the mip chain of a picture whose sides are powers of two: rounded means of 2 x 2 texels."""
     level = rgba(texels)
     if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
-        raise ValueError(f"texels: uint8 of (height, width, 4) is wanted; {described(texels)} was given")
+        raise ValueError(f"texels: expected uint8 of (height, width, 4), got {described(texels)}")
     if any(side < 1 or side & (side - 1) for side in level.shape[:2]):
-        raise ValueError(f"texels: sides that are powers of two are wanted; {level.shape[1]} x {level.shape[0]} "
-                         "was given")
+        raise ValueError(f"texels: expected sides that are powers of two, got {level.shape[1]} x {level.shape[0]}")
     levels = [level]
     while max(level.shape[:2]) > 1:
         wide = level.astype(numpy.uint16)
@@ -155,12 +154,11 @@ def quads_of(s: Array, t: Array, covered: Array | None = None, texture: int = 0)
     """
     s, t = numpy.asarray(s), numpy.asarray(t)
     if s.ndim != 2 or s.shape != t.shape or s.shape[0] % 2 or s.shape[1] % 2:
-        raise ValueError(f"s and t: two arrays of (height, width), both even, are wanted; {s.shape} and {t.shape} "
-                         "were given")
+        raise ValueError(f"s and t: expected two arrays of (height, width), both even, got {s.shape} and {t.shape}")
     height, width = s.shape
     covered = numpy.ones(s.shape, bool) if covered is None else numpy.asarray(covered)
     if covered.shape != s.shape or covered.dtype != bool:
-        raise ValueError(f"covered: bool of {s.shape} is wanted; {described(covered)} was given")
+        raise ValueError(f"covered: expected bool of {s.shape}, got {described(covered)}")
     clamped = numpy.zeros(s.shape, bool)
     codes = []
     for values in (s, t):
@@ -168,7 +166,7 @@ def quads_of(s: Array, t: Array, covered: Array | None = None, texture: int = 0)
             codes.append(values)
             continue
         if values.dtype.kind not in "fiu":
-            raise ValueError(f"s and t: float64 or int32 is wanted; {described(values)} was given")
+            raise ValueError(f"s and t: expected float64 or int32, got {described(values)}")
         with numpy.errstate(invalid="ignore"):
             scaled = numpy.floor(numpy.nan_to_num(values.astype(numpy.float64), nan=0.0) * _ONE + 0.5)
             outside = ~(numpy.isfinite(values) & (scaled >= -(1 << 31)) & (scaled < 1 << 31))

@@ -34,8 +34,8 @@ def png_of(array):
     channels = 1 if array.ndim == 2 else array.shape[2] if array.ndim == 3 else 0
     types = [kind for kind, count in _CHANNELS.items() if count == channels]
     if array.dtype != numpy.uint8 or not types or 0 in array.shape:
-        raise ValueError("a picture is wanted: uint8 of (height, width), (height, width, 3) or (height, width, 4), or "
-                         f"depths, float32 or uint32 of (height, width); {array.dtype} of {array.shape} was given")
+        raise ValueError("expected a picture: uint8 of (height, width), (height, width, 3) or (height, width, 4), or "
+                         f"depths, float32 or uint32 of (height, width), got {array.dtype} of {array.shape}")
     height, width = array.shape[:2]
     rows = numpy.zeros((height, 1 + width * channels), dtype=numpy.uint8)
     rows[:, 1:] = array.reshape(height, -1)
@@ -61,7 +61,7 @@ def read_png(file):
             pixels += body
         position += 12 + length
     if not data.startswith(_SIGNATURE) or header is None or header[2] != 8 or header[3] not in _CHANNELS or header[6]:
-        raise OSError(f"{file}: no PNG with 8 bits a channel")
+        raise OSError(f"{file}: not a PNG with 8 bits per channel")
     width, height, channels = header[0], header[1], _CHANNELS[header[3]]
     rows = numpy.frombuffer(zlib.decompress(pixels), dtype=numpy.uint8).reshape(height, 1 + width * channels)
     if (rows[:, 0] == _UP).all():
@@ -69,7 +69,7 @@ def read_png(file):
     elif (rows[:, 0] == _NONE).all():
         values = rows[:, 1:].copy()
     else:
-        raise OSError(f"{file}: filters of rows that the command does not write")
+        raise OSError(f"{file}: unsupported PNG row filters (only none or up in all rows)")
     return values.reshape(height, width, channels)
 
 
@@ -79,5 +79,5 @@ def read_pfm(file):
     kind, size, scale, values = data.split(b"\n", 3)
     width, height = (int(word) for word in size.split())
     if kind != b"Pf" or float(scale) >= 0:
-        raise OSError(f"{file}: no little-endian portable float map of one channel")
+        raise OSError(f"{file}: not a little-endian portable float map with one channel")
     return numpy.frombuffer(values, dtype="<f4", count=width * height).reshape(height, width)[::-1].copy()

@@ -63,7 +63,7 @@ def call(*words, progress=False):
     try:
         answer = json.loads(text)
     except json.JSONDecodeError:
-        raise RunError(f"the command ended with {process.returncode} and said: {complaints or text}",
+        raise RunError(f"the command ended with exit code {process.returncode}: {complaints or text}",
                        process.returncode) from None
     answer["messages"] = [line.removeprefix("deburr: ") for line in complaints.splitlines()]
     code = answer["exit_code"]

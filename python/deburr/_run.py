@@ -46,7 +46,7 @@ class _Files(collections.abc.Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         if name not in self._files:
-            raise KeyError(f"the run left no '{name}'; there are {', '.join(self._files) or 'none'}")
+            raise KeyError(f"the run wrote no '{name}' (available: {', '.join(self._files) or 'none'})")
         return self._read(self._files[name])
 
     def __repr__(self):
@@ -101,7 +101,7 @@ class Run(Figures):
         """Returns unit and meaning of a figure, by its key."""
         entry = self.meaning.get(key)
         if entry is None:
-            raise KeyError(f"nothing is said of '{key}'")
+            raise KeyError(f"'{key}' has no description")
         return f"{entry['meaning']} [{entry['unit']}]" if entry.get("unit") else entry["meaning"]
 
 

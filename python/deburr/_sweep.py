@@ -20,7 +20,7 @@ def _definition(engine, axes, metrics, rest, given, folder):
     """Builds the contents of a sweep file from Python names."""
     names = known(engine)
     if not axes:
-        raise ValueError("axes: a dictionary of parameters and their values is wanted, such as "
+        raise ValueError("axes: expected a dictionary of parameters and their values, such as "
                          "{\"memory_latency\": [50, 200]}")
 
     def own(name):
@@ -122,8 +122,8 @@ def sweep(what: str | os.PathLike[str], axes: dict[str, typing.Any] | None = Non
                     value is not None for value in (metrics, minimise, maximise, for_each, constraints, sample, refused)):
                 if not os.path.exists(what):
                     call("run", str(what))  # not an engine: raises the command's message
-                raise ValueError(f"{what}: a file of a sweep says itself what it varies; out, jobs and progress can be "
-                                 "given beside it")
+                raise ValueError(f"{what}: a sweep file defines its own axes; only out, jobs and progress can be given "
+                                 "with it")
             file = pathlib.Path(what)
         words = ["sweep", str(file)]
         run = call(*words, "run", f"--out={place}", *([] if jobs is None else [f"--jobs={jobs}"]), progress=progress)

@@ -132,6 +132,11 @@ PayloadNode PayloadBuilder::array(const std::string& name) {
   return node;
 }
 
+void PayloadBuilder::check_single() const {
+  DEBURR_CHECK(shape_.single.empty() || has_single_,
+               fmt::format("the payload has no array of payloads {} to shorten", shape_.single));
+}
+
 std::size_t PayloadBuilder::count(const std::string& name, std::size_t limit,
                                   std::size_t listed) const {
   for (const auto& [what, fewer] : shape_.counts)
@@ -275,7 +280,7 @@ Payload::Bit Payload::bit(const std::string& text) const {
   }
   std::string known;
   for (const Field& one : fields_) known += fmt::format("\n  {} ({} bits)", one.name, one.bits);
-  throw spec::ConfigError(fmt::format("no field is named {}; there are:{}", text, known));
+  throw spec::ConfigError(fmt::format("unknown field {}; known:{}", text, known));
 }
 
 void Payload::flip(std::byte* payload, Bit bit) const {

@@ -53,6 +53,8 @@ struct PayloadShape {
   std::vector<std::pair<std::string, std::uint32_t>> widths = {};
   // Arrays of which only the first elements are built, by name.
   std::vector<std::pair<std::string, std::uint32_t>> counts = {};
+  // An array of payloads of which only the first is built, as fields of the array's container.
+  std::string single = {};
 };
 
 // The bits of one field and its location in the C++ type.
@@ -225,7 +227,9 @@ class PayloadBuilder {
   template <class T>
   [[gnu::cold]] PayloadNode root(const T& payload) {
     if constexpr (HasFields<T>) {
-      return structure("", payload);
+      PayloadNode node = structure("", payload);
+      check_single();
+      return node;
     } else {
       static_assert(std::is_integral_v<T> || std::is_enum_v<T>, "a payload must list its fields");
       return field("value", payload, payload_bits_of<T>(), {});
@@ -240,6 +244,13 @@ class PayloadBuilder {
   }
   template <class M>
   [[gnu::cold]] void operator()(std::string_view name, const M& member) {
+    if constexpr (IsArray<M>::value)
+      if constexpr (HasFields<typename M::value_type>)
+        if (!shape_.single.empty() && path_ + std::string(name) == shape_.single) {
+          has_single_ = true;
+          M::value_type::fields(member[0], *this);
+          return;
+        }
     add(part(std::string(name), member, kAll));
   }
   template <class M>
@@ -325,6 +336,7 @@ class PayloadBuilder {
   PayloadNode field(std::string name, std::ptrdiff_t offset, std::size_t size, std::uint32_t bits,
                     std::string_view format, bool is_signed) const;
   static PayloadNode array(const std::string& name);
+  void check_single() const;
   // Number of array elements that are built.
   std::size_t count(const std::string& name, std::size_t limit, std::size_t listed) const;
   static std::string type_name(const std::type_info& type);
@@ -333,6 +345,7 @@ class PayloadBuilder {
   const std::byte* payload_;
   std::string path_;  // of the element being built
   PayloadNode* into_ = nullptr;
+  bool has_single_ = false;
 };
 
 }  // namespace detail

@@ -41,8 +41,9 @@ class FrameSequencer final : public Unit {
   bool idle() const { return state_ == Phase::kIdle; }
 
   Counter frame_cycles{"frame_cycles", "clk", "cycles of the last frame"};
-  Counter edge_cycles{"edge_cycles", "clk", "of these, cycles until every edge was drawn"};
-  Counter resolve_cycles{"resolve_cycles", "clk", "of these, the remaining cycles"};
+  Counter edge_cycles{"edge_cycles", "clk", "cycles of the last frame until every edge was drawn"};
+  Counter resolve_cycles{"resolve_cycles", "clk",
+                         "cycles of the last frame after every edge was drawn"};
 
   static Datasheet datasheet();
 

@@ -12,7 +12,7 @@ const spec::RegisterInfo& row(std::string_view engine,
                               std::span<const spec::RegisterInfo> registers,
                               std::string_view name) {
   if (const spec::RegisterInfo* const found = spec::register_named(registers, name)) return *found;
-  throw spec::ConfigError(fmt::format("driver of the {}: there is no register {}", engine, name));
+  throw spec::ConfigError(fmt::format("driver of the {}: unknown register {}", engine, name));
 }
 
 std::uint32_t bits(std::string_view engine, const spec::RegisterInfo& of, std::string_view field) {

@@ -7,7 +7,8 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const spec::texture::Parameters& p, ControlRegisters& registers,
                          const Descriptors& descriptors, LatencyProbe& probe)
     : sc_module(name),
-      derivative("derivative_unit", clock, registers, descriptors.for_derivatives, probe),
+      derivative("derivative_unit", clock, registers, descriptors.for_derivatives, probe,
+                 p.derivatives),
       footprint(p.axes == spec::texture::Axes::kTwo
                     ? std::make_unique<FootprintUnit>("footprint_unit", clock, p.footprint)
                     : nullptr),
@@ -16,7 +17,7 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                                                   p.axis_cycles)),
       log2("log2_unit", clock, p.log2),
       level("level_unit", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
-      walker("sample_walker", clock, p.count, p.kernel, p.spread),
+      walker("sample_walker", clock, p.count, p.kernel, p.spread, p.blend),
       addresser("texel_addresser", clock, descriptors.for_texels),
       footprints_("footprints", 2, footprint_shape(p)),
       logs_("logs", 2, axis_shape(p)),

@@ -2,35 +2,9 @@
 #include "rtl_model/texture/data_stage.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-
-#include "spec/texture/descriptor.h"
 
 namespace deburr::rtl::texture {
 namespace {
-
-// A word may be read at the last byte of the last line.
-constexpr std::size_t kPadding = 3;
-
-// Little-endian on every host.
-std::uint32_t load(const std::uint8_t* bytes) {
-  if constexpr (std::endian::native == std::endian::little) {
-    std::uint32_t word;
-    std::memcpy(&word, bytes, sizeof word);
-    return word;
-  } else {
-    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-           std::uint32_t{bytes[3]} << 24;
-  }
-}
-
-// A texel is in the low bits of the word.
-std::uint32_t texel_mask(const FilterControl& control) {
-  static constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
-  static_assert(kMask.size() == spec::texture::kFormatNames.size());
-  return kMask[control.format];
-}
 
 MemoryShape bank_shape(const spec::texture::Parameters& p) {
   const auto banks = static_cast<std::uint32_t>(p.cache_line_bytes / 4);
@@ -52,16 +26,13 @@ MemoryShape bank_shape(const spec::texture::Parameters& p) {
 
 DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::texture::Parameters& p, const FillBuffer::Reader& fills)
-    : Unit(name, clock),
+    : DataUnit(name, clock, "requests", "requests with two words in one bank"),
       fills_(fills),
       line_log2_(log2_of(p.cache_line_bytes)),
       words_a_line_(static_cast<std::uint32_t>(p.cache_line_bytes / 4)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       banks_("banks", bank_shape(p)),
-      bytes_(static_cast<std::size_t>(p.cache_bytes) + kPadding),
-      wait_fill_(declare_stall("wait_fill", "waits for a line of the request")),
-      write_fill_(declare_stall("write_fill", "the request has more lines to write")),
-      bank_conflict_(declare_stall("bank_conflict", "the request reads more words of one bank")) {}
+      bytes_(static_cast<std::size_t>(p.cache_bytes) + kWordPadding) {}
 
 // Last stage first.
 Activity DataStage::work(Cycle cycle) {
@@ -141,7 +112,7 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
   if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
   if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
   // The ports check the words, so read them first.
-  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load(&bytes_[request.place[i]]);
+  for (std::size_t i = 0; i < 4; ++i) waiting_.texel[i] = load_word(&bytes_[request.place[i]]);
   return true;
 }
 
@@ -149,7 +120,7 @@ void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (schedule_.pass[i] != pass) continue;
     if (!schedule_.again[i]) issue(cycle, i, request.place[i] >> 2);
-    waiting_.texel[i] = load(&bytes_[request.place[i]]);
+    waiting_.texel[i] = load_word(&bytes_[request.place[i]]);
   }
 }
 
@@ -165,7 +136,7 @@ void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
   const std::uint8_t* const line = fills_.line(cycle);
   const auto fill = static_cast<std::size_t>(fills_done_);
   for (std::size_t i = 0; i < 4; ++i)
-    if (request.source[i] == fill + 1) waiting_.texel[i] = load(line + request.place[i]);
+    if (request.source[i] == fill + 1) waiting_.texel[i] = load_word(line + request.place[i]);
   const std::size_t slot = request.victim[fill], line_bytes = std::size_t{1} << line_log2_;
   write_.write(cycle, slot * words_a_line_, words_a_line_);
   const std::size_t turn = request.turned[fill] ? turn_ : 0;

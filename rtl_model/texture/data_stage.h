@@ -24,15 +24,15 @@
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
-#include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
+#include "rtl_model/texture/cache_units.h"
 #include "rtl_model/texture/fill_buffer.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class DataStage final : public Unit {
+class DataStage final : public DataUnit {
  public:
   In<CacheToken> requests_in{"requests_in"};
   Out<TexelQuadToken> texels_out{"texels_out"};
@@ -47,9 +47,6 @@ class DataStage final : public Unit {
     return activity;
   }
   void reset() override;
-
-  Counter lines_written{"lines_written", "lines", "fills written to the data banks"};
-  Counter conflicts{"conflicts", "requests", "requests with two words in one bank"};
 
   static Datasheet datasheet();
 
@@ -77,7 +74,6 @@ class DataStage final : public Unit {
       ReadPort<void>{banks_, "texel_2"}, ReadPort<void>{banks_, "texel_3"}};
   WritePort<void> write_{banks_, "fill"};
   std::vector<std::uint8_t> bytes_;  // content of the banks, word by word
-  Activity wait_fill_, write_fill_, bank_conflict_;
   // Registers of the request in stage 1.
   bool started_ = false;
   Schedule schedule_{};

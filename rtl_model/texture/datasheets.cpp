@@ -15,27 +15,29 @@ std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
     sheet.variant = "`preset = " +
                     std::string(spec::texture::kPresetNames[static_cast<std::size_t>(p.preset)]) +
                     "`";
-  sheets.push_back(TextureCache::datasheet());
+  sheets.push_back(TextureCache::datasheet(p));
   return sheets;
 }
 
 }  // namespace
 
 std::vector<Datasheet> datasheets(const spec::texture::Parameters& p) {
-  return {
+  const bool wide = p.width > 1;
+  std::vector<Datasheet> sheets = {
       DerivativeUnit::datasheet(),
       p.axes == spec::texture::Axes::kTwo ? FootprintUnit::datasheet(p) : AxisUnit::datasheet(p),
       Log2Unit::datasheet(p),
       LevelUnit::datasheet(),
       SampleWalker::datasheet(p),
-      TexelAddresser::datasheet(),
-      TagStage::datasheet(),
-      MissQueue::datasheet(),
-      FillBuffer::datasheet(),
-      LatencyFifo::datasheet(),
-      DataStage::datasheet(),
-      FilterPipeline::datasheet(p),
-      Descriptors::datasheet()};
+      TexelAddresser::datasheet()};
+  if (wide) sheets.push_back(GroupFormer::datasheet());
+  sheets.insert(sheets.end(),
+                {wide ? WideTagStage::datasheet() : TagStage::datasheet(), MissQueue::datasheet(),
+                 FillBuffer::datasheet(),
+                 wide ? WideLatencyFifo::datasheet() : LatencyFifo::datasheet(),
+                 wide ? WideDataStage::datasheet() : DataStage::datasheet(),
+                 FilterPipeline::datasheet(p), Descriptors::datasheet()});
+  return sheets;
 }
 
 std::vector<Datasheet> datasheets() {
@@ -51,6 +53,10 @@ std::vector<Datasheet> datasheets() {
     p.srgb_output = spec::texture::SrgbOutput::kEncoded;
     builds.push_back(datasheets(p));
   }
+  spec::texture::Parameters wide;
+  wide.width = 4;
+  builds.push_back({TextureCache::datasheet(wide)});
+  builds.push_back(datasheets(wide));
   return merged(builds);
 }
 

@@ -26,8 +26,12 @@ std::int64_t difference(std::int32_t to, std::int32_t from) {
 
 DerivativeUnit::DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                                ControlRegisters& registers, const Descriptors::Reader& descriptors,
-                               LatencyProbe& probe)
-    : Unit(name, clock), registers_(registers), descriptors_(descriptors), probe_(probe) {}
+                               LatencyProbe& probe, spec::texture::Derivatives derivatives)
+    : Unit(name, clock),
+      registers_(registers),
+      descriptors_(descriptors),
+      probe_(probe),
+      own_(derivatives == spec::texture::Derivatives::kFine ? 3 : 0) {}
 
 Activity DerivativeUnit::tick(Cycle cycle) {
   const bool works = waiting_ != 0 || (registers_.enabled() && quads_in.can_pop(cycle));
@@ -56,7 +60,7 @@ inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
   const TextureState& texture = descriptors_.read(cycle, quad_.texture);
   const auto& s = quad_.s;
   const auto& t = quad_.t;
-  const unsigned row = lane & 2, column = lane & 1;
+  const unsigned row = lane & own_ & 2, column = lane & own_ & 1;
   out.ticket = {quad_.tag, static_cast<std::uint8_t>(lane), waiting_ == 0, texture.valid,
                 static_cast<std::uint8_t>(quad_.texture & 15)};
   out.s = s[lane];
@@ -94,7 +98,7 @@ Datasheet DerivativeUnit::datasheet() {
   return {.unit = "DerivativeUnit",
           .does =
               "Splits a quad into its covered fragments, with coordinate differences along their "
-              "row and column.",
+              "row and column (`derivatives = coarse`: row 0 and column 0).",
           .latency = {3},
           .interval = {1, "one cycle per covered lane (a quad without covered lanes: 1)"},
           .stages = {{"1", "next covered lane, its four differences, descriptor selected"},

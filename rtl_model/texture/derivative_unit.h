@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Splits a quad into its covered fragments and computes for each the coordinate differences along
-// its row and column, in texture coordinates and in texels of level 0.
+// its row and column (`derivatives = coarse`: along row 0 and column 0 of the quad), in texture
+// coordinates and in texels of level 0.
 //
 // Position  First unit of the AddressUnit.
 // Stalls    downstream  The whole unit stalls. Takes no quad while CONTROL.enable is 0.
@@ -18,6 +19,7 @@
 #include "rtl_model/texture/descriptors.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/packets.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -28,7 +30,8 @@ class DerivativeUnit final : public Unit {
 
   DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
                  ControlRegisters& registers, const Descriptors::Reader& descriptors,
-                 LatencyProbe& probe);
+                 LatencyProbe& probe,
+                 spec::texture::Derivatives derivatives = spec::texture::Derivatives::kFine);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -49,6 +52,8 @@ class DerivativeUnit final : public Unit {
   ControlRegisters& registers_;
   Descriptors::Reader descriptors_;
   LatencyProbe& probe_;
+  unsigned
+      own_;  // mask of a lane: its own row and column with `fine`, row 0 and column 0 with `coarse`
   // Registers.
   spec::texture::Quad quad_{};
   unsigned waiting_ = 0;  // U4, covered lanes of quad_ still to be sent

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Lines in flight from memory: entries are reserved and released in the order of fills, and filled
-// in any order.
+// in any order. Entry e is in bank e mod D (D lines are used per cycle, 1 except in wide builds).
 //
 // Position  Inside the MissQueue, which requests lines and fills their entries. The DataStage
 //           accesses them through a Reader, like a memory port.
-// Latency   The oldest line is prefetched to the output register as soon as it has arrived. An
-//           entry released in cycle t can be reserved from t + 1 on.
+// Latency   The oldest line of a bank is prefetched to its output register as soon as it has
+//           arrived. An entry released in cycle t can be reserved from t + 1 on.
 #pragma once
 
 #include <algorithm>
@@ -24,11 +24,12 @@ namespace deburr::rtl::texture {
 
 class FillBuffer {
  public:
-  // Interface for the DataStage: the oldest fill only. Copies refer to the same interface.
+  // Interface for the DataStage: the oldest fill only, and after its release the next one. Copies
+  // refer to the same interface.
   class Reader {
    public:
-    // Call last in every cycle: reads the next line if it has arrived and the output register is
-    // free.
+    // Call last in every cycle: reads the next line of a bank if it has arrived and the output
+    // register is free.
     void read_ahead(Cycle cycle) { lines_->read_ahead(cycle); }
     bool ready(Cycle cycle) const { return lines_->ready(cycle); }
     const std::uint8_t* line(Cycle cycle) const { return lines_->line(cycle); }
@@ -40,24 +41,39 @@ class FillBuffer {
     FillBuffer* lines_;
   };
 
-  FillBuffer(const char* name, std::uint32_t entries, std::uint32_t line_bytes)
+  FillBuffer(const char* name, std::uint32_t entries, std::uint32_t line_bytes,
+             std::uint32_t banks = 1)
       : entries_(entries),
         line_bytes_(line_bytes),
         memory_(name, {.words = entries,
                        .word_bits = line_bytes * 8,
                        .kind = MemoryBase::kind_for(std::uint64_t{entries} * line_bytes * 8),
+                       .read_ports = banks,
                        .latency = 1,
+                       .banks = banks,
                        .mask_bits = line_bytes > kLineBytes ? kLineBytes * 8 : 0,
+                       .separate_banks = banks > 1,
                        .content = "lines in flight from memory"}),
         bytes_(std::size_t{entries} * line_bytes + kPadding),
         bits_((std::string(name) + "_arrived").c_str(),
               {.words = entries,
                .word_bits = 1,
                .kind = MemoryKind::kFlops,
-               .write_ports = 2,
+               .read_ports = banks,
+               .write_ports = 1 + banks,
                .latency = 0,
                .content = "per line in flight: has it arrived?"}),
-        arrived_(entries, kNever) {}
+        arrived_(entries, kNever) {
+    for (std::uint32_t i = 0; i < banks; ++i) {
+      const std::string user = banks == 1 ? "data_stage" : "data_stage_" + std::to_string(i);
+      banks_.push_back({.read_port = {memory_, user},
+                        .oldest = {bits_, user},
+                        .leaves = {bits_, user},
+                        .number = i,
+                        .entry = i});
+    }
+    next_ = banks_.data();
+  }
 
   Reader reader() { return Reader(*this); }
 
@@ -83,33 +99,59 @@ class FillBuffer {
   }
 
   // Entries held by fills that were not used before `cycle`.
-  std::uint64_t held(Cycle cycle) const { return reserved_ - released_ + (released_at_ == cycle); }
+  std::uint64_t held(Cycle cycle) const {
+    return reserved_ - released_ + (released_at_ == cycle ? released_now_ : 0);
+  }
   void reset() {
-    reserved_ = released_ = read_ = 0;
-    released_at_ = read_at_ = kNever;
+    reserved_ = released_ = 0;
+    released_at_ = kNever;
+    for (std::uint32_t i = 0; i < banks_.size(); ++i) {
+      banks_[i].number = banks_[i].entry = i;
+      banks_[i].is_read = false;
+    }
+    next_ = banks_.data();
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
 
   static Datasheet datasheet();
 
  private:
+  // The oldest unused line of a bank.
+  struct Bank {
+    ReadPort<void> read_port, oldest;
+    WritePort<void> leaves;
+    std::uint64_t number;  // in the order of fills
+    std::uint32_t entry;
+    bool is_read = false;  // it is, or will be, on the output register
+    Cycle read_at = kNever;
+  };
+
   void read_ahead(Cycle cycle) {
-    if (read_ != released_ || reserved_ == released_) return;
-    oldest_.read(cycle, oldest());
-    if (arrived_[oldest()] >= cycle) return;
-    read_port_.read(cycle, oldest());
-    ++read_;
-    read_at_ = cycle;
+    for (Bank& bank : banks_) {
+      if (bank.is_read || bank.number >= reserved_) continue;
+      bank.oldest.read(cycle, bank.entry);
+      if (arrived_[bank.entry] >= cycle) continue;
+      bank.read_port.read(cycle, bank.entry);
+      bank.is_read = true;
+      bank.read_at = cycle;
+    }
   }
-  bool ready(Cycle cycle) const { return read_ != released_ && read_at_ < cycle; }
+  bool ready(Cycle cycle) const { return next_->is_read && next_->read_at < cycle; }
   const std::uint8_t* line(Cycle cycle) const {
-    read_port_.check(cycle, oldest(), read_at_);
-    return &bytes_[std::size_t{oldest()} * line_bytes_];
+    next_->read_port.check(cycle, next_->entry, next_->read_at);
+    return &bytes_[std::size_t{next_->entry} * line_bytes_];
   }
   void release(Cycle cycle) {
-    leaves_.write(cycle, oldest());
-    arrived_[oldest()] = kNever;
+    Bank& bank = *next_;
+    bank.leaves.write(cycle, bank.entry);
+    arrived_[bank.entry] = kNever;
+    bank.is_read = false;
+    bank.number += banks_.size();
+    bank.entry += static_cast<std::uint32_t>(banks_.size());
+    if (bank.entry >= entries_) bank.entry -= entries_;
+    if (++next_ == banks_.data() + banks_.size()) next_ = banks_.data();
     ++released_;
+    released_now_ = released_at_ == cycle ? released_now_ + 1 : 1;
     released_at_ = cycle;
   }
 
@@ -117,22 +159,21 @@ class FillBuffer {
   [[gnu::cold, gnu::noinline]] void reject(std::uint32_t entry, std::uint32_t offset,
                                            std::size_t bytes) const;
 
-  std::uint32_t oldest() const { return static_cast<std::uint32_t>(released_ % entries_); }
-
   // A word may be read at the last byte of the last line.
   static constexpr std::size_t kPadding = 3;
 
   std::uint32_t entries_, line_bytes_;
   Memory<void> memory_;
-  ReadPort<void> read_port_{memory_, "data_stage"};
   WritePort<void> write_{memory_, "miss_queue"};
   std::vector<std::uint8_t> bytes_;
   Memory<void> bits_;
-  ReadPort<void> oldest_{bits_, "data_stage"};
-  WritePort<void> arrives_{bits_, "miss_queue"}, leaves_{bits_, "data_stage"};
+  WritePort<void> arrives_{bits_, "miss_queue"};
   std::vector<Cycle> arrived_;  // cycle in which the bit was set; kNever: not set
-  std::uint64_t reserved_ = 0, released_ = 0, read_ = 0;
-  Cycle released_at_ = kNever, read_at_ = kNever;
+  std::vector<Bank> banks_;
+  Bank* next_ = nullptr;  // of the oldest fill
+  std::uint64_t reserved_ = 0, released_ = 0;
+  Cycle released_at_ = kNever;
+  std::uint32_t released_now_ = 0;  // in that cycle
 };
 
 }  // namespace deburr::rtl::texture

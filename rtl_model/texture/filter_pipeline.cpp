@@ -54,6 +54,7 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
                 Counter{"stage_7", "clk", "cycles with a sample in stage 7, accumulate"},
                 Counter{"stage_8", "clk", "cycles with a fragment in stage 8, round"},
                 Counter{"stage_9", "clk", "cycles with a fragment in stage 9, encode"}},
+      by_level_(configuration.blend == spec::texture::Blend::kLevel),
       probe_(probe),
       srgb_("srgb",
             {.words = spec::texture::kSrgbToLinear.size(),
@@ -132,7 +133,7 @@ inline void FilterPipeline::count_stages(bool arrives) {
 
 // Stage 1: ROM addresses for sRGB channels and for the weight of the sample.
 inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
-  if (weight_read_ && token.control.last_of_sample)
+  if (weight_read_ && (by_level_ || token.control.last_of_sample))
     weight_read_->read(cycle, weight_address(token.control.last_index, token.control.index));
   if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
   for (std::size_t i = 0; i < 4; ++i)
@@ -164,7 +165,7 @@ inline std::uint32_t FilterPipeline::weight(Cycle cycle, const TexelQuadToken& t
 // Stages 2 to 5.
 inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
   const TexelQuadToken& token = request.token;
-  if (token.control.last_of_sample) request.weight = weight(cycle, token);
+  if (by_level_ || token.control.last_of_sample) request.weight = weight(cycle, token);
   if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
   lerp<0>(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
 }
@@ -205,13 +206,15 @@ FilterPipeline::Channels FilterPipeline::unpack_srgb(Cycle cycle, const TexelQua
 }
 
 // Stage 6: sums the levels of a sample in U8.20, rounds once to U8.12, forwards after the last
-// level.
+// level. With `blend = level` it sums the samples of a level in U8.20 and forwards after the last.
 void FilterPipeline::lerp_levels(const Request& request) {
   const FilterControl& control = request.token.control;
-  level_sum_ = level_sum_ + request.row * control.level_weight;
+  const std::uint32_t inner = by_level_ ? request.weight : control.level_weight,
+                      outer = by_level_ ? control.level_weight : request.weight;
+  level_sum_ = level_sum_ + request.row * inner;
   if (!control.last_of_sample) return;
-  sample_ = {request.token.ticket, request.weight, control.format, control.last_of_fragment,
-             level_sum_.rounded(8)};
+  sample_ = {request.token.ticket, outer, control.format, control.last_of_fragment,
+             by_level_ ? level_sum_ : level_sum_.rounded(8)};
   has_sample_ = true;
   level_sum_ = {};
 }
@@ -219,11 +222,25 @@ void FilterPipeline::lerp_levels(const Request& request) {
 // Stage 7: sums samples in U8.20, forwards after the last sample of the fragment.
 void FilterPipeline::accumulate() {
   has_sample_ = false;
-  kernel_sum_ = kernel_sum_ + sample_.value * sample_.weight;
+  if (!by_level_) {
+    kernel_sum_ = kernel_sum_ + sample_.value * sample_.weight;
+  } else {
+    kernel_sum_ = add_level();
+  }
   if (!sample_.last_of_fragment) return;
   total_ = {sample_.ticket, sample_.format, kernel_sum_};
   has_total_ = true;
   kernel_sum_ = {};
+  if (by_level_) blend_sum_ = {};
+}
+
+// `blend = level`: sums levels in U8.28 and forwards U8.20. The bits dropped lie below those that
+// decide the rounding of stage 8.
+FilterPipeline::Channels FilterPipeline::add_level() {
+  const auto level = sample_.value.each();
+  for (std::size_t c = 0; c < 4; ++c) blend_sum_[c] += std::uint64_t{level[c]} * sample_.weight;
+  const auto kept = [&](std::size_t c) { return static_cast<std::uint32_t>(blend_sum_[c] >> 8); };
+  return Channels::of(kept(0), kept(1), kept(2), kept(3));
 }
 
 bool FilterPipeline::coded(const Total& total) const {
@@ -253,7 +270,9 @@ void FilterPipeline::encode(Cycle cycle) {
 
 inline void FilterPipeline::deliver(Cycle cycle, const Ticket& ticket,
                                     const std::array<std::uint32_t, 4>& rgba) {
-  spec::texture::Colour& colour = colours_out.emplace(cycle);
+  spec::texture::ColourGroup& group = colours_out.emplace(cycle);
+  group.count = 1;
+  spec::texture::Colour& colour = group.colour[0];
   colour.tag = ticket.tag;
   colour.lane = ticket.lane;
   colour.last = ticket.last;
@@ -267,6 +286,7 @@ void FilterPipeline::reset() {
   level_sum_ = {};
   has_sample_ = false;
   kernel_sum_ = {};
+  blend_sum_ = {};
   has_total_ = has_rounded_ = false;
 }
 
@@ -276,23 +296,29 @@ Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
       .variant = "`srgb_output = linear`",
       .does = "Filters four texels per cycle to the colour of a fragment.",
       .latency = {8},
-      .stages = {{"1", "fields"},
-                 {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
-                 {"3", "horizontal products", "12 x 9 multiply"},
-                 {"4", "horizontal sums"},
-                 {"5", "vertical lerp",
-                  "two 20 x 9 multiplies and their sum (18 rows of partial products; 24 x 24 has "
-                  "24), including rounding"},
-                 {"6", "level lerp", "20 x 9 multiply and 28-bit addition"},
-                 {"7", "round the level lerp, multiply by the weight, accumulate",
-                  "28-bit addition, then a 20 x 9 multiply and a 28-bit addition"},
-                 {"8", "round, pack"}},
+      .stages =
+          {{"1", "fields"},
+           {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
+           {"3", "horizontal products", "12 x 9 multiply"},
+           {"4", "horizontal sums"},
+           {"5", "vertical lerp",
+            "two 20 x 9 multiplies and their sum (18 rows of partial products; 24 x 24 has "
+            "24), including rounding"},
+           {"6", "level lerp (`blend = level`: sum over the samples of a level)",
+            "20 x 9 multiply and 28-bit addition"},
+           {"7",
+            "round the level lerp, multiply by the weight, accumulate (`blend = level`: level "
+            "lerp)",
+            "28-bit addition, then a 20 x 9 multiply and a 28-bit addition (`blend = level`: "
+            "28 x 9 multiply and 36-bit addition)"},
+           {"8", "round, pack"}},
       .formats =
           "U8.4 after stage 2, U8.12 after 4 and 5, U8.20 in 6 and 7, U8.0 out (`encoded`: U8.4 "
-          "after 8); rounded in 5, 7 and 8.",
+          "after 8); rounded in 5, 7 and 8; `blend = level`: U8.28 in 7, rounded in 5 and 8.",
       .cost =
-          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, the others 20 x 9), 24 adders, the "
-          "ROM `srgb`, 256 x 12 bits, 12R, one read per sRGB channel; ROM `weights`, 256 x 9 bits, "
+          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, the others 20 x 9; `blend = level`: "
+          "the last four 28 x 9), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one read per sRGB "
+          "channel; ROM `weights`, 256 x 9 bits, "
           "1R; `encoded`: ROM `codes`, 4096 x 8 bits, 3R, three adders."};
   if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
     sheet.variant = "`srgb_output = encoded`";

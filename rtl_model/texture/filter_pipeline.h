@@ -7,8 +7,9 @@
 // Stalls    downstream  The whole pipeline stalls.
 // Method    Stage 1 splits a texel into fields, the addresses of ROM `srgb`. Stage 2 reads it, and
 //           the weight of the sample from ROM `weights` by N and i (`box` with N a power of two:
-//           256 >> lb N, no ROM). Weights sum to 256, so no division is needed. The model computes
-//           stages 2 to 5 in stage 2, then delays.
+//           256 >> lb N, no ROM). Weights sum to 256, so no division is needed. With `blend =
+//           level` stages 6 and 7 swap their factors: 6 sums the samples of a level, 7 the levels.
+//           The model computes stages 2 to 5 in stage 2, then delays.
 // Source    Paper 2.3; weights and codes are ours.
 #pragma once
 
@@ -36,7 +37,7 @@ class FilterPipeline final : public Unit {
   static constexpr int kStages = 9;  // stage 9 only with `encoded`
 
   In<TexelQuadToken> texels_in{"texels_in"};
-  Out<spec::texture::Colour> colours_out{"colours_out"};
+  Out<spec::texture::ColourGroup> colours_out{"colours_out"};
 
   FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
                  const spec::texture::Configuration& configuration, LatencyProbe& probe);
@@ -89,12 +90,13 @@ class FilterPipeline final : public Unit {
     std::uint32_t weight;  // U1.8, weight of the sample, from stage 2 on
     Channels row;          // U8.12, after stage 5
   };
+  // A sample; with `blend = level` a level.
   struct Sample {
     Ticket ticket;
     std::uint32_t weight;  // U1.8
     std::uint8_t format;
     bool last_of_fragment;
-    Channels value;  // U8.12
+    Channels value;  // U8.12; with `blend = level` U8.20
   };
   struct Total {
     Ticket ticket;
@@ -112,12 +114,14 @@ class FilterPipeline final : public Unit {
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
   void lerp_levels(const Request& request);
   void accumulate();
+  Channels add_level();
   void round(Cycle cycle);
   void encode(Cycle cycle);
   void deliver(Cycle cycle, const Ticket& ticket, const std::array<std::uint32_t, 4>& rgba);
   bool coded(const Total& total) const;
   void count_stages(bool arrives);
 
+  const bool by_level_;  // `blend = level`
   LatencyProbe& probe_;
   Memory<std::uint16_t> srgb_;
   std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
@@ -128,10 +132,12 @@ class FilterPipeline final : public Unit {
   std::vector<ReadPort<std::uint8_t>> code_reads_;  // R, G, B
   // Registers after each stage; stage 8 (with `encoded` stage 9) writes the output link.
   Pipe<Request, kRequestStages> requests_;
-  Channels level_sum_{};  // U8.20, over the levels of the current sample
+  Channels level_sum_{};  // U8.20, over the levels of the current sample, or over the samples of
+                          // the current level
   Sample sample_{};
   bool has_sample_ = false;
-  Channels kernel_sum_{};  // U8.20, over the samples of the current fragment
+  Channels kernel_sum_{};                     // U8.20, over the samples of the current fragment
+  std::array<std::uint64_t, 4> blend_sum_{};  // U8.28, over its levels, with `blend = level`
   Total total_{};
   bool has_total_ = false;
   Total rounded_{};  // U8.0; channels to be encoded U8.4

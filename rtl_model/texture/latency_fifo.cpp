@@ -3,18 +3,6 @@
 
 namespace deburr::rtl::texture {
 
-LatencyFifo::LatencyFifo(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& p)
-    : Unit(name, clock),
-      entries("entries", static_cast<std::uint32_t>(p.cache_fifo_depth), cache_shape(p)) {}
-
-Activity LatencyFifo::tick(Cycle cycle) {
-  if (!requests_in.can_pop(cycle)) return kIdle;
-  if (!entries.can_push(cycle)) return kStalledDownstream;
-  entries.push(cycle, requests_in.take(cycle));
-  return kBusy;
-}
-
 Datasheet LatencyFifo::datasheet() {
   return {
       .unit = "LatencyFifo",
@@ -23,6 +11,16 @@ Datasheet LatencyFifo::datasheet() {
       .stages = {{"-", "requests; as deep as the memory latency in cycles",
                   "SRAM read into an output register"}},
       .cost = "depth x request bits, flip-flops up to 32 requests and 16 kbit, else SRAM 1R1W."};
+}
+
+Datasheet WideLatencyFifo::datasheet() {
+  Datasheet sheet = LatencyFifo::datasheet();
+  sheet.unit = "WideLatencyFifo";
+  sheet.does = "Holds groups between tag check and data read while lines come from memory.";
+  sheet.stages = {{"-", "groups; as deep as the memory latency in cycles, and 16 more",
+                   "SRAM read into an output register"}};
+  sheet.cost = "depth x group bits, flip-flops up to 32 groups and 16 kbit, else SRAM 1R1W.";
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

@@ -12,14 +12,15 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
                      const spec::texture::Parameters& p, ControlRegisters& registers)
     : Unit(name, clock),
       fills("fill_buffer", static_cast<std::uint32_t>(p.cache_outstanding),
-            static_cast<std::uint32_t>(p.cache_line_bytes)),
+            static_cast<std::uint32_t>(p.cache_line_bytes),
+            static_cast<std::uint32_t>(p.cache_fill_writes)),
       registers_(registers),
       line_bytes_(static_cast<std::uint32_t>(p.cache_line_bytes)),
       lines_("lines", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
                        .word_bits = 32 - log2_of(p.cache_line_bytes),
                        .kind = MemoryKind::kFlops,
                        .read_ports = 1,
-                       .write_ports = 4,
+                       .write_ports = static_cast<std::uint32_t>(p.cache_lookups),
                        .latency = 0,
                        .content = "lines waiting to be sent"}),
       failed_("failed", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
@@ -31,7 +32,7 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
           declare_stall("fill_buffer_full", "all entries of the fill buffer are held")),
       wait_memory_(
           declare_stall("wait_memory", "waits for lines from memory, nothing else to do")) {
-  for (int i = 0; i < 4; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
+  for (int i = 0; i < p.cache_lookups; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
 }
 
 Activity MissQueue::tick(Cycle cycle) {
@@ -83,7 +84,7 @@ inline Activity MissQueue::issue(Cycle cycle) {
   return kBusy;
 }
 
-// Accepts all lines that a request misses, or none.
+// Accepts all lines that a request (or group) misses, or none.
 inline bool MissQueue::accept(Cycle cycle) {
   if (!misses_in.can_pop(cycle)) return false;
   const MissToken& missed = misses_in.front(cycle);
@@ -112,8 +113,9 @@ Datasheet MissQueue::datasheet() {
       .interval = {1, "one line per cycle in each direction"},
       .stages = {{"-", "line to send; its entry is held from issue until the line is used",
                   "free entries including this cycle's, then write up to four lines: a 4 : 1 mux "
-                  "per entry; 256 : 1 mux of lines (64 by default)"}},
-      .cost = "flip-flops of outstanding x line number, 1R4W; the FillBuffer."};
+                  "per entry (`lookups` : 1 above `width = 1`); 256 : 1 mux of lines (64 by "
+                  "default)"}},
+      .cost = "flip-flops of outstanding x line number, 1R4W (1R, `lookups` W); the FillBuffer."};
 }
 
 }  // namespace deburr::rtl::texture

@@ -11,6 +11,7 @@
 // Source    Igehy et al., 1998.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <systemc>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/memory.h"
+#include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/fill_buffer.h"
@@ -43,6 +45,18 @@ class MissQueue final : public Unit {
   Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
   Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
   Counter max_waiting{"max_waiting", "lines", "largest number of lines waiting to be requested"};
+
+  // Configured number of entries; for 0 those that cover the latency of memory.
+  static constexpr std::int32_t entries(const spec::texture::Build& build,
+                                        const MemoryCycles& memory) {
+    if (build.cache_outstanding != 0) return build.cache_outstanding;
+    // A fill takes 12 cycles outside of memory; 32 entries per request and 112 cycles.
+    constexpr std::int32_t kEntries = 32, kOutside = 12, kCycles = 112, kMultiple = 4, kLeast = 8;
+    const std::int32_t entries =
+        (kEntries * build.width * (memory.latency + kOutside) + kCycles * kMultiple - 1) /
+        (kCycles * kMultiple) * kMultiple;
+    return std::clamp(entries, kLeast, spec::texture::kMostOutstanding);
+  }
 
   static Datasheet datasheet();
 

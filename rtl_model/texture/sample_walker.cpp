@@ -20,11 +20,12 @@ constexpr std::int32_t kWholeAxis = 64;  // U2.6
 
 SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
                            spec::texture::CountRule count, spec::texture::Kernel kernel,
-                           std::int32_t spread)
+                           std::int32_t spread, spec::texture::Blend blend)
     : Unit(name, clock),
       spread_(spread),
       narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
-                                                            : spread) {
+                                                            : spread),
+      by_level_(blend == spec::texture::Blend::kLevel) {
   if (count != spec::texture::CountRule::kAny) return;
   constexpr std::size_t kLargestCount = spec::texture::kReciprocal.size() - 1;
   reciprocal_ =
@@ -90,9 +91,8 @@ void SampleWalker::start(Prepared& next) {
 
 // Last stage.
 void SampleWalker::emit(Cycle cycle) {
-  const bool blends = fragment_.fraction != 0;
-  const bool last_of_sample = second_level_ || !blends;
-  const bool last = last_of_sample && index_ == fragment_.last_index;
+  const bool last_level = second_level_ || fragment_.fraction == 0,
+             last_sample = index_ == fragment_.last_index, last = last_level && last_sample;
 
   SampleToken& out = samples_out.emplace(cycle);
   out.ticket = fragment_.ticket;
@@ -104,16 +104,24 @@ void SampleWalker::emit(Cycle cycle) {
   out.last_index = fragment_.last_index;
   out.level = static_cast<std::uint8_t>(fragment_.level + (second_level_ ? 1 : 0));
   out.linear = fragment_.linear;
-  out.last_of_sample = last_of_sample;
+  out.last_of_sample = by_level_ ? last_sample : last_level;
   out.last_of_fragment = last;
 
-  second_level_ = !last_of_sample;
-  if (!last_of_sample) return;
-  ++samples;
+  walking_ = !last;
+  if (last_level) ++samples;
+  if (!by_level_) {
+    second_level_ = !last_level;
+    if (second_level_) return;
+  } else if (last_sample) {
+    second_level_ = true;
+    index_ = 0;
+    walk_s_ = -walk_s_;
+    walk_t_ = -walk_t_;
+    return;
+  }
   ++index_;
   walk_s_ += step_s_ << 1;
   walk_t_ += step_t_ << 1;
-  walking_ = !last;
 }
 
 Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Walks N samples along the major axis of the footprint and emits one bilinear request per cycle,
-// one or two per sample.
+// one or two per sample: sample by sample, or with `blend = level` level by level.
 //
 // Position  LevelUnit -> SampleWalker -> TexelAddresser.
 // Interval  No gap between fragments: the next ones are prepared meanwhile.
 // Stalls    downstream  Each stage stalls independently.
 // Method    If N is a power of two, the division by N is a shift. The accumulators step by twice
-//           the product.
+//           the product. Sample N - 1 lies opposite sample 0, so with `blend = level` the second
+//           level starts at the negated accumulators.
 // Source    Paper 2.2 (4); kernels, spread and `any` are ours.
 #pragma once
 
@@ -29,7 +30,8 @@ class SampleWalker final : public Unit {
   Out<SampleToken> samples_out{"samples_out"};
 
   SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
-               spec::texture::CountRule count, spec::texture::Kernel kernel, std::int32_t spread);
+               spec::texture::CountRule count, spec::texture::Kernel kernel, std::int32_t spread,
+               spec::texture::Blend blend = spec::texture::Blend::kSample);
   Activity tick(Cycle cycle) override;
   void reset() override { scaled_.occupied = divided_.occupied = walking_ = false; }
 
@@ -50,6 +52,7 @@ class SampleWalker final : public Unit {
   void emit(Cycle cycle);
 
   std::int32_t spread_, narrow_spread_;  // U2.6; narrow: for a tent with fewer than four samples
+  bool by_level_;                        // `blend = level`
   // `any` only: entry N - 1 is 1 / N, U1.16.
   std::unique_ptr<Memory<std::uint32_t>> reciprocal_;
   std::optional<ReadPort<std::uint32_t>> read_;
@@ -57,7 +60,7 @@ class SampleWalker final : public Unit {
   Prepared scaled_{}, divided_{};
   LevelToken fragment_{};
   bool walking_ = false;                  // fragment_ has requests left
-  bool second_level_ = false;             // the next request is the coarser level of its sample
+  bool second_level_ = false;             // the next request is of the coarser level
   std::uint8_t index_ = 0;                // U4, current sample
   std::int64_t step_s_ = 0, step_t_ = 0;  // S10.46, spread x axis / N
   std::int64_t walk_s_ = 0, walk_t_ = 0;  // S14.46, (2i + 1 - N) x spread x axis / N

@@ -8,15 +8,9 @@ namespace deburr::rtl::texture {
 
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::texture::Parameters& p)
-    : Unit(name, clock),
-      Lookups(static_cast<std::uint32_t>(p.cache_line_bytes)),
-      tags_("tags", p),
+    : TagUnit(name, clock, p),
       line_log2_(log2_of(p.cache_line_bytes)),
-      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
-      fill_number_(tags_.slots()),
-      miss_queue_full_(
-          declare_stall("miss_queue_full", "a line missed and the miss queue is not ready")),
-      fifo_full_(declare_stall("fifo_full", "the latency FIFO is full")) {}
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))) {}
 
 Activity TagStage::tick(Cycle cycle) {
   used_ += line_used_in.read(cycle) ? 1 : 0;

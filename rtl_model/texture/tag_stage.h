@@ -16,21 +16,16 @@
 #include <array>
 #include <cstdint>
 #include <systemc>
-#include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
-#include "rtl_model/fabric/lookups.h"
-#include "rtl_model/fabric/unit.h"
 #include "rtl_model/fabric/wire.h"
-#include "rtl_model/texture/tag_store.h"
+#include "rtl_model/texture/cache_units.h"
 #include "rtl_model/texture/tokens.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-using rtl::LookUp;
-
-class TagStage final : public Unit, public Lookups {
+class TagStage final : public TagUnit {
  public:
   In<TexelToken> texels_in{"texels_in"};
   Out<CacheToken> requests_out{"requests_out"};
@@ -41,14 +36,6 @@ class TagStage final : public Unit, public Lookups {
            const spec::texture::Parameters& parameters);
   Activity tick(Cycle cycle) override;
   void reset() override;
-  void invalidate() { tags_.invalidate(); }
-
-  // lookups = hits + merged + misses
-  Counter requests{"requests", "requests", "bilinear requests looked up"};
-  Counter hits{"hits", "lines", "lookups of a line in the data banks"};
-  Counter merged{"merged", "lines", "lookups of a line whose fill is in flight"};
-  Counter misses{"misses", "lines", "lookups that requested a fill"};
-  Counter evictions{"evictions", "lines", "valid lines replaced"};
 
   static Datasheet datasheet();
 
@@ -72,14 +59,8 @@ class TagStage final : public Unit, public Lookups {
   [[gnu::noinline]] Line order(std::uint32_t line, std::size_t texel, CacheToken& out,
                                MissToken& missed);
 
-  TagStore tags_;
   std::uint32_t line_log2_;
   std::uint32_t turn_;  // bytes
-  // Counters only, no hardware: number of the last fill requested for each slot, from 1. The line
-  // is in flight until that number of fills has been used.
-  std::vector<std::uint64_t> fill_number_;
-  std::uint64_t ordered_ = 0, used_ = 0;
-  Activity miss_queue_full_, fifo_full_;
   // Registers.
   Request request_{};
   bool occupied_ = false;

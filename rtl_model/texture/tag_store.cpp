@@ -2,6 +2,9 @@
 #include "rtl_model/texture/tag_store.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "rtl_model/texture/tokens.h"
 
@@ -19,6 +22,16 @@ std::uint32_t set_bits(const spec::texture::Parameters& p) {
   return ways * (tag + 2) + (ordered ? ways * (ways - 1) / 2 : 0);
 }
 
+// Claims `built` ports.
+template <class Port, std::size_t... i>
+std::array<Port, sizeof...(i)> ports_of(Memory<void>& memory, std::int32_t built,
+                                        std::index_sequence<i...> /*all*/) {
+  std::vector<Port> claimed;
+  for (std::int32_t port = 0; port < built; ++port)
+    claimed.emplace_back(memory, "line_" + std::to_string(port));
+  return {claimed[std::min(i, claimed.size() - 1)]...};
+}
+
 }  // namespace
 
 TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
@@ -29,12 +42,16 @@ TagStore::TagStore(const char* name, const spec::texture::Parameters& p)
       memory_(name, {.words = std::uint64_t{1} << sets_log2(p),
                      .word_bits = set_bits(p),
                      .kind = MemoryKind::kFlops,
-                     .read_ports = kPorts,
-                     .write_ports = kPorts,
+                     .read_ports = static_cast<std::uint32_t>(p.cache_lookups),
+                     .write_ports = static_cast<std::uint32_t>(p.cache_lookups),
                      .latency = 1,
                      // A request sees its sets as the previous request leaves them.
                      .read_during_write = ReadDuringWrite::kNewWord,
                      .content = "tags, and the order of use of each set's ways"}),
+      reads_(ports_of<ReadPort<void>>(memory_, p.cache_lookups,
+                                      std::make_index_sequence<kMostPorts>())),
+      writes_(ports_of<WritePort<void>>(memory_, p.cache_lookups,
+                                        std::make_index_sequence<kMostPorts>())),
       tags_(std::size_t{1} << (sets_log2(p) + ways_log2_)),
       turned_(tags_.size()),
       age_(tags_.size()) {

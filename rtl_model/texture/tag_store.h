@@ -3,7 +3,8 @@
 //
 // Position  Inside the TagStage; cost and longest path in its datasheet.
 // Layout    A word is a set: per way a tag, a valid bit and a rotation bit; and the order of last
-//           uses, one bit per pair of ways. Flip-flops with four read and four write ports.
+//           uses, one bit per pair of ways. Flip-flops with four read and four write ports, in a wide
+//           build one of each per lookup.
 // Latency   1: the sets of a request's lines are read in one cycle and available in the next,
 //           including changes by the previous request (a read returns the new word). The lines are
 //           then looked up in series: a lookup sees what earlier ones allocated, so four way muxes
@@ -35,7 +36,7 @@ class TagStore {
 
   TagStore(const char* name, const spec::texture::Parameters& parameters);
 
-  // --- Cycle 1: read the set of a line, through port 0..3 ---
+  // --- Cycle 1: read the set of a line, through port 0..3 (wide: 0..L - 1) ---
   void read(Cycle cycle, std::size_t port, std::uint32_t line) {
     reads_[port].read(cycle, line & set_mask_);
   }
@@ -66,6 +67,8 @@ class TagStore {
     changes_ = 0;
   }
 
+  std::uint32_t sets() const { return set_mask_ + 1; }
+  std::uint32_t ways() const { return way_mask_ + 1; }
   std::uint32_t slots() const { return static_cast<std::uint32_t>(tags_.size()); }
   // Invalidates all lines in one cycle; does not reset the shift register of `random`.
   void invalidate();
@@ -75,7 +78,9 @@ class TagStore {
   // Never matches, since a line number has at most 27 bits. Models the valid bit.
   static constexpr std::uint32_t kInvalid = ~std::uint32_t{0};
   static constexpr std::uint16_t kRandomStart = 0xACE1;
-  static constexpr std::size_t kPorts = 4;
+  static constexpr std::size_t kMostPorts = spec::texture::kMostLookups;
+  template <class Port>
+  using Ports = std::array<Port, kMostPorts>;  // those that are not built are copies of the last
 
   void make_youngest(std::uint32_t slot);
   std::uint32_t victim(std::uint32_t first);
@@ -84,18 +89,14 @@ class TagStore {
   spec::texture::Replacement replacement_;
   std::uint32_t set_mask_, way_mask_, ways_log2_;
   Memory<void> memory_;
-  std::array<ReadPort<void>, kPorts> reads_{
-      ReadPort<void>{memory_, "line_0"}, ReadPort<void>{memory_, "line_1"},
-      ReadPort<void>{memory_, "line_2"}, ReadPort<void>{memory_, "line_3"}};
-  std::array<WritePort<void>, kPorts> writes_{
-      WritePort<void>{memory_, "line_0"}, WritePort<void>{memory_, "line_1"},
-      WritePort<void>{memory_, "line_2"}, WritePort<void>{memory_, "line_3"}};
+  Ports<ReadPort<void>> reads_;
+  Ports<WritePort<void>> writes_;
   std::vector<std::uint32_t> tags_;   // U27 and valid
   std::vector<std::uint8_t> turned_;  // U1
   std::vector<std::uint8_t> age_;     // order of uses, 0: most recent; a permutation per set
   std::uint16_t random_ = kRandomStart;
   // Sets written in this cycle.
-  std::array<std::uint32_t, kPorts> changed_{};
+  std::array<std::uint32_t, kMostPorts> changed_{};
   std::size_t changes_ = 0;
 };
 

@@ -27,40 +27,87 @@ MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
 
 }  // namespace
 
+TextureCache::Narrow::Narrow(ClockDomain& clock, const spec::texture::Parameters& p,
+                             const FillBuffer::Reader& fills)
+    : tag_stage("tag_stage", clock, p),
+      latency_fifo("latency_fifo", clock, p),
+      data_stage("data_stage", clock, p, fills),
+      requests("requests", 2, cache_shape(p)) {
+  tag_stage.requests_out(requests);
+  latency_fifo.requests_in(requests);
+  data_stage.requests_in(latency_fifo.entries.link());
+  data_stage.line_used_out(line_used);
+  tag_stage.line_used_in(line_used);
+}
+
+TextureCache::Wide::Wide(ClockDomain& clock, const spec::texture::Parameters& p,
+                         const FillBuffer::Reader& fills)
+    : group_former("group_former", clock, p),
+      tag_stage("tag_stage", clock, p),
+      latency_fifo("latency_fifo", clock, p),
+      data_stage("data_stage", clock, p, fills),
+      groups("groups", 2, line_group_shape(p)),
+      requests("requests", 2, cache_group_shape(p)) {
+  group_former.groups_out(groups);
+  tag_stage.groups_in(groups);
+  tag_stage.requests_out(requests);
+  latency_fifo.requests_in(requests);
+  data_stage.requests_in(latency_fifo.entries.link());
+  data_stage.lines_used_out(lines_used);
+  tag_stage.lines_used_in(lines_used);
+  data_stage.stall_out(data_stall);
+  tag_stage.stall_in(data_stall);
+  tag_stage.stall_out(tag_stall);
+  group_former.stall_in(tag_stall);
+}
+
 TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
                            const spec::texture::Parameters& p, ControlRegisters& registers)
     : sc_module(name),
       miss_queue("miss_queue", clock, p, registers),
-      tag_stage("tag_stage", clock, p),
-      latency_fifo("latency_fifo", clock, p),
-      data_stage("data_stage", clock, p, miss_queue.fills.reader()),
+      narrow(p.width == 1 ? std::make_unique<Narrow>(clock, p, miss_queue.fills.reader())
+                          : nullptr),
+      wide(narrow ? nullptr : std::make_unique<Wide>(clock, p, miss_queue.fills.reader())),
+      tag_stage(narrow ? static_cast<TagUnit&>(narrow->tag_stage) : wide->tag_stage),
+      data_stage(narrow ? static_cast<DataUnit&>(narrow->data_stage) : wide->data_stage),
       memory_port("memory_port", clock, port_parameters(p)),
       misses_("misses", 2, miss_shape(p)),
-      requests_("requests", 2, cache_shape(p)),
       memory_requests_("memory_requests", 2,
                        request_shape(port_parameters(p), kAddressBits, tag_bits(p))),
       memory_responses_("memory_responses", 2,
                         response_shape(port_parameters(p), kAddressBits, tag_bits(p))) {
-  tag_stage.texels_in(texels_in);
-  tag_stage.requests_out(requests_);
-  latency_fifo.requests_in(requests_);
-  data_stage.requests_in(latency_fifo.entries.link());
-  data_stage.texels_out(texels_out);
-
-  tag_stage.misses_out(misses_);
+  if (narrow) {
+    narrow->tag_stage.texels_in(texels_in);
+    narrow->tag_stage.misses_out(misses_);
+    narrow->data_stage.texels_out(texels_out);
+  } else {
+    wide->group_former.texels_in(groups_in);
+    wide->tag_stage.misses_out(misses_);
+    wide->data_stage.texels_out(groups_out);
+  }
   miss_queue.misses_in(misses_);
   miss_queue.requests_out(memory_requests_);
   memory_port.requests_in(memory_requests_);
   memory_port.responses_out(memory_responses_);
   miss_queue.responses_in(memory_responses_);
-
-  data_stage.line_used_out(line_used_);
-  tag_stage.line_used_in(line_used_);
 }
 
-Datasheet TextureCache::datasheet() {
+Datasheet TextureCache::datasheet(const spec::texture::Build& build) {
+  if (build.width > 1) {
+    Datasheet sheet = {
+        .unit = "TextureCache",
+        .variant = "`width` above 1",
+        .does = "GroupFormer, WideTagStage, WideLatencyFifo and WideDataStage, for a group that "
+                "hits.",
+        .interval = {1, "one group per cycle while every line hits"}};
+    for (const Datasheet& block : {GroupFormer::datasheet(), WideTagStage::datasheet(),
+                                   WideLatencyFifo::datasheet(), WideDataStage::datasheet()})
+      sheet.latency.cycles += block.latency.cycles;
+    return sheet;
+  }
   Datasheet sheet = {
       .unit = "TextureCache",
+      .variant = "`width = 1`",
       .does = "TagStage, LatencyFifo and DataStage, for a request that hits.",
       .interval = {1, "one request per cycle while every line hits and no bank conflict occurs"}};
   for (const Datasheet& block :

@@ -11,9 +11,12 @@
 //
 // Links with two entries connect its units; `line_used` is a wire. Order of fills, merged misses:
 // docs/reference/texture/cache.md.
+// Wide      With a width above 1 the units are those of Wide below, behind a GroupFormer, and the
+//           tokens are groups: docs/reference/texture/width.md.
 // Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
 #pragma once
 
+#include <memory>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -21,34 +24,68 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/data_stage.h"
+#include "rtl_model/texture/group_former.h"
 #include "rtl_model/texture/latency_fifo.h"
 #include "rtl_model/texture/miss_queue.h"
 #include "rtl_model/texture/tag_stage.h"
+#include "rtl_model/texture/wide_data_stage.h"
+#include "rtl_model/texture/wide_tag_stage.h"
 
 namespace deburr::rtl::texture {
 
 class TextureCache final : public sc_core::sc_module {
  public:
+  // Width 1; above, the groups are bound instead.
   In<TexelToken> texels_in{"texels_in"};
   Out<TexelQuadToken> texels_out{"texels_out"};
+  In<TexelGroup> groups_in{"groups_in"};
+  Out<TexelQuadGroup> groups_out{"groups_out"};
 
+  // The FIFO's depth and the number of outstanding lines must not be 0.
   TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
                const spec::texture::Parameters& parameters, ControlRegisters& registers);
 
+  struct Narrow;
+  struct Wide;
+
   MissQueue miss_queue;
-  TagStage tag_stage;
-  LatencyFifo latency_fifo;
-  DataStage data_stage;
+  // Exactly one of the two is built.
+  const std::unique_ptr<Narrow> narrow;
+  const std::unique_ptr<Wide> wide;
+  TagUnit& tag_stage;
+  DataUnit& data_stage;
   MemoryPort memory_port;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Build& build = {});
 
  private:
   Link<MissToken> misses_;
-  Link<CacheToken> requests_;
   Link<MemoryRequest> memory_requests_;
   Link<MemoryResponse> memory_responses_;
-  Wire<bool> line_used_{"line_used", false};
+};
+
+struct TextureCache::Narrow {
+  Narrow(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
+
+  TagStage tag_stage;
+  LatencyFifo latency_fifo;
+  DataStage data_stage;
+  Link<CacheToken> requests;
+  Wire<bool> line_used{"line_used", false};
+};
+
+struct TextureCache::Wide {
+  Wide(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
+
+  GroupFormer group_former;
+  WideTagStage tag_stage;
+  WideLatencyFifo latency_fifo;
+  WideDataStage data_stage;
+  Link<LineGroup> groups;
+  Link<CacheGroup> requests;
+  Wire<std::uint8_t> lines_used{"lines_used", 0, {.widths = {{"value", 3}}}};
+  Wire<SlotStall> data_stall{"data_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
+  Wire<SlotStall> tag_stall{"tag_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
 };
 
 }  // namespace deburr::rtl::texture

@@ -8,6 +8,7 @@ namespace {
 
 spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryCycles& memory) {
   p.cache_fifo_depth = LatencyFifo::depth(p, memory);
+  p.cache_outstanding = MissQueue::entries(p, memory);
   return p;
 }
 
@@ -55,7 +56,7 @@ Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
       .does = "Latency from taking a quad to its first colour: one sample, nearest, cache hit.",
       .interval = {1, "max(N x (1 or 2), `axis_cycles`) cycles per fragment"}};
   for (const Datasheet& part :
-       {AddressUnit::datasheet(p), TextureCache::datasheet(), FilterPipeline::datasheet(p)})
+       {AddressUnit::datasheet(p), TextureCache::datasheet(p), FilterPipeline::datasheet(p)})
     sheet.latency.cycles += part.latency.cycles;
   return sheet;
 }

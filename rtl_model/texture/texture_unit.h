@@ -32,7 +32,7 @@ namespace deburr::rtl::texture {
 class TextureUnit final : public Engine {
  public:
   In<spec::texture::Quad> quads_in{"quads_in"};
-  Out<spec::texture::Colour> colours_out{"colours_out"};
+  Out<spec::texture::ColourGroup> colours_out{"colours_out"};
 
   // Creates modules that replace some units at their ports (ClockDomain::replace), for example
   // their RTL counterpart.

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "rtl_model/fabric/payload.h"
 #include "spec/texture/descriptor.h"
@@ -123,7 +124,8 @@ struct FilterControl {
   std::uint8_t index;          // index of the sample
   std::uint8_t last_index;     // N - 1 of the fragment
   std::uint8_t format;         // spec::texture::Format
-  bool last_of_sample;         // completes a sample (second level, or the only one)
+  bool last_of_sample;         // completes a sample (second level, or the only one); with
+                               // `blend = level`: completes a level (last sample)
   bool last_of_fragment;       // completes a fragment
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
@@ -178,14 +180,14 @@ struct TexelToken {
   }
 };
 
-// TagStage -> MissQueue: lines that one request misses, in the order of their fills.
+// TagStage -> MissQueue: lines that one request (or group) misses, in the order of their fills.
 struct MissToken {
-  std::array<std::uint32_t, 4> line;  // line numbers
-  std::uint8_t count;                 // 1..4
+  std::array<std::uint32_t, spec::texture::kMostLookups> line;  // line numbers
+  std::uint8_t count;                                           // 1..4, in a wide build 1..L
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("line", self.line, 27);
-    visit("count", self.count, 3);
+    visit("count", self.count, 4);
   }
 };
 
@@ -239,7 +241,7 @@ struct FragmentGroup {
   }
 };
 
-// SampleWalker -> TexelAddresser -> GroupFormer -> TagStage: requests of one cycle.
+// SampleWalker -> TexelAddresser -> GroupFormer: requests of one cycle.
 template <class Token>
 struct RequestGroup {
   std::uint8_t count;    // 1..W
@@ -255,6 +257,69 @@ struct RequestGroup {
 using SampleGroup = RequestGroup<SampleToken>;
 using TexelGroup = RequestGroup<TexelToken>;
 
+// A request of a group: the addresses of its texels are a line of the group and a byte in it.
+struct GroupRequest {
+  Ticket ticket;
+  FilterControl control;
+  std::array<std::uint8_t, 4> index;   // line of the group
+  std::array<std::uint8_t, 4> offset;  // bytes
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("control", self.control);
+    visit("index", self.index, 3);
+    visit("offset", self.offset, 7);
+  }
+};
+
+// GroupFormer -> WideTagStage: a group with its distinct lines in the order of first use.
+struct LineGroup {
+  std::uint8_t count;  // of requests, 1..W
+  std::uint8_t lines;  // 0..L
+  std::array<GroupRequest, kMostInGroup> at;
+  std::array<std::uint32_t, spec::texture::kMostLookups> line;  // line numbers
+  std::array<bool, spec::texture::kMostLookups> turned;  // if it misses: as its first texel asks
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("lines", self.lines, 4);
+    visit("at", self.at);
+    visit("line", self.line, 27);
+    visit("turned", self.turned, 1);
+  }
+};
+
+// WideTagStage -> WideLatencyFifo -> WideDataStage. The lines that missed are filled in this order.
+struct CacheGroup {
+  std::uint8_t count;
+  std::uint8_t lines;
+  std::array<GroupRequest, kMostInGroup> at;
+  std::array<std::uint16_t, spec::texture::kMostLookups> slot;  // of the data banks; its low bits
+                                                                // are those of the line number
+  std::array<bool, spec::texture::kMostLookups> missed;         // the line comes from memory
+  std::array<bool, spec::texture::kMostLookups> turned;         // is (or will be) stored turned
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("lines", self.lines, 4);
+    visit("at", self.at);
+    visit("slot", self.slot, 9);
+    visit("missed", self.missed, 1);
+    visit("turned", self.turned, 1);
+  }
+};
+
+// Why a unit behind the GroupFormer stopped it.
+enum class SlotStall : std::uint8_t {
+  kNone,
+  kAllocate,
+  kMissQueue,
+  kWaitFill,
+  kWriteFill,
+  kBankPass,
+  kOutput
+};
+
 // DataStage -> FilterPipeline.
 struct TexelQuadGroup {
   std::uint8_t count;  // 1..W
@@ -265,6 +330,14 @@ struct TexelQuadGroup {
     visit("at", self.at);
   }
 };
+
+// Bits of colours_out: with width 1 those of a Colour.
+inline PayloadShape colours_shape(const spec::texture::Build& p) {
+  if (p.width == 1) return {.widths = {{"count", 0}}, .single = "colour"};
+  const auto width = static_cast<std::uint32_t>(p.width);
+  return {.widths = {{"count", static_cast<std::uint32_t>(std::bit_width(width))}},
+          .counts = {{"colour", width}}};
+}
 
 // Half a tile: distance by which the words of a rotated line are moved.
 inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
@@ -288,11 +361,39 @@ inline std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
 }
 inline PayloadShape miss_shape(const spec::texture::Build& p) {
-  return {.widths = {{"line", 32 - log2_of(p.cache_line_bytes)}}};
+  const auto lines = static_cast<std::uint32_t>(p.cache_lookups);
+  return {.widths = {{"line", 32 - log2_of(p.cache_line_bytes)},
+                     {"count", static_cast<std::uint32_t>(std::bit_width(lines))}},
+          .counts = {{"line", lines}}};
 }
 inline PayloadShape cache_shape(const spec::texture::Build& p) {
   const std::uint32_t place = log2_of(p.cache_bytes), line = log2_of(p.cache_line_bytes);
   return {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
+}
+// Groups of a wide build.
+inline PayloadShape requests_shape(const spec::texture::Build& p) {
+  return {.counts = {{"at", static_cast<std::uint32_t>(p.width)}}};
+}
+inline PayloadShape group_shape(const spec::texture::Build& p) {
+  PayloadShape shape = requests_shape(p);
+  for (std::int32_t i = 0; i < p.width; ++i)
+    shape.widths.emplace_back("at." + std::to_string(i) + ".offset", log2_of(p.cache_line_bytes));
+  shape.counts.emplace_back("turned", p.cache_lookups);
+  return shape;
+}
+inline PayloadShape line_group_shape(const spec::texture::Build& p) {
+  PayloadShape shape = group_shape(p);
+  shape.widths.emplace_back("line", 32 - log2_of(p.cache_line_bytes));
+  shape.counts.emplace_back("line", p.cache_lookups);
+  return shape;
+}
+inline PayloadShape cache_group_shape(const spec::texture::Build& p) {
+  PayloadShape shape = group_shape(p);
+  shape.widths.emplace_back("slot",
+                            std::max(log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes), 1U));
+  for (const char* of_a_line : {"slot", "missed"})
+    shape.counts.emplace_back(of_a_line, p.cache_lookups);
+  return shape;
 }
 
 }  // namespace deburr::rtl::texture

@@ -83,7 +83,7 @@ class Checker:
             self.impossible |= {n for begin, end in entry["impossible"] for n in range(begin, end)}
         self.impossible -= set(self.reach)
         if failed:
-            raise Problem("the tests fail without any fault; mend them first: "
+            raise Problem("the tests fail without any fault; fix them first: "
                           + ", ".join(failed[:8]))
 
     def ordered(self, file, names, kind):

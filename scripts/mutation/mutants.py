@@ -54,7 +54,7 @@ NAMES = {"<": "Less", "<=": "LessEqual", ">": "Greater", ">=": "GreaterEqual", "
          "^=": "BitXorWith"}
 INFIX = {"<": ">=", "<=": ">=", ">": ">=", "!=": "==", ">>": "<<"}
 
-# Initial values of members are skipped: most are overwritten before they are read, so their mutants are no faults.
+# Initial values of members are skipped: most are overwritten before they are read, so their mutants are not faults.
 # Reset values are mutated in the reset function. `constant` is matched line by line to keep the mutants of old
 # records; the other kinds use statements.scan().
 DEFAULTS = re.compile(r"^ {2}(?: {2})?(?!static|const|return|using|for|if)[\w:<>,* ]+? \w+(?: = \d+)?"

@@ -63,7 +63,7 @@ class Tree:
             self.first[file] = number
             number = -(-(number + len(self.mutants[file]) + ROOM) // STEP) * STEP
         if number > MOST_SWITCHES:
-            raise Problem(f"{number} mutants are more than switch.h has room for")
+            raise Problem(f"{number} mutants are more than switch.h supports")
         self.dropped = {file: set() for file in files}
         self.remembered = work / "dropped.json"
         if self.remembered.exists():

@@ -65,7 +65,7 @@ class Sources:
     def below(self, top):
         """The names of a module and of all modules that it instantiates."""
         if top not in self.text:
-            raise Problem(f"there is no module {top} in hdl/")
+            raise Problem(f"no module {top} in hdl/")
         names, found = [top], []
         while names:
             name = names.pop()
@@ -100,7 +100,7 @@ def configurations(file):
         words = line.partition("#")[0].split()
         if words:
             if len(words) < 2 or any("=" not in word for word in words[2:]):
-                raise Problem(f"{file}:{number}: no NAME TOP SETTING=VALUE...: {line}")
+                raise Problem(f"{file}:{number}: expected NAME TOP SETTING=VALUE..., got {line}")
             found.append(Configuration(words[0], words[1], words[2:]))
     if not found:
         raise Problem(f"{file}: no configuration")
@@ -110,7 +110,7 @@ def configurations(file):
 def print_headers(found, program, folder, sources):
     """The headers of each configuration (tb/hdl/print_headers.cpp), and the hash of all inputs of the tools."""
     if not program.exists():
-        raise Problem(f"{program} is not there: cmake --preset hdl && cmake --build --preset hdl --target "
+        raise Problem(f"{program} does not exist: cmake --preset hdl && cmake --build --preset hdl --target "
                       "deburr_hdl_headers")
     for one in found:
         one.headers = folder / sha(*one.settings)[:16]
@@ -177,7 +177,7 @@ def elaborate(configuration, sources, folder, run, note):
         script = (f"read_verilog -sv -I{configuration.headers} {files}\nhierarchy -check -top {configuration.top}\n"
                   f"proc\nsetattr -set deburr_memory 1 *fifo*/m:* *sram_1r1w*/m:* *rom*/m:*\n"
                   f"write_ilang {design}.part\nwrite_json {listed}.part\n")
-        run(script, f"{configuration.name}: {configuration.top} is not read")
+        run(script, f"{configuration.name}: module {configuration.top} was not read")
         modules = {}
         for name, module in json.loads(pathlib.Path(f"{listed}.part").read_text(encoding="utf-8"))["modules"].items():
             modules[name] = {

@@ -206,7 +206,7 @@ def measured(technology, said, out):
         strange = [name for name in cells if name not in known and not re.fullmatch(
             FLIP_FLOPS[technology] + "|" + OTHERS[technology], name)]
         if strange:
-            raise Problem(f"{technology} has cells that nobody counts: {', '.join(strange)} (scripts/synthesis/flows.py)")
+            raise Problem(f"{technology} has cells of unknown kind: {', '.join(strange)} (scripts/synthesis/flows.py)")
         return {"luts": sum(count * LUTS[technology].get(name, 0) for name, count in cells.items()),
                 "flip_flops": flip_flops,
                 "multipliers": sum(count * MULTIPLIERS[technology].get(name, 0) for name, count in cells.items()),
@@ -270,7 +270,7 @@ def yardstick(mapper, folder):
     file.write_text(YARDSTICK_TEXT, encoding="utf-8")
     row = mapper.map(sha(YARDSTICK_TEXT), "osu018", file, "yardstick", YARDSTICK)
     if row == NOT_MAPPED:
-        raise Problem(f"the yardstick, a {YARDSTICK}, is over the time limit: give more --seconds")
+        raise Problem(f"the yardstick, a {YARDSTICK}, exceeds the time limit: increase --seconds")
     return row["ns"]
 
 

@@ -158,7 +158,7 @@ struct Work {
   std::uint64_t divides = 0;          // descriptors with a line and a side
   std::uint64_t blended_pixels = 0;   // pixels with a weight > 0
   std::uint64_t diagonal_pixels = 0;  // pixels whose top edge has the weights of a diagonal
-  std::uint64_t bypassed_pixels = 0;  // a weight > 0 was dropped by `leave` or `text_guard`
+  std::uint64_t bypassed_pixels = 0;  // a weight > 0 was dropped by `bypass` or `text_guard`
   friend bool operator==(const Work&, const Work&) = default;
 };
 

@@ -188,11 +188,12 @@ struct Parameters : Configuration, Build {};
 
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
-  v.choice("preset", p.preset, kPresetNames,
-           "Named configuration: sets the rules below. A rule that is given overrides it.");
+  v.choice(
+      "preset", p.preset, kPresetNames,
+      "Named configuration: sets the parameters below. A parameter that is given overrides it.");
   v.choice("quality", p.quality, kQualityNames,
-           "Quality level of the presets smaa and smaa-dynamic. The preset, and rules that are "
-           "given, override it.");
+           "Quality level of the presets smaa and smaa-dynamic. The preset, and parameters that "
+           "are given, override it.");
   v.choice("edges.source", p.edge_source, kEdgeSourceNames,
            "Edge criterion: luma, depth, luma with a threshold controlled by depth, or the largest "
            "step of R, G and B. Local contrast with colour uses steps between neighbours, as the "

@@ -98,8 +98,9 @@ struct Parameters : Configuration, Build {};
 
 template <class Visitor>
 void describe(Configuration& p, Visitor& v) {
-  v.choice("preset", p.preset, kPresetNames,
-           "Named configuration: sets the rules below. A rule that is given overrides it.");
+  v.choice(
+      "preset", p.preset, kPresetNames,
+      "Named configuration: sets the parameters below. A parameter that is given overrides it.");
   v.choice("axes", p.axes, kAxesNames,
            "Candidate directions of the major axis: the pixel's row and column (the paper), or "
            "four or eight directions, every 45 or 22.5 degrees.");
@@ -218,19 +219,15 @@ constexpr void for_each_of(NamedBuild build, Set&& set) {
   set("cache.fill_writes", &Build::cache_fill_writes, row.fill_writes);
 }
 
-// The defaults with the values of a named build. Throws ConfigError for an unknown one.
-constexpr Parameters named_build(NamedBuild build) {
-  Parameters p;
-  p.build = build;
-  for_each_of(build, [&](std::string_view, auto member, auto value) { p.*member = value; });
-  return p;
-}
-
-// The defaults with the values of a preset. Throws ConfigError for an unknown preset.
-constexpr Parameters preset_parameters(Preset preset) {
+// The defaults with the values of a preset and of a named build. Throws ConfigError if either is
+// unknown.
+constexpr Parameters preset_parameters(Preset preset, NamedBuild build = NamedBuild::kNarrow) {
   Parameters p;
   p.preset = preset;
-  for_each_of(preset, [&](std::string_view, auto member, auto value) { p.*member = value; });
+  p.build = build;
+  const auto set = [&](std::string_view, auto member, auto value) { p.*member = value; };
+  for_each_of(preset, set);
+  for_each_of(build, set);
   return p;
 }
 

@@ -29,7 +29,7 @@ tool::Outcome reproduce(const tool::PapersOptions& command, const tool::CommandL
   for (const std::string& id : command.only)
     if (std::find(known.begin(), known.end(), id) == known.end())
       throw spec::ConfigError(
-          fmt::format("no paper '{}' here: known are {}", id, fmt::join(known, ", ")));
+          fmt::format("unknown paper '{}' (known: {})", id, fmt::join(known, ", ")));
   if (command.out.empty())
     throw spec::ConfigError("--out: expected a name, got '': give one, or leave out --out");
   tb::catch_interrupts();
@@ -60,7 +60,7 @@ tool::Outcome reproduce(const tool::PapersOptions& command, const tool::CommandL
     code = tb::kInterruptedExit;
     ended = "INTERRUPTED papers";
   }
-  if (done.empty()) return {code, ended + ": nothing was finished, no results were written"};
+  if (done.empty()) return {code, ended + ": no paper was finished, no results were written"};
   nlohmann::ordered_json manifest = write_papers(directory.draft(), done);
   manifest["command"] = line.text;
   directory.publish(std::move(manifest), "index.html");

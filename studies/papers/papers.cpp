@@ -165,7 +165,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
     json["papers"].push_back(entry);
   }
   mustache::data root;
-  root.set("title", "What the papers say, and what holds");
+  root.set("title", "Claims of the papers, and whether they hold");
   root.set("brand", "papers");
   root.set("footer", "Built by deburr papers.");
   root.set("papers", list);

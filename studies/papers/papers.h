@@ -20,7 +20,7 @@ namespace deburr::studies {
 
 struct PaperTable {
   std::string title, note;
-  // A column named "verdict" is shown as one (verdicts.h); "-": the row makes no claim.
+  // A column named "verdict" is shown as one (verdicts.h); "-": the row does not state a claim.
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
@@ -51,7 +51,7 @@ struct PaperOptions {
 
   // Throws Interrupted if requested: a partial paper is discarded.
   void go_on() const;
-  // The same check for callees that poll by themselves; also shows what is being waited for.
+  // The same check for callees that poll by themselves; also shows the awaited item.
   std::function<bool()> watching(tb::Waiting& waiting) const;
 };
 

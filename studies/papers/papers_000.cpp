@@ -110,20 +110,20 @@ PaperTable theorem(const PaperOptions& options) {
     ++obeying;
     impossible += twice[0] && twice[1];
   }
-  PaperTable table{"Theorem 1: the lengths of a line's steps differ by at most 1",
+  PaperTable table{"Theorem 1: the step lengths of a digital line differ by at most 1",
                    "Complete runs of random digital lines of slopes 1 to 1/40. The printed proof "
                    "does not hold; from "
                    "L2 >= L1 + 2 follows k < 1/(L2 - 1) <= 1/(L1 + 1) < k, a contradiction.",
                    {"item", "paper", "ours", "verdict"},
                    {}};
   table.rows = {
-      {fmt::format("lines with lengths that differ by more, of {} ({} runs)", pairs, runs), "0",
-       fmt::format("{}", violations), claim(violations)},
+      {fmt::format("lines whose step lengths differ by more than 1, of {} ({} runs)", pairs, runs),
+       "0", fmt::format("{}", violations), claim(violations)},
       {"runs with a slope outside 1/(L+1) .. 1/(L-1)", "0", fmt::format("{}", outside),
        claim(outside)},
-      {"two steps of the rarer length side by side", "not said", fmt::format("{}", neighbours),
+      {"two adjacent steps of the rarer length", "not said", fmt::format("{}", neighbours),
        claim(neighbours, "never", "happens")},
-      {"random sequences of L and L + 1 that obey the theorem and are no line, %", "not said",
+      {"random sequences of L and L + 1 that obey the theorem but are not a line, %", "not said",
        decimals(100 * ratio(static_cast<double>(impossible), static_cast<double>(obeying)), 1),
        claim(impossible, "sufficient", "insufficient")}};
   return table;
@@ -178,7 +178,7 @@ PaperTable third_branch(const PaperOptions& options) {
                    "Printed: x = x + 1, L' = L + 1. Right: x = x + L + 1. Runs of random digital "
                    "lines, N = 4, the right "
                    "side; the slope is that of the chord from the run's start.",
-                   {"third branch", "sides", "take it, %", "end beside a corner, %", "steps taken",
+                   {"third branch", "sides", "take it, %", "end next to a corner, %", "steps taken",
                     "slope error, RMS %", "verdict"},
                    {}};
   const int lines = options.quick ? 2000 : 20000;
@@ -221,10 +221,10 @@ PaperTable third_branch(const PaperOptions& options) {
 }
 
 PaperTable complexity(const PaperOptions& options) {
-  PaperTable table{"Complexity: at most N + 2 samples a side, against L N / 2 of a walk",
+  PaperTable table{"Complexity: at most N + 2 samples per side, against L N / 2 of a walk",
                    "A sample shows two neighbouring pixels. Sides of runs of random digital lines.",
                    {"N", "L", "sides", "N + 2", "samples, mean", "samples, most",
-                    "tests one by one, most", "walk, mean", "verdict"},
+                    "sequential tests, maximum", "walk, mean", "verdict"},
                    {}};
   constexpr std::array<std::pair<int, int>, 5> kClasses = {
       {{1, 2}, {3, 5}, {6, 10}, {11, 20}, {21, 40}}};
@@ -268,10 +268,10 @@ PaperTable complexity(const PaperOptions& options) {
 PaperTable probes(const PaperOptions& options) {
   PaperTable table{
       "Complexity: corners that the engine tests, for each pixel of the line",
-      "Lines of slope 1/(L + u) through the whole engine, preset mlaa-slope; all runs "
-      "that are extended by N steps on both sides. A walk from a pixel to both ends of "
-      "its extended line visits the corners between them one by one; the engine finds "
-      "runs once, and tests at most three corners a step.",
+      "Lines of slope 1/(L + u) through the whole engine, preset mlaa-slope; all runs that are "
+      "extended by N steps on both sides. A walk from a pixel to both ends of its extended line "
+      "visits the corners between them one by one; the engine finds runs once, and tests at most "
+      "three corners per step.",
       {"N", "L", "line pixels", "engine, a pixel", "walk, a pixel", "walk / engine", "verdict"},
       {}};
   Random random(4);
@@ -351,16 +351,16 @@ PaperTable quality(const PaperOptions& options, double low, double high) {
   if (options.quick) fan.lines = 8, fan.seeds = 1;
   PaperTable table{
       fmt::format("RMSE × 1000 to analytic coverage, slopes 1/(n + u), u in [{}, {}]", low, high),
-      fmt::format("{} lines for each n and seed, {} seeds. The paper prints no figures: it shows "
-                  "less undulation than MLAA (undulation: RMS of a column's error; jump: RMS of "
-                  "its change from column to column; n = 2..20). Chord is the paper's line, fit is "
-                  "ours. Against MLAA: smoother means less undulation, steadier less jump. Rows in "
-                  "brackets are the contract's, found by another program on other lines: ours must "
-                  "not be above its line fit. Verdicts: of mlaa whether it has less undulation "
-                  "than no anti-aliasing, of a chord without steps whether it is mlaa, of the "
-                  "other chords and of two steps a side whether they have less undulation than "
-                  "mlaa, of the others whether the contract is kept.",
-                  fan.lines, fan.seeds),
+      fmt::format(
+          "{} lines for each n and seed, {} seeds. The paper gives no numbers: it shows less "
+          "undulation than MLAA (undulation: RMS of a column's error; jump: RMS of its change from "
+          "column to column; n = 2..20). Chord is the paper's line, fit is ours. Against MLAA: "
+          "smoother means less undulation, steadier less jump. Rows in brackets are required "
+          "values, found by another program on other lines: ours must not exceed its line fit. "
+          "Verdicts: mlaa, whether it has less undulation than no anti-aliasing; a chord without "
+          "steps, whether it equals mlaa; the other chords and two steps per side, whether they "
+          "have less undulation than mlaa; the others, whether the required values are met.",
+          fan.lines, fan.seeds),
       {"line"},
       {}};
   for (const std::string_view name : tb::stimuli::kSlopeClasses)
@@ -518,19 +518,15 @@ std::optional<std::size_t> made_of(const std::vector<FanRow>& rows, std::size_t 
 // The gain of each configuration step of deburr.
 PaperTable configuration(const PaperOptions& options) {
   PaperTable table{
-      "The rules of deburr, one by one",
+      "The options of preset deburr, added one by one",
       "RMSE × 1000 to exact coverage on straight lines (n = 2..20, u in [0.05, 0.95]) and on "
-      "discs, "
-      "by radius in pixels; PSNR in dB, mean over the scenes cylinders, object and road, on edges "
-      "and on silhouettes. A curve refutes most extensions: contiguous and safe keep the false "
-      "ones "
-      "out, trim gives back what the bend has already spoilt. These scenes have strong edges only; "
-      "contrast and threshold pay on frames with weak ones. Learned shares saw these scenes when "
-      "they "
-      "were trained (docs/measurements/morphological_quality.md has frames that they did not see). "
-      "The verdict: "
-      "what a row brings against "
-      "the row above, or against the one that it names, as they are shown here.",
+      "discs, by radius in pixels; PSNR in dB, mean over the scenes cylinders, object and road, on "
+      "edges and on silhouettes. Most extensions on a curve are wrong: contiguous and safe reject "
+      "them, trim undoes those already made at a bend. These scenes have strong edges only; "
+      "contrast and threshold pay on frames with weak ones. Learned weights were trained on these "
+      "scenes (docs/measurements/morphological_quality.md has frames that were not). The verdict: "
+      "the gain of a row over the row above, or over the row that it names, in the figures shown "
+      "here.",
       {"rules", "lines", "discs 8-32", "discs 64-256", "edges", "silhouettes", "verdict"},
       {}};
   FanOptions fan;
@@ -594,17 +590,14 @@ struct Compared {
 Compared rendered_scenes(const PaperOptions& options) {
   Compared compared;
   PaperTable& table = compared.table;
-  table = {
-      "Rendered frames against supersampled reference, PSNR in dB",
-      "Edge pixels: reference and frame differ by more than 2/255; silhouettes: with a depth step "
-      "of 5 % to a neighbour. The verdict of MSAA 4x and mlaa says whether they are better than "
-      "none on both, that of mlaa-slope whether it is better than mlaa; those of deburr-line and "
-      "deburr "
-      "are their places among all six, the best being better than all others on both. The edges of "
-      "tunnel "
-      "and plane are texture: smoothing them gains little or loses.",
-      {"scene", "method", "frame", "edges", "silhouettes", "verdict"},
-      {}};
+  table = {"Rendered frames against supersampled reference, PSNR in dB",
+           "Edge pixels: reference and frame differ by more than 2/255; silhouettes: with a depth "
+           "step of 5 % to a neighbour. Verdicts: MSAA 4x and mlaa, whether they are better than "
+           "none on both; mlaa-slope, whether it is better than mlaa; deburr-line and deburr, "
+           "their ranks among all six, where the best is better than all others on both. The edges "
+           "of tunnel and plane are texture: smoothing them gains little or loses.",
+           {"scene", "method", "frame", "edges", "silhouettes", "verdict"},
+           {}};
   struct Shown {
     const char* scene;
     const char* title;  // none: no pictures
@@ -649,10 +642,10 @@ Compared rendered_scenes(const PaperOptions& options) {
     columns.push_back({"reference", "", lit.reference});
     figure.images.push_back(
         {fmt::format("{}_zooms", shown.scene), "Zooms",
-         fmt::format("columns: none, MSAA 4x, mlaa, mlaa-slope, deburr-line, deburr, reference ({} "
-                     "samples a pixel); "
-                     "rows: as it is, then 4 x and 8 x at {} silhouettes from left to right",
-                     kReferenceSamples * kReferenceSamples, shown.strips),
+         fmt::format(
+             "columns: none, MSAA 4x, mlaa, mlaa-slope, deburr-line, deburr, reference ({} samples "
+             "per pixel); rows: unscaled, then 4 x and 8 x at {} silhouettes from left to right",
+             kReferenceSamples * kReferenceSamples, shown.strips),
          zooms(columns, silhouettes, shown.strips, shown.rows), true});
     compared.figures.push_back(figure);
   }
@@ -662,7 +655,7 @@ Compared rendered_scenes(const PaperOptions& options) {
 // Frames that the learned weights were not trained on.
 PaperTable held_out(const PaperOptions& options) {
   PaperTable table{
-      "Learned shares on frames that they did not see, PSNR in dB",
+      "Learned weights on frames outside the training set, PSNR in dB",
       "On edges / on silhouettes. Scenes and shapes that training leaves out, and with DEBURR_DATA "
       "set the frames of track and the 17 held-out meshes of that folder. The verdict: is deburr "
       "above every other row on both?",
@@ -672,7 +665,7 @@ PaperTable held_out(const PaperOptions& options) {
   training::FrameOptions frames;
   frames.size = options.size;
   if (const char* folder = std::getenv("DEBURR_DATA")) frames.data = folder;
-  tb::Waiting waiting("paper 000: frames that learned weights did not see", options.quiet);
+  tb::Waiting waiting("paper 000: frames outside the training set", options.quiet);
   for (const training::FrameSource& source : training::held_out_set(frames)) {
     options.go_on();
     waiting.update();
@@ -702,15 +695,14 @@ PaperTable held_out(const PaperOptions& options) {
 }
 
 PaperTable cost_of_a_loop(const PaperOptions& options) {
-  PaperTable table{"Cost of one more loop",
-                   "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: cycles of "
-                   "all predictors of both axes "
-                   "for the frame of five cylinders, at 148.5 MHz; they run beside the raster, so "
-                   "that the frame takes no "
-                   "clock longer. `most` is a frame of noise.",
-                   {"N", "trials, cylinders", "one more loop, ms", "trials, most",
-                    "one more loop, ms, most", "frame, ms", "verdict"},
-                   {}};
+  PaperTable table{
+      "Cost of one more loop",
+      "Paper: 0.07 ms on a GTX 560 Ti, size of the frame not given. Ours: cycles of all predictors "
+      "of both axes for the frame of five cylinders, at 148.5 MHz; they run in parallel with the "
+      "raster scan, so the frame takes no longer. `most` is a frame of noise.",
+      {"N", "trials, cylinders", "one more loop, ms", "trials, most", "one more loop, ms, most",
+       "frame, ms", "verdict"},
+      {}};
   const int side = options.size;
   tb::RenderOptions render_options;
   render_options.width = render_options.height = side;

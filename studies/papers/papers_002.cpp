@@ -101,10 +101,10 @@ Silhouettes silhouettes_of(const tb::EdgeTable& table, IsSilhouette&& is_silhoue
 PaperTable equations_1_to_3() {
   PaperTable table{
       "Equations 1 to 3: facing and silhouettes",
-      "A face is turned to the eye where N·V < 0, and a silhouette lies between two faces of which "
-      "one is. The paper's product (N1·V)(N2·V) <= 0 is the same but for faces seen edge on, where "
-      "it takes every edge of such a face and leaves loops open; the exclusive or of equation 1 on "
-      "either side closes them. Loops of an open mesh end at its boundary.",
+      "A face points to the eye where N·V < 0, and a silhouette lies between two faces of which "
+      "exactly one does. The paper's product (N1·V)(N2·V) <= 0 is the same except for faces seen "
+      "edge-on, where it selects every edge of such a face and leaves loops open; the exclusive or "
+      "of equation 1 for both faces closes them. Loops of an open mesh end at its boundary.",
       {"scene", "faces", "facing bits that differ from N·V", "silhouettes, product",
        "silhouettes, exclusive or", "loose ends, product", "loose ends, exclusive or", "verdict"},
       {}};
@@ -139,9 +139,9 @@ PaperTable equations_1_to_3() {
 PaperTable equation_4(const PaperOptions& options) {
   PaperTable table{
       "Equation 4: creases by their angle alone",
-      "N1·N2 <= 0.99 is an angle of 8.1 degrees. RMSE on edge pixels of our preset with no "
-      "creases, with the paper's, and with those where the shading breaks. The verdict is the "
-      "paper's creases against none.",
+      "N1·N2 <= 0.99 is an angle of 8.1 degrees. RMSE on edge pixels of our preset without "
+      "creases, with the paper's creases, and with creases where the shading is discontinuous. The "
+      "verdict compares the paper's creases with none.",
       {"scene", "silhouettes alone", "angle (paper)", "angle and shading (ours)", "verdict"},
       {}};
   tb::Waiting waiting("paper 002: creases", options.quiet);
@@ -167,9 +167,9 @@ PaperTable equation_4(const PaperOptions& options) {
 PaperTable equations_5_and_6() {
   PaperTable table{
       "Equations 5 and 6: the viewport and its bias",
-      "The bias is the middle of the picture. The text has it cure that lines and faces have "
-      "different depths; no shift in x and y can. Of the pixels that silhouettes of the sphere "
-      "cut, the share that an equal-depth test against the pixel itself drops:",
+      "The bias is the middle of the picture. The text claims that it compensates different depths "
+      "of lines and faces; no shift in x and y can. Share of the pixels cut by silhouettes of the "
+      "sphere that an equal-depth test against the pixel itself drops:",
       {"item", "paper", "ours", "verdict"},
       {}};
   const tb::Scene scene = make_scene("sphere");
@@ -208,12 +208,12 @@ PaperTable equations_5_and_6() {
 PaperTable equations_7_and_8(const PaperOptions& options) {
   PaperTable table{
       "Equations 7 and 8: weights against the area that a line cuts off",
-      "RMSE × 1000 of the share that a pixel keeps, over pixels that lines of a slope cut, phases "
-      "spread evenly. The text's distance may be read as the one across the line; equation 7 takes "
-      "the one along the axis, and one pixel a column. Across the line would be nearer to the area "
-      "from slope 0.5 on, most of all if the second pixel of a column that is cut got its weight, "
-      "too. The verdict: the equation against a single pixel a column.",
-      {"slope", "none", "across the line", "across, one a column", "equation", "verdict"},
+      "RMSE × 1000 of a pixel's own weight, over the pixels cut by lines of one slope, with evenly "
+      "spread phases. The text's distance may be read as perpendicular to the line; equation 7 "
+      "uses the distance along the axis, and one pixel per column. The perpendicular distance is "
+      "closer to the area from slope 0.5 on, above all if the second cut pixel of a column gets "
+      "its weight as well. The verdict: the equation against a single pixel per column.",
+      {"slope", "none", "across the line", "across, one per column", "equation", "verdict"},
       {}};
   constexpr int kSize = 48;
   const int phases = options.quick ? 16 : 64;
@@ -282,11 +282,11 @@ PaperTable ties() {
       "Pseudo-code: exact ties and borders",
       fmt::format("Lines through a pixel's centre, {} directions. A neighbour of the same owner "
                   "has the same colour, and nothing is smoothed. At the pixel's border the text "
-                  "prints dis = 0 and coverage 0.5 once more; |dis| = 1/2 and 0 are meant.",
+                  "repeats dis = 0 and coverage 0.5; it means |dis| = 1/2 and 0.",
                   ties),
       {"item", "paper", "ours", "verdict"},
       {}};
-  table.rows = {{"ties whose neighbour by dis >= 0 has the same owner, %", "0",
+  table.rows = {{"ties where the neighbour chosen by dis >= 0 has the same owner, %", "0",
                  decimals(100.0 * static_cast<double>(printed_same) / static_cast<double>(ties), 1),
                  claim(printed_same)},
                 {"the same by our rule, %", kNotPrinted,
@@ -377,17 +377,16 @@ EdgeCycles edge_cycles(const Frame& frame, const Parameters& parameters) {
 PaperTable table_1() {
   PaperTable table{
       "Table 1: edge detection, all edges against fewer",
-      "The paper's times are of a program and lost in the scan; their mean saving is printed. Ours "
-      "are cycles, and savings over all edges. (a) The list is built each frame, a record read and "
-      "a kept one written a clock: (edges + kept) / (2 edges), at most 50 % whatever is left out. "
-      "(b) It is built once a mesh, until the last line is set up: the saving is of lines, not of "
-      "classifying, which takes a clock an edge with one lane and half with two. (c) Until the "
-      "last group of pixels is in, with two lanes: without the copy of the frame that these "
-      "presets "
-      "make, and with the 115 200 lines of memory that it takes, most of all cycles. Prefiltered: "
-      "boundaries and creases by their angle, found once a mesh, whatever the view. 1280 x 720; "
-      "bounds of the units, whatever the memory's latency. Counterparts of the models, not the "
-      "models.",
+      "The paper's times are of software and illegible in the scan; their mean saving is printed. "
+      "Ours are cycles, and savings over all edges. (a) The list is built for each frame; one "
+      "record is read and one kept record written per cycle: (edges + kept) / (2 edges), at most "
+      "50 % even if every edge is dropped. (b) The list is built once per mesh; cycles until the "
+      "last line is set up: the saving is in lines, not in classification, which takes one cycle "
+      "per edge with one lane and half a cycle with two. (c) Cycles until the last group of pixels "
+      "arrives, with two lanes: without the frame copy that these presets make, and with its 115 "
+      "200 memory lines, which are most of all cycles. Prefiltered: boundaries and creases by "
+      "their angle, found once per mesh, independent of the view. 1280 x 720; bounds of the units, "
+      "independent of memory latency, from formulas instead of the models.",
       {"model", "edges drawn", "kept", "blended pixels", "saving (a), %", "cycles (b), one lane",
        "saving, one lane, %", "cycles (b), two lanes", "saving, two lanes, %",
        "cycles (c), no copy", "saving, no copy, %", "cycles (c), with the copy",
@@ -451,14 +450,12 @@ Compared pictures(const PaperOptions& options) {
   compared.table = {
       "Figures 3 to 6: rendered models against supersampled reference",
       "PSNR in dB on edge pixels (reference and frame differ by more than 2/255) and on "
-      "silhouettes "
-      "(with a step of depth of 5 %). The paper says that selection saves time; it improves "
-      "quality, too, since an inner line blends pixels that belong to a silhouette. gpaa draws "
-      "every edge, as the method's demonstration of 2011 does; prefiltered, boundaries and creases "
-      "by their angle, as its chapter does: silhouettes of smooth surfaces, which the view makes, "
-      "are left out. The verdict of gpaa and MSAA 4x: better than none on "
-      "both; of gpaa prefiltered and gpaa-optimised: than gpaa; of deburr: its place among all "
-      "six.",
+      "silhouettes (with a step of depth of 5 %). The paper says that selection saves time; it "
+      "also improves quality, since an inner line blends pixels that belong to a silhouette. gpaa "
+      "draws every edge, like the method's demonstration of 2011; prefiltered draws boundaries and "
+      "creases by their angle, like its chapter: it misses the view-dependent silhouettes of "
+      "smooth surfaces. Verdicts: gpaa and MSAA 4x, better than none on both; gpaa prefiltered and "
+      "gpaa-optimised, better than gpaa; deburr, its rank among all six.",
       {"scene", "method", "edges drawn", "edges", "silhouettes", "verdict"},
       {}};
   tb::Waiting waiting("paper 002: rendering models and reference, and smoothing", options.quiet);
@@ -516,14 +513,15 @@ Compared pictures(const PaperOptions& options) {
   return compared;
 }
 
-// ---- what the paper does not say ----------------------------------------------------------------
+// ---- beyond the paper ---------------------------------------------------------------------------
 
 PaperTable order_of_edges(const PaperOptions& options) {
   PaperTable table{
       "The order of edges",
-      "Pixels that change when the same edges are drawn in another order, by the rule for weights "
-      "of several lines: the last line's (the paper's drawing), the largest of each direction, or "
-      "that but for the smallest where the neighbour is farther (outermost, ours).",
+      "Pixels that change when the same edges are drawn in another order, by the rule that "
+      "combines the weights of several lines: the last line wins (the paper's drawing), the "
+      "largest weight of each direction, or the same with the smallest weight where the neighbour "
+      "is farther (outermost, ours).",
       {"scene", "blended pixels", "last: changed", "max: changed", "outermost: changed", "verdict"},
       {}};
   for (const char* scene : {"wheelcover", "object"}) {

@@ -66,13 +66,12 @@ PaperTable sizes() {
   constexpr Texture kFull{160, 560}, kMerged{96, 448};
   const auto saving = [](double before, double after) { return 100 * (before - after) / before; };
   const double printed = saving(kFull.printed_kilobytes(), kMerged.printed_kilobytes());
-  PaperTable table{
-      "Storage of the area table",
-      "The paper's sizes are those of the table printed as source text. In binary it has 175 and "
-      "84 KiB. What an engine without subsample offsets needs is far less: by symmetry two tiles "
-      "of one value.",
-      {"item", "paper", "ours", "verdict"},
-      {}};
+  PaperTable table{"Storage of the area table",
+                   "The paper's sizes are those of the table as source text. In binary it has 175 "
+                   "and 84 KiB. An engine without subsample offsets needs far less: by symmetry, "
+                   "two tiles of one value each.",
+                   {"item", "paper", "ours", "verdict"},
+                   {}};
   const auto add = [&](std::string item, const std::string& paper, double ours, int digits = 0) {
     table.rows.push_back(checked_row(std::move(item), paper, ours, digits, "wrong"));
   };
@@ -94,7 +93,7 @@ PaperTable sizes() {
 
 PaperTable merging() {
   PaperTable table{
-      "What merging patterns loses",
+      "Error of merging patterns",
       "Patterns 7, 14 read as 6 and 11, 13 as 9: largest difference of an entry, in 1/255. The "
       "paper calls their areas the same; with the subsample offsets of SMAA's other modes they are "
       "not.",
@@ -162,15 +161,14 @@ std::vector<NamedImage> frames(const PaperOptions& options) {
 }
 
 PaperTable densities(const PaperOptions& options) {
-  PaperTable table{
-      "Edge pixels, % of the frame",
-      "Fixed T against T' = alpha x luma of the current pixel, eq (2) and (3). T' is above T "
-      "where luma is above T / alpha, so it is no stricter threshold: it finds more edges in dark "
-      "places and fewer in none if alpha = T. Beside black every step is an edge unless a floor "
-      "stops it: shades is a frame of dark greys. The verdict: does alpha give more edges than T "
-      "of the same value?",
-      {"frame", "T, alpha", "fixed", "dynamic", "dynamic, floor 2/255", "verdict"},
-      {}};
+  PaperTable table{"Edge pixels, % of the frame",
+                   "Fixed T against T' = alpha x luma of the current pixel, eq (2) and (3). T' is "
+                   "above T where luma is above T / alpha, so it is not a stricter threshold: with "
+                   "alpha = T it finds more edges in dark areas and nowhere fewer. Next to black "
+                   "every step is an edge unless a floor prevents it: shades is a frame of dark "
+                   "greys. The verdict: does alpha give more edges than T of the same value?",
+                   {"frame", "T, alpha", "fixed", "dynamic", "dynamic, floor 2/255", "verdict"},
+                   {}};
   std::vector<NamedImage> shown = frames(options);
   shown.push_back({"shades", tb::stimuli::shades_image(options.size, options.size)});
   for (const NamedImage& frame : shown) {
@@ -189,12 +187,11 @@ PaperTable densities(const PaperOptions& options) {
 }
 
 PaperTable symmetry(const PaperOptions& options) {
-  PaperTable table{
-      "Raw edges that change when the frame is mirrored",
-      "alpha = 0.1, floor 2/255, no local contrast; % of the edge bits of both planes. The luma of "
-      "one pixel of the pair looks to one side.",
-      {"luma", "paper", "bits that change, %", "verdict"},
-      {}};
+  PaperTable table{"Raw edges that change when the frame is mirrored",
+                   "alpha = 0.1, floor 2/255, no local contrast; % of the edge bits of both "
+                   "planes. Using the luma of only one pixel of the pair is not symmetric.",
+                   {"luma", "paper", "bits that change, %", "verdict"},
+                   {}};
   const std::vector<NamedImage> all = frames(options);
   for (std::size_t luma = 0; luma < spec::morphological::kDynamicLumaNames.size(); ++luma) {
     Parameters p = dynamic(1677721, kTwoCodes, static_cast<DynamicLuma>(luma));
@@ -317,14 +314,12 @@ PaperTable matrix_of_lines(const PaperOptions& options) {
 }
 
 PaperTable matrix_of_frames(const PaperOptions& options) {
-  PaperTable table{
-      "Quality matrix: frames",
-      "PSNR in dB against supersampled reference over edge pixels; last the means over all frames: "
-      "on "
-      "edges, on silhouettes (where a frame has any), edge pixels in %. Textured frames are "
-      "tunnel and plane.",
-      {"rules"},
-      {}};
+  PaperTable table{"Quality matrix: frames",
+                   "PSNR in dB against the supersampled reference over edge pixels. The last "
+                   "columns are means over all frames: on edges, on silhouettes (of frames that "
+                   "have any), edge pixels in %. Textured frames are tunnel and plane.",
+                   {"rules"},
+                   {}};
   std::vector<Method> all = methods();
   struct Sum {
     double edges = 0, silhouettes = 0, density = 0;
@@ -409,11 +404,11 @@ Cost cost_of(const Parameters& parameters, const Image& image) {
 PaperTable matrix_of_costs(const PaperOptions& options) {
   PaperTable table{
       "Quality matrix: cost",
-      "The hardware model, one lane, lines of up to 1920 pixels. Cycles of a frame (object, of the "
-      "size of the pictures) and physical bits, which include copies for more ports, and the "
-      "predictor's memories, which every engine has; then cycles over those of an engine that "
-      "never waits, for 256 x 144 pixels at random of which 20 % have an edge, and 37 %, which is "
-      "what the paper's threshold gives. The verdict: is it a pixel a clock up to 20 %?",
+      "The hardware model, one lane, lines of up to 1920 pixels. Cycles of a frame (object, at the "
+      "size of the pictures) and physical bits, which include copies for more ports and the "
+      "predictor's memories, which every engine has; then cycles relative to an engine that never "
+      "stalls, for 256 x 144 random pixels of which 20 % have an edge, and 37 %, which the paper's "
+      "threshold gives. The verdict: does it reach one pixel per cycle up to 20 %?",
       {"rules", "cycles", "ROM, bits", "flip-flops and SRAM, bits", "20 %", "37 %", "verdict"},
       {}};
   tb::RenderOptions render_options;

@@ -202,7 +202,7 @@ PaperTable figure_1() {
   return table;
 }
 
-// ---- section 3: what a synthesis gave -----------------------------------------------------------
+// ---- section 3: synthesis results ---------------------------------------------------------------
 
 // Our synthesis result, once available.
 struct Synthesis {
@@ -212,9 +212,8 @@ struct Synthesis {
 
 PaperTable synthesis(const Synthesis& ours) {
   PaperTable table{"Tables 3 and 4: synthesis, and the clock on the board",
-                   "Zynq ZC706, and Design Compiler for 0.13 μm of SMIC. Our figures of time are "
-                   "quoted for the paper's 166.67 MHz; that a clock of this length does for our "
-                   "unit is not shown.",
+                   "Zynq ZC706, and Design Compiler for 0.13 μm of SMIC. Our times are quoted for "
+                   "the paper's 166.67 MHz; it is not shown that our unit reaches this frequency.",
                    {"item", "paper", "ours", "why", "verdict"},
                    {}};
   const auto row = [&](const char* item, const char* paper, std::optional<double> value,
@@ -226,10 +225,10 @@ PaperTable synthesis(const Synthesis& ours) {
   const auto share = [&](const char* item, const char* paper, double used, double there) {
     row(item, paper, 100 * used / there, "");
   };
-  constexpr const char* kNoNetlist = "no netlist: the models are not synthesised yet";
-  constexpr const char* kNoTop = "pins belong to a top level, which a synthesis would have";
+  constexpr const char* kNoNetlist = "no netlist: the models are not synthesised";
+  constexpr const char* kNoTop = "pins belong to a synthesised top level";
   constexpr const char* kNoClock =
-      "a model says what is done in a clock, and not how long it takes: that needs a netlist";
+      "a model gives the work per cycle, not the delay: that needs a netlist";
   row("FF", "672", ours.flip_flops, kNoNetlist);
   share("FF, % of 437 200", "0.15", 672, 437200);
   row("LUT", "3 357", ours.look_up_tables, kNoNetlist);
@@ -246,7 +245,7 @@ PaperTable synthesis(const Synthesis& ours) {
   return table;
 }
 
-// ---- what the approximations do to levels and counts --------------------------------------------
+// ---- effect of the approximations on levels and counts ------------------------------------------
 
 struct Flips {
   std::uint64_t fragments = 0, counts = 0;
@@ -371,14 +370,13 @@ PaperTable quality(const PaperOptions& options) {
 
   PaperTable table{
       "Picture quality: checkerboard ground plane, N_max = 16",
-      fmt::format(
-          "PSNR over the {} textured pixels of {} x {}; box: the pixel's parallelogram "
-          "supersampled 32 x 32; EWA: exact elliptical Gaussians, whole (standard deviation "
-          "0.35 pixel), tapered (0.37) and cut as Heckbert's (0.41): which one is meant moves the "
-          "figure more than any rule. Tents are spread over 1.6 x the axis, and at the end, for "
-          "the paper's footprint and logarithm, over other lengths. "
-          "LOD error: mean |l - exact l| over the same pixels.",
-          footprints.size(), options.size, options.size),
+      fmt::format("PSNR over the {} textured pixels of {} x {}; box: the pixel's parallelogram "
+                  "supersampled 32 x 32; EWA: exact elliptical Gaussians, whole (standard "
+                  "deviation 0.35 pixel), tapered (0.37) and cut like Heckbert's (0.41): the "
+                  "choice among them changes the figure more than any rule. Tents are spread over "
+                  "1.6 x the axis; the last rows, with the paper's footprint and logarithm, use "
+                  "other lengths. LOD error: mean |l - exact l| over the same pixels.",
+                  footprints.size(), options.size, options.size),
       {"footprint", "log2", "count", "kernel", "spread", "samples a fragment", "LOD error",
        "box dB"},
       {}};
@@ -468,9 +466,9 @@ PaperTable over_roll(const PaperOptions& options) {
   PaperTable table{
       "Over roll: the ground plane with the camera turned, N_max = 16",
       fmt::format("PSNR in dB against the supersampled box over {} x {} pixels; bilinears and line "
-                  "fills of 64 bytes (16 KB, 2 ways) a fragment at 0 and at 45 degrees. The paper "
-                  "takes row and column of the picture for the axes of the footprint: turned by 45 "
-                  "degrees both are equally long, so N is 1 and the unit is a trilinear one. Rules "
+                  "fills of 64 bytes (16 KB, 2 ways) per fragment at 0 and at 45 degrees. The "
+                  "paper takes row and column of the picture as the axes of the footprint: at 45 "
+                  "degrees both are equally long, so N is 1 and the filter is trilinear. Rules "
                   "were chosen on `stones` alone; the other textures are out of sample.",
                   size, size),
       {"texture", "rules"},
@@ -562,7 +560,7 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
   };
   std::vector<PaperFigure> all;
   constexpr int kRoad = 256;  // the paper's texture has 256 x 256 texels
-  PaperFigure road{"Figure 5: the original road texture", "Ours is made by formula.", {}};
+  PaperFigure road{"Figure 5: the original road texture", "Ours is procedural.", {}};
   tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "road";
@@ -618,7 +616,7 @@ std::vector<PaperFigure> figures(const PaperOptions& options) {
 
   PaperFigure object{"Figure 9: a textured object, trilinear", "", {}};
   object.images.push_back(
-      {"figure_9", "trilinear", "as the paper",
+      {"figure_9", "trilinear", "like the paper",
        picture("object", "", 1024, size, spec::texture::MinFilter::kLinearMipmapLinear, 0)});
   object.images.push_back(
       {"figure_9_anisotropic", "trilinear, 16 samples", "",

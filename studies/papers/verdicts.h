@@ -38,7 +38,7 @@ std::string at_most(double ours, double bound, const char* yes = "right", const 
 
 // ---- methods against each other -----------------------------------------------------------------
 
-// PSNR in dB; NaN for silhouettes if a picture has none.
+// PSNR in dB; NaN for silhouettes if a picture lacks them.
 struct Scores {
   double edges, silhouettes;
 };

@@ -199,7 +199,7 @@ constexpr Column kColumns[] = {{"PSNR, dB", &ComparisonRow::psnr, 2, false},
 
 bool is_reference(const ComparisonRow& row) { return !std::isfinite(row.psnr); }
 
-// The reference has no value here.
+// Empty for the reference.
 std::string cell(const ComparisonRow& row, const Column& column) {
   return fmt::format("{:.{}f}", row.*column.value, column.digits);
 }

@@ -316,8 +316,8 @@ struct FramePair {
 constexpr std::array<FramePair, 2> kFrames = {
     {{"`track` 720p", "frames/track_720p_noaa.png", "frames/track_720p_ssaa256.png"},
      {"`track` 1080p", "frames/track_1080p_noaa.png", "frames/track_1080p_ssaa64.png"}}};
-// Not used for training; evaluated once (docs/measurements/morphological_quality.md, "Frames with a
-// reference").
+// Outside the training set; evaluated once (docs/measurements/morphological_quality.md, "Frames
+// with a reference").
 constexpr std::array<const char*, 17> kHeldOut = {"kenney/city/models/building-small-b.glb",
                                                   "kenney/city/models/building-small-d.glb",
                                                   "kenney/city/models/grass-trees.glb",
@@ -467,7 +467,7 @@ namespace {
 void require(const fs::path& data) {
   if (const std::string missing = missing_data(data); !missing.empty())
     throw spec::FileError(fmt::format(
-        "there is no '{}': set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
+        "'{}' not found: set DEBURR_DATA to the folder that holds frames/, kenney/ and textures/",
         missing));
 }
 

@@ -21,8 +21,8 @@ using Imath::V3d;
 constexpr std::array<SolidsName, 5> kNames = {
     {{"rods", "60 rods of one to seven pixels in any direction"},
      {"plates", "24 thin plates, one above the other"},
-     {"crossing", "14 prisms through each other"},
-     {"floor", "20 prisms that stand in a floor"},
+     {"crossing", "14 intersecting prisms"},
+     {"floor", "20 prisms intersecting a floor"},
      {"far", "900 small prisms on a plain, seen from low above it"}}};
 
 double real(Random& random, double low, double high) {
@@ -173,7 +173,7 @@ Scene make_solids(std::string_view name, std::uint64_t seed) {
     height = 0.9;
     distance = 12;
   } else {
-    throw std::out_of_range("no solids of the name '" + scene.name + "'");
+    throw std::out_of_range("unknown solids '" + scene.name + "'");
   }
   texture_everything(scene.mesh, nullptr);
   const double angle = real(random, 0, 2 * std::numbers::pi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes of many plain solids that no engine was tuned on: thin, stacked, intersecting each other
+// Scenes of many plain solids, unused for tuning: thin, stacked, intersecting each other
 // or a floor, far and fine.
 #pragma once
 

@@ -40,7 +40,7 @@ spec::texture::Descriptor PhotoTexture::descriptor(int lb_n_max) const {
 }
 
 TurnedPhoto::TurnedPhoto(const PhotoTexture& photo, const Turn& turn) : photo_(photo) {
-  DEBURR_CHECK(turn.size % 2 == 0, "an image is made of 2 x 2 quads");
+  DEBURR_CHECK(turn.size % 2 == 0, "width and height of an image must be even");
   const double angle = turn.degrees * std::numbers::pi / 180;
   const double cosine = std::cos(angle), sine = std::sin(angle);
   const auto at = [&](double x, double y) {

@@ -265,7 +265,7 @@ tb::Scene make_kind(std::string_view name, std::uint64_t seed) {
     height = 1.3;
     distance = 11;
   } else {
-    throw std::out_of_range("no kind of meshes of the name '" + scene.name + "'");
+    throw std::out_of_range("unknown kind of meshes '" + scene.name + "'");
   }
   texture_everything(scene.mesh, nullptr);
   const double angle = random.uniform(low, high);

@@ -83,7 +83,7 @@ std::vector<HashedFrame> frames_of_recipe(const std::string& text) {
     std::istringstream words(line.substr(kFrame.size()));
     HashedFrame frame;
     if (!(words >> frame.first >> std::hex >> frame.second))
-      throw spec::FileError(fmt::format("no frame of a recipe: '{}'", line));
+      throw spec::FileError(fmt::format("not a frame of a recipe: '{}'", line));
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -35,8 +35,7 @@ void check(const TitlePair& pair) {
                                         kLeastSide));
   if (count(tb::edge_mask(reference, frame)) == 0)
     throw spec::ConfigError(fmt::format(
-        "'{}' is its reference within 2 codes: expected the same picture with supersampling",
-        pair.name));
+        "'{}' equals its reference within 2 codes: expected a supersampled reference", pair.name));
 }
 
 TitlePair part_of(const TitlePair& pair, const char* name, int x, int width) {
@@ -50,14 +49,15 @@ struct Split {
 };
 
 Split split_of(const std::vector<TitlePair>& pairs) {
-  if (pairs.empty()) throw spec::ConfigError("no pairs of frames to learn from");
+  if (pairs.empty()) throw spec::ConfigError("no pairs of frames to train on");
   Split split;
   if (pairs.size() == 1) {
     const TitlePair& pair = pairs.front();
     if (pair.frame.width < 2 * kLeastSide)
-      throw spec::ConfigError(fmt::format(
-          "'{}' is {} pixels wide: a single pair, of which half is kept back, has at least {}",
-          pair.name, pair.frame.width, 2 * kLeastSide));
+      throw spec::ConfigError(
+          fmt::format("'{}' is {} pixels wide: a single pair needs at least {}, since half of it "
+                      "is kept for validation",
+                      pair.name, pair.frame.width, 2 * kLeastSide));
     check(pair);
     const int half = pair.frame.width / 2;
     split.trained_on.push_back(part_of(pair, "left half", 0, half));
@@ -107,7 +107,7 @@ TitleWeights train_title(const std::vector<TitlePair>& pairs, const TitleOptions
     samples.push_back(samples_of({pair.name, pair.name, pair.frame, pair.reference, {}}));
     if (samples.back().empty())
       throw spec::ConfigError(
-          fmt::format("'{}' has no edge that the engine smooths: nothing to learn", pair.name));
+          fmt::format("'{}' has no edge that the engine smooths: nothing to train on", pair.name));
     result.trained_on.push_back(pair.name);
   }
   Recipe recipe;

@@ -37,7 +37,7 @@ std::vector<TitlePair> read_pairs(const tool::TrainOptions& options, bool quiet)
                                  references = tb::listed_files("--truth", options.reference);
   if (frames.size() != references.size())
     throw spec::ConfigError(fmt::format(
-        "--in names {} frames and --truth {}: expected a reference a frame, in one order",
+        "--in names {} frames and --truth {}: expected one reference per frame, in the same order",
         frames.size(), references.size()));
   std::vector<TitlePair> pairs;
   const auto read = [&](const std::string& file) {
@@ -61,19 +61,20 @@ void check_output(const tool::TrainOptions& options) {
     for (const std::string& file : tb::listed_files("--in", text))
       if (tb::is_there(out) && tb::is_there(file) && std::filesystem::equivalent(out, file))
         throw spec::ConfigError(
-            fmt::format("--out '{}' is read, too: give another name", options.out));
+            fmt::format("--out '{}' is also an input: give another name", options.out));
   if (const std::filesystem::path folder = out.parent_path();
       !folder.empty() && !tb::is_folder(folder))
     throw spec::FileError(
-        fmt::format("cannot write '{}': there is no folder '{}'", options.out, folder.string()));
+        fmt::format("cannot write '{}': folder '{}' does not exist", options.out, folder.string()));
   if (tb::is_folder(out))
     throw spec::FileError(fmt::format("cannot write '{}': it is a folder", options.out));
   if (tb::is_there(out)) {
     try {
       tb::stimuli::read_weight_file(out);
     } catch (const spec::FileError&) {
-      throw spec::ConfigError(fmt::format(
-          "'{}' stands there and holds no weights: remove it, or give another --out", options.out));
+      throw spec::ConfigError(
+          fmt::format("'{}' exists and is not a file of weights: remove it, or give another --out",
+                      options.out));
     }
   }
   tb::try_to_write(out, tb::stimuli::weight_file_text({}, {}));
@@ -81,7 +82,7 @@ void check_output(const tool::TrainOptions& options) {
 
 std::string row(const KeptBack& k) {
   return fmt::format(
-      "kept back: {}: edges {:.2f} dB without smoothing, {:.2f} shipped, {:.2f} trained "
+      "validation: {}: edges {:.2f} dB without smoothing, {:.2f} shipped, {:.2f} trained "
       "({:+.2f}); whole picture {:.2f}, {:.2f} ({:+.2f})\n",
       k.name, k.none, k.shipped, k.trained, k.trained - k.shipped, k.shipped_frame, k.trained_frame,
       k.trained_frame - k.shipped_frame);
@@ -132,12 +133,12 @@ tool::Outcome train(const tool::TrainOptions& options, const tool::CommandLine& 
   tool::Outcome outcome;
   outcome.details = tb::json_text(to_json(weights, seconds));
   const std::string gain =
-      fmt::format("{:+.2f} dB on edges of what was kept back, {:+.2f} on all of it", weights.gain,
-                  weights.frame_gain);
+      fmt::format("{:+.2f} dB on edges of the validation frames, {:+.2f} on whole frames",
+                  weights.gain, weights.frame_gain);
   if (!(weights.gain >= kLeastGain)) {
     fmt::print(stderr,
                "deburr: no weights were written: {}, expected at least {:+.2f} on edges; the "
-               "shipped weights serve these frames as well\n",
+               "shipped weights are as good for these frames\n",
                gain, kLeastGain);
     outcome.code = static_cast<int>(spec::ExitCode::kMismatch);
     outcome.text = fmt::format("FAIL no gain: {}", gain);

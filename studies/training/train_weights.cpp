@@ -149,9 +149,8 @@ double changed_beside_text(const Overlaid& text, const Image& image) {
 }
 
 void report_text(const std::vector<const ReferenceFrame*>& frames, const WeightTables& tables) {
-  std::cout
-      << "\nPixels beside text that is the same in frame and reference: changed by more than 2 "
-         "codes, %; PSNR over edges of all\n\n| frame |";
+  std::cout << "\nPixels next to text that is the same in frame and reference: changed by more "
+               "than 2 codes, %; PSNR over edges of all\n\n| frame |";
   for (const Preset preset : kOthers) std::cout << ' ' << name_of(preset) << " |";
   std::cout << " deburr |\n|---|---|---|---|---|---|\n";
   for (const ReferenceFrame* frame : frames) {
@@ -203,8 +202,8 @@ void report_overlap(const std::vector<FrameSource>& trained_on,
   std::set<std::string> groups;
   for (const FrameSource& source : trained_on)
     if (source.mesh && groups.insert(source.group).second) seen.merge(triangles_of(source.mesh()));
-  std::cout << "\nHeld-out meshes: triangles, and how many of them a mesh that was trained on has "
-               "in the same place\n\n| mesh | triangles | trained on |\n|---|---|---|\n";
+  std::cout << "\nHeld-out meshes: number of triangles, and how many of them a training mesh has "
+               "at the same position\n\n| mesh | triangles | trained on |\n|---|---|---|\n";
   for (const FrameSource& source : held_out) {
     if (!source.mesh) continue;
     const auto own = triangles_of(source.mesh());
@@ -221,28 +220,29 @@ int run(int argc, char** argv) {
   std::string write, check;
   int folds = 4, overlays = 0;
   bool quiet = false, brief = false, meshes = false;
-  CLI::App app("Trains the ROMs of learned weights and tests them");
-  app.add_option("--data", options.data, "folder of meshes, kenney and frames to be measured");
-  app.add_option("--cache", options.cache, "folder where rendered frames are kept");
+  CLI::App app("Train the ROMs of learned weights and test them");
+  app.add_option("--data", options.data, "data folder with meshes/, kenney/ and frames/");
+  app.add_option("--cache", options.cache, "folder that caches rendered frames");
   app.add_option("--write", write, "folder of the repository: writes ROMs and recipe");
   app.add_option("--check", check, "folder of the repository: compares them, byte for byte");
-  app.add_option("--folds", folds, "trainings that test the training frames themselves");
+  app.add_option("--folds", folds, "folds of the cross-validation over the training frames");
   app.add_option("--batches", recipe.batches, "");
   app.add_option("--rate", recipe.rate, "");
   app.add_option("--decay", recipe.decay, "");
   app.add_option("--seed", recipe.seed, "");
   app.add_option("--axis", recipe.axis_slope, "");
-  app.add_option("--overlays", overlays, "training frames that come once more with text");
-  app.add_flag("--meshes", meshes, "train on meshes of the data folder, too");
-  app.add_flag("--brief", brief, "of the training frames, only means and where deburr is worse");
+  app.add_option("--overlays", overlays, "training frames that are added again with text");
+  app.add_flag("--meshes", meshes, "also train on meshes of the data folder");
+  app.add_flag("--brief", brief,
+               "for training frames, print only means and the frames where deburr is worse");
   app.add_flag("--quiet", quiet, "no progress");
   CLI11_PARSE(app, argc, argv);
   const bool of_recipe = recipe.text() == Recipe().text() && overlays == 0 && !meshes;
   const bool kept = !write.empty() || !check.empty();
   if (kept && !of_recipe)
     throw spec::ConfigError(
-        "these options are not the recipe's: the ROMs in spec are those of a training without them "
-        "(--batches, --rate, --decay, --seed, --axis, --overlays, --meshes)");
+        "--write and --check need the recipe's options: leave out --batches, --rate, --decay, "
+        "--seed, --axis, --overlays, --meshes");
   if (kept && !options.cache.empty())
     throw spec::ConfigError("--write and --check render every frame: leave out --cache");
 
@@ -267,7 +267,7 @@ int run(int argc, char** argv) {
   for (const ReferenceFrame& frame : training) {
     std::vector<WeightSample> found = samples_of(frame);
     if (found.empty())
-      throw spec::ConfigError(fmt::format("the frame '{}' has no edge to learn from", frame.name));
+      throw spec::ConfigError(fmt::format("the frame '{}' has no edge to train on", frame.name));
     samples[frame.name] = std::move(found);
     all.push_back(&frame);
     hashed.emplace_back(frame.name, hash_of(frame));

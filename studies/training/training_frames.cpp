@@ -125,9 +125,9 @@ void add_meshes(std::vector<FrameSource>& frames, const FrameOptions& options,
   for (const std::string& mesh : meshes) {
     const std::filesystem::path path = options.data / mesh;
     if (!std::filesystem::exists(path))
-      throw spec::FileError(
-          fmt::format("there is no mesh '{}': name a folder that has it by --data", path.string()));
-    // The first view matches the other tables, with a checkerboard if the mesh has no texture.
+      throw spec::FileError(fmt::format(
+          "mesh '{}' not found: give the folder that has it with --data", path.string()));
+    // The first view matches the other tables, with a checkerboard if the mesh lacks a texture.
     renderer.add(frames, path.filename().string(), views, [path](int view) {
       tb::SceneOptions plain;
       plain.plain = view != 0;
@@ -329,7 +329,7 @@ std::vector<FrameSource> held_out_set(const FrameOptions& options) {
       std::filesystem::path path = folder / fmt::format("track_{}_{}.png", size, what);
       if (!std::filesystem::exists(path))
         throw spec::FileError(fmt::format(
-            "there is no frame '{}': name a folder that has it by --data", path.string()));
+            "frame '{}' not found: give the folder that has it with --data", path.string()));
       return path;
     };
     const std::filesystem::path noaa = file("noaa"), ssaa = file(reference),

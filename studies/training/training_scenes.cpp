@@ -769,7 +769,7 @@ tb::Camera looking(const Subject& subject, Random& random, bool inside) {
   camera.target = subject.middle;
   camera.eye = subject.middle + direction * (subject.radius * reach);
   if (camera.eye.y < 0.15) camera.eye.y = 0.15;
-  // Half of the cameras have no roll.
+  // Half of the cameras are without roll.
   const double roll = random.chance(500) ? 0 : random.uniform(-0.05, 0.05);
   camera.up =
       V3d(0, 1, 0) + direction.cross(V3d(0, 1, 0)).normalized() * tb::tangent(2 * kPi * roll);
@@ -785,7 +785,7 @@ tb::Scene training_scene(std::string_view kind, std::uint64_t seed, int view) {
   constexpr std::array<Subject (*)(Builder&, Random&), kKinds.size()> kMakers = {
       model, town, props, circuit, thicket, wires, signs, room};
   const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
-  DEBURR_CHECK(found != kKinds.end(), "no such kind of scene");
+  DEBURR_CHECK(found != kKinds.end(), "unknown kind of scene");
   Random random(seed, kind);
   Builder out(random);
   const Subject subject = kMakers[static_cast<std::size_t>(found - kKinds.begin())](out, random);

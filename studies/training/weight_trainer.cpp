@@ -180,7 +180,7 @@ WeightTables first_guess() {
 
 WeightTables train(const std::vector<std::vector<WeightSample>>& frames, const Recipe& recipe,
                    const WeightTables& start, const std::function<void(int)>& batch_done) {
-  DEBURR_CHECK(!frames.empty(), "no frames to learn from");
+  DEBURR_CHECK(!frames.empty(), "no frames to train on");
   const Encoding encoding;
   const Pixel pixel(encoding, recipe);
   const Weights begun = weights_of(start);
@@ -188,7 +188,7 @@ WeightTables train(const std::vector<std::vector<WeightSample>>& frames, const R
 
   std::vector<double> frame_weight;
   for (const auto& samples : frames) {
-    DEBURR_CHECK(!samples.empty(), "a frame without an edge teaches nothing");
+    DEBURR_CHECK(!samples.empty(), "a frame without an edge cannot be trained on");
     double sum = 0;
     for (const WeightSample& s : samples) sum += pixel(s, weights, 0, nullptr);
     frame_weight.push_back(static_cast<double>(samples.size()) / sum / recipe.batch);

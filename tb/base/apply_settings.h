@@ -59,7 +59,7 @@ void apply_settings(Parameters& parameters, std::string_view settings) {
     describe(parameters, set);
     if (!set.found())
       throw std::invalid_argument(
-          fmt::format("'{}' sets no parameter, or no value that it takes", one));
+          fmt::format("'{}' is not a known setting, or has an invalid value", one));
   }
 }
 

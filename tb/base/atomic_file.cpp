@@ -84,8 +84,9 @@ class TemporaryFile {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     if (created()) ::unlink(path_.c_str());
-    throw spec::FileError(fmt::format("cannot {} '{}': {}; no part of it was left: {}", action,
-                                      target_.string(), std::strerror(reason), remedy(reason)));
+    throw spec::FileError(fmt::format("cannot {} '{}': {}; the partial file was removed: {}",
+                                      action, target_.string(), std::strerror(reason),
+                                      remedy(reason)));
   }
 
   fs::path target_, path_;

@@ -37,12 +37,11 @@ class Surveyor final : public YAML::EventHandler {
   // yaml-cpp itself rejects aliases of unknown anchors.
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto named = nodes_behind_.find(anchor);
-    if (named == nodes_behind_.end()) fail(mark, "an alias of what it is a part of");
+    if (named == nodes_behind_.end()) fail(mark, "an alias refers to a node that contains it");
     const std::uint64_t nodes = named->second;
     aliased_ += nodes;
     if (aliased_ > YamlFile::kMostAliasedNodes)
-      fail(mark, fmt::format("aliases stand for more than {} values up to here",
-                             YamlFile::kMostAliasedNodes));
+      fail(mark, fmt::format("aliases expand to more than {} values", YamlFile::kMostAliasedNodes));
     add(nodes);
   }
   void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
@@ -59,7 +58,7 @@ class Surveyor final : public YAML::EventHandler {
  private:
   struct Collection {
     YAML::anchor_t anchor;
-    std::uint64_t nodes;  // nodes so far, including this one and those that its aliases stand for
+    std::uint64_t nodes;  // nodes so far, including this one and the expanded aliases
   };
 
   void add(std::uint64_t nodes) {
@@ -132,14 +131,13 @@ YamlFile::YamlFile(const std::filesystem::path& file, std::size_t most)
 YamlFile::YamlFile(std::filesystem::path file, const std::string& text) : path_(std::move(file)) {
   if (const std::size_t line = line_that_is_not_utf8(text); line > 0)
     throw ConfigError(
-        fmt::format("{}:{}: it is not UTF-8: save the file as that", path_.string(), line));
+        fmt::format("{}:{}: not valid UTF-8: save the file as UTF-8", path_.string(), line));
   try {
     Surveyor surveyor(path_);
     if (has_several_documents(text, surveyor))
-      throw ConfigError(
-          fmt::format("{}: holds more than one YAML document, or begins with what belongs to none, "
-                      "such as ','; one is expected",
-                      path_.string()));
+      throw ConfigError(fmt::format(
+          "{}: expected one YAML document, got several, or text before the first, such as ','",
+          path_.string()));
     root_ = YAML::Load(text);
   } catch (const YAML::Exception& e) {
     const std::string line =
@@ -185,14 +183,14 @@ void YamlFile::require_keys(const YAML::Node& map, const std::vector<std::string
 
 std::string YamlFile::scalar(const YAML::Node& node, std::string_view what) const {
   if (!node.IsScalar())
-    fail(node, fmt::format("'{}' wants a single value, got {}", what, kind(node)));
+    fail(node, fmt::format("'{}' must be a single value, got {}", what, kind(node)));
   return node.Scalar();
 }
 
 bool YamlFile::boolean(const YAML::Node& node, std::string_view what) const {
   const std::string text = scalar(node, what);
   if (text != "true" && text != "false")
-    fail(node, fmt::format("'{}' = '{}' wants true or false", what, text));
+    fail(node, fmt::format("'{}' = '{}' must be true or false", what, text));
   return text == "true";
 }
 

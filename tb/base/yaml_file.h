@@ -20,7 +20,7 @@ class YamlFile {
  public:
   static constexpr std::size_t kMaxBytes = 64u << 20;
 
-  // Limit of nodes after alias expansion: a few lines of nested aliases can stand for an
+  // Limit of nodes after alias expansion: a few lines of nested aliases can expand to an
   // unmanageable number.
   static constexpr std::uint64_t kMostAliasedNodes = 1'000'000;
 
@@ -57,7 +57,7 @@ class YamlFile {
       read = std::from_chars(text.data(), last, value);
     }
     if (read.ec != std::errc() || read.ptr != last)
-      fail(node, fmt::format("'{}' = '{}' wants a number", what, text));
+      fail(node, fmt::format("'{}' = '{}' must be a number", what, text));
     return value;
   }
   // Range 1..most.

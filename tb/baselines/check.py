@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares runs with recorded ones, count by count: cycles, every unit's busy, stalled (by cause) and
-idle cycles, latencies, traffic, work, and how full FIFOs were. A model gives the same counts on every
-machine, so any difference fails, a better one too until it is recorded.
+"""Compares the counts of runs with recorded ones: cycles; busy, stalled (by cause) and idle cycles of every unit;
+latencies, memory traffic, work, and high-water marks of FIFOs. A model gives the same counts on every machine, so
+any difference fails; an improvement must be recorded.
 
-  tb/baselines/check.py build/release/deburr            every baseline of every engine
-  tb/baselines/check.py build/release/deburr --record   writes those that pass as the record
+  tb/baselines/check.py build/release/deburr            checks all baselines of all engines
+  tb/baselines/check.py build/release/deburr --record   records the runs that pass
 
-An engine's baselines stand in its folder, tb/engines/NAME: a `deburr run NAME` a line in baselines.txt,
-and what they counted in baselines.json. @PATTERN-NUMBER-WIDTHxHEIGHT in one is a picture of write_frame,
-which is built beside this script's test."""
+Each engine has its baselines in tb/engines/NAME: baselines.txt has one `deburr run NAME` command per line,
+baselines.json the recorded counts. @PATTERN-NUMBER-WIDTHxHEIGHT in a command is an image made by write_frame, which
+is built with this script's test."""
 import argparse
 import json
 import pathlib
@@ -125,15 +125,15 @@ def main():
     parser.add_argument("program", type=pathlib.Path, help="the deburr command")
     parser.add_argument("folders", type=pathlib.Path, nargs="*", metavar="FOLDER",
                         help="only these folders of engines (all of tb/engines/engines.txt)")
-    parser.add_argument("--record", action="store_true", help="write what is measured")
+    parser.add_argument("--record", action="store_true", help="record the measured counts")
     options = parser.parse_args()
     if not comparison_works():
-        sys.exit("the comparison itself is broken")
+        sys.exit("the comparison missed an injected difference")
     counted = [check(options.program.resolve(), folder.resolve(), options.record)
                for folder in options.folders or engine_folders()]
     runs, failures = (sum(column) for column in zip(*counted))
     if failures:
-        print(f"{failures} of {runs} runs differ. If that is meant, an improvement too, record it: "
+        print(f"{failures} of {runs} runs differ. Record intended changes and improvements: "
               f"tb/baselines/check.py {options.program} --record")
     sys.exit(0 if runs and not failures else 1)
 

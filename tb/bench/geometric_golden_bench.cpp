@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Speed of the bit-exact reference of the geometric engine. items_per_second counts edges of the
-// table; goal: a 1080p frame of 30 000 edges in 5 ms, most of which is copying the frame.
+// table; goal: a 1080p frame of 30 000 edges in 5 ms, mostly for copying the frame.
 #include <benchmark/benchmark.h>
 
 #include "golden/geometric/geometric_golden.h"

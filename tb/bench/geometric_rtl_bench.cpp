@@ -4,9 +4,9 @@
 //   geometric_rtl_bench --frames <n> [preset [walkers [edge_lanes [layout [passes [latency
 //       [parameters]]]]]]]
 //       n frames of 1280 x 720: 33 000 edges, a fifth of them kept, about 24 000 columns, <passes>
-//       lines over each place (default 1), a memory latency of <latency> cycles (default 20), and
-//       other parameters such as "fills=128 coverage=area". Prints cycles, cycles of both phases
-//       and the minimum for the port, work, stalls, memories
+//       lines over each position (default 1), a memory latency of <latency> cycles (default 20),
+//       and other parameters such as "fills=128 coverage=area". Prints cycles, cycles of both
+//       phases and the minimum for the port, work, stalls, memories
 //   geometric_rtl_bench --idle <n>      n cycles of an engine that waits for a frame
 //   geometric_rtl_bench --dividers      JSON, one row per build and latency: dividers, memory
 //       latency in cycles, blended pixels, cycles of the edges, of the resolve, in total
@@ -118,7 +118,7 @@ template <class Choice, std::size_t N>
 Choice choice(std::string_view text, const std::array<std::string_view, N>& names) {
   for (std::size_t i = 0; i < N; ++i)
     if (text == names[i]) return static_cast<Choice>(i);
-  std::cerr << text << ": no such choice\n";
+  std::cerr << text << ": unknown choice\n";
   std::exit(2);
 }
 
@@ -146,7 +146,7 @@ void frames(int count, const std::vector<std::string>& arguments) {
                       resolve = f.engine.block_fetch.weights_read.value() +
                                 f.engine.block_fetch.lines_read.value() +
                                 f.engine.resolver.lines_written.value();
-  std::cout << fmt::format("lines of memory a frame: edges {}, resolve {}\n",
+  std::cout << fmt::format("memory lines per frame: edges {}, resolve {}\n",
                            (all - resolve) / frames, resolve / frames);
   for (const auto& row : spec::geometric::kWorkCounts)
     for (const spec::RegisterInfo& info : spec::geometric::kRegisters)
@@ -228,7 +228,7 @@ void ratio(int count) {
   };
   std::cout << fmt::format("hardware: {:.2f} Mcycle/s\n",
                            static_cast<double>(hardware.clock.cycle()) / seconds(0) / 1e6);
-  std::cout << fmt::format("golden/rtl: {:.1f} with pixels alone, {:.1f} with everything\n",
+  std::cout << fmt::format("golden/rtl: {:.1f} for pixels only, {:.1f} for all outputs\n",
                            seconds(0) / seconds(1), seconds(0) / seconds(2));
 }
 

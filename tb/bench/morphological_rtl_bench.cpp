@@ -82,7 +82,7 @@ std::vector<spec::morphological::PixelBeat> beats(const std::string& image, int 
 Parameters parameters(const std::string& preset, int lanes) {
   const auto& names = spec::morphological::kPresetNames;
   const auto* const which = std::find(names.begin(), names.end(), preset);
-  DEBURR_CHECK(which != names.end(), "no preset " + preset);
+  DEBURR_CHECK(which != names.end(), "unknown preset " + preset);
   Parameters p = golden::morphological::preset_parameters(
       static_cast<spec::morphological::Preset>(which - names.begin()));
   p.lanes = lanes == 1   ? spec::morphological::Lanes::kOne
@@ -196,7 +196,8 @@ int count_instructions(const std::string& image, const std::string& preset, int 
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const spec::morphological::Work work = setup.engine.work();
   std::cout << fmt::format(
-      "{} cycles, {:.2f} Mcycle/s; last frame {} cycles; {:.1f} % edge pixels, {} record stalls "
+      "{} cycles, {:.2f} Mcycle/s; last frame {} cycles; {:.1f} % edge pixels, {} descriptor "
+      "stalls "
       "({} interlock), latency {}..{}\n",
       cycles, static_cast<double>(cycles) / seconds.count() / 1e6,
       setup.engine.sequencer.frame_cycles.value(),
@@ -252,7 +253,7 @@ std::string trade(int predictors, int trial_cycles) {
 }
 
 int print_trade() {
-  std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 records |\n"
+  std::cout << "| predictors | T | ports | kbit | 1 % | 10 % | 20 % | 50 % | 40 descriptors |\n"
                "|---|---|---|---|---|---|---|---|---|\n";
   for (const int predictors : {1, 2, 4})
     for (int cycles = 1; cycles <= 8; ++cycles)

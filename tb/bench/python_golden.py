@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What a frame of 1920 x 1080 costs through the Python module and in C++, in instructions: a call from Python, which
-makes a model and gives an array, against a model in C++ that is there already. Fails where Python takes 5 % more.
+"""Compares the instructions for a frame of 1920 x 1080 in Python and in C++. The Python call constructs a model and
+returns an array; the C++ program reuses one model. Fails if Python needs 5 % more.
 
-usage: python_golden.py PYTHON_FRAMES MODULES [PRESET...]      PYTHON_FRAMES: the program of this name"""
+usage: python_golden.py PYTHON_FRAMES MODULES [PRESET...]      PYTHON_FRAMES: path of that program"""
 import pathlib
 import re
 import shutil
@@ -71,7 +71,7 @@ def main():
         drawn().tofile(folder / "frame.rgba")
         script = folder / "frames.py"
         script.write_text(PROGRAM.format(width=WIDTH, height=HEIGHT), encoding="utf-8")
-        print("preset         C++    Python    ratio   (million instructions a frame)")
+        print("preset         C++    Python    ratio   (million instructions per frame)")
         for preset in presets:
             there, said = a_frame(folder, [program, folder / "frame.rgba", str(WIDTH), str(HEIGHT), preset])
             here, also = a_frame(folder, ["/usr/bin/python3", script, modules, folder / "frame.rgba", preset])

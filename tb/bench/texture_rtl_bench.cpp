@@ -111,12 +111,11 @@ class Fragments final : public rtl::Unit {
 
 class Picture final : public rtl::Unit {
  public:
-  rtl::In<spec::texture::Colour> colours_in{"colours_in"};
+  rtl::In<spec::texture::ColourGroup> colours_in{"colours_in"};
   Picture(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   Activity tick(Cycle cycle) override {
     if (!colours_in.can_pop(cycle)) return rtl::kIdle;
-    sum_ += colours_in.front(cycle).rgba[0];
-    colours_in.pop(cycle);
+    for (const spec::texture::Colour& colour : colours_in.take(cycle)) sum_ += colour.rgba[0];
     return rtl::kBusy;
   }
   void reset() override { sum_ = 0; }
@@ -152,7 +151,7 @@ struct System {
   }
   rtl::ClockDomain clock{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
   rtl::Link<spec::texture::Quad> quads{"quads"};
-  rtl::Link<spec::texture::Colour> colours{"colours"};
+  rtl::Link<spec::texture::ColourGroup> colours{"colours"};
   Fragments fragments{"fragments", clock};
   rtl::texture::TextureUnit unit;
   Picture picture{"picture", clock};

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The engines of engines.txt for scripts and tests, and what their trials.yaml says: with what tests of every engine
-run this one; testplans with what they include of the engines."""
+"""For scripts and tests: the engines of engines.txt, the entries of their trials.yaml (arguments with which tests of
+all engines run each engine), and testplans with the parts of the engines included."""
 import pathlib
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -13,13 +13,13 @@ def loaded(path):
 
 
 def engines():
-    """Their names, in order."""
+    """The names of the engines, in order."""
     lines = (FOLDER / "engines.txt").read_text(encoding="utf-8").splitlines()
     return [line for line in lines if line and not line.startswith("#")]
 
 
 def trials(name):
-    """{engine: its entry `name`}, of those that have one. No engine has to have any, nor the file."""
+    """{engine: its entry `name` of trials.yaml}. The file and each entry are optional."""
     found = {}
     for engine in engines():
         file = FOLDER / engine / "trials.yaml"
@@ -30,7 +30,8 @@ def trials(name):
 
 
 def testplan(path):
-    """A testplan without `include`: the features that it includes, then its own (docs/reference/regression.md)."""
+    """A testplan with its `include` entries resolved: included features first, then its own
+    (docs/reference/regression.md)."""
     plan = loaded(path)
     own, included = plan.get("features", []), []
     for pattern in plan.pop("include", []):

@@ -24,7 +24,7 @@ Imath::V3d parse_vector(std::string_view name, std::string_view text) {
     if (error != std::errc() || !std::isfinite(values[i]) ||
         (last ? next != end : next == end || *next != ','))
       throw spec::ConfigError(
-          fmt::format("'{}' = '{}' wants three numbers separated by commas: x,y,z", name, text));
+          fmt::format("'{}' = '{}' must be three numbers separated by commas: x,y,z", name, text));
     at = next + 1;
   }
   return {values[0], values[1], values[2]};

@@ -32,9 +32,9 @@ struct ProgramParameters {
 template <class Visitor>
 void describe(ProgramParameters& p, Visitor& v) {
   v.choice("program", p.program, kProgramNames,
-           "registers: after each reset the driver programs the rules into an engine with other "
-           "reset values. reset: the engine is built with the rules as reset values. Must not "
-           "change results.");
+           "registers: after each reset the driver programs the configuration into an engine with "
+           "other reset values. reset: the engine is built with the configuration as its reset "
+           "values. Both give the same results.");
 }
 
 // An engine's section of docs/reference/datasheets.md: its units.

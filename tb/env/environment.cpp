@@ -56,7 +56,8 @@ void Environment::let_blind(std::initializer_list<ScoreboardBase*> boards) {
   for (ScoreboardBase* board : boards) {
     std::string name = fault_name("blind", board->name());
     if (injected(name)) board->look_away();
-    faults.push_back({std::move(name), fmt::format("Compares nothing of: {}.", board->name())});
+    faults.push_back(
+        {std::move(name), fmt::format("Skips every comparison of: {}.", board->name())});
   }
   know(std::move(faults));
 }
@@ -73,7 +74,7 @@ void Environment::let_miscount(RegisterScoreboard& board, std::span<const std::u
 
 void Environment::let_miscount(FigureScoreboard& board) {
   if (injected("wrong-figures")) board.miscount();
-  know({{"wrong-figures", "Every counter that has a second source is one too large."}});
+  know({{"wrong-figures", "Adds one to every counter that is checked against a second source."}});
 }
 
 void Environment::let_misdecode(rtl::ControlRegisters& control,
@@ -93,7 +94,7 @@ void Environment::let_misdecode(rtl::ControlRegisters& control,
                          });
       }
       faults.push_back({std::move(name),
-                        fmt::format("{} of {} is decoded as another value than software wrote.",
+                        fmt::format("{} of {} is decoded as a different value than software wrote.",
                                     field.name, info.name),
                         "", needs});
     }
@@ -106,8 +107,8 @@ void Environment::reject_untouched(const platform::MemoryModel& memory,
   const auto range = error_range(parameters);
   if (range && memory.errors() == 0)
     throw spec::ConfigError(fmt::format(
-        "{0}.error_address = {1}: the run asked {0} for nothing from {1:#x} to {2:#x}, so no "
-        "access failed: name an address that it asks for, or more {0}.error_bytes",
+        "{0}.error_address = {1}: the run did not access {0} from {1:#x} to {2:#x}, so no access "
+        "failed: give an address that the run accesses, or a larger {0}.error_bytes",
         memory.name(), range->from, range->to - 1));
 }
 

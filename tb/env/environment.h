@@ -141,13 +141,13 @@ class Environment {
   }
   // Declares memory_faults() and applies the range of `error_address`.
   void inject_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
-  // Declares `blind-NAME` for each scoreboard of this run: it compares nothing, so the run must not
-  // pass.
+  // Declares `blind-NAME` for each scoreboard of this run: it skips all comparisons, so the run
+  // must not pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
   // Declares `miscount-NAME` for each register that is checked: the engine counts one too many or
   // too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
-  // Declares `wrong-figures`: all counters with a second source are one too large.
+  // Declares `wrong-figures`: adds one to every counter that is checked against a second source.
   void let_miscount(FigureScoreboard& board);
   // Declares `misdecode-REGISTER-FIELD` for each field of these registers: hardware decodes a
   // choice as the next one, a number as its half, and 0 as all ones, but reads return the written

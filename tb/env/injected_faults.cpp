@@ -54,13 +54,13 @@ std::vector<std::string> FaultPlan::link_faults() const {
       all += fmt::format(" {}", known.full_name());
       if (!names(given, known.environment, known.fault.name)) continue;
       if (found)
-        throw spec::ConfigError(fmt::format("fault '{}' may be {} or {}: say which", given,
+        throw spec::ConfigError(fmt::format("fault '{}' is ambiguous: give {} or {}", given,
                                             found->full_name(), known.full_name()));
       found = &known;
     }
     if (!found)
       throw spec::ConfigError(fmt::format(
-          "no fault '{}': known are{}, and faults of links such as drop:LINK:100", given, all));
+          "unknown fault '{}'; known:{}, and link faults such as drop:LINK:100", given, all));
     if (!found->fault.needs.empty())
       throw spec::ConfigError(fmt::format("fault '{}' needs {}", given, found->fault.needs));
     if (!found->fault.link_fault.empty()) links.push_back(found->fault.link_fault);

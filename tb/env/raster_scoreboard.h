@@ -55,8 +55,8 @@ class RasterScoreboard final : public ScoreboardBase {
     fail({"", fmt::format("cycle {}", cycle), pixel(position), std::move(field),
           std::move(expected), std::move(got)});
   }
-  // Resynchronises at another pixel after a framing error, which then counts as one mismatch and
-  // not as many.
+  // Resynchronises at another pixel after a framing error, so that the error counts as a single
+  // mismatch.
   void go_on_at(std::size_t position) { at_ = std::min(position, frame_.size()); }
   std::uint64_t leftovers() const override { return lost_ + leftovers_here(); }
   std::size_t position() const { return at_; }
@@ -64,7 +64,7 @@ class RasterScoreboard final : public ScoreboardBase {
  private:
   std::uint64_t leftovers_here() const { return frame_.size() - at_; }
   std::string first_leftover() const override {
-    return lost_ > 0 ? "pixels of a frame before"
+    return lost_ > 0 ? "pixels of an earlier frame"
                      : fmt::format("{}: {}", pixel(at_), describe_(frame_[at_]));
   }
   std::string pixel(std::size_t position) const {

@@ -88,13 +88,13 @@ std::vector<std::string> listed_files(std::string_view parameter, const std::str
 void FrameLists::add(std::string parameter, std::vector<std::string> entries) {
   if (entries.size() > 1) {
     if (std::find(entries.begin(), entries.end(), "") != entries.end())
-      throw spec::ConfigError(fmt::format("{}: its list has an empty entry: take a '{}' out",
-                                          parameter, kListSeparator));
+      throw spec::ConfigError(
+          fmt::format("{}: the list has an empty entry: remove a '{}'", parameter, kListSeparator));
     const int count = static_cast<int>(entries.size());
     if (frames_ > 1 && count != frames_)
-      throw spec::ConfigError(
-          fmt::format("{} lists {} frames, and {} lists {}: lists of a run are equally long",
-                      longest_, frames_, parameter, count));
+      throw spec::ConfigError(fmt::format(
+          "{} lists {} frames, but {} lists {}: all lists of a run must have the same length",
+          longest_, frames_, parameter, count));
     frames_ = count;
     longest_ = parameter;
   }
@@ -104,7 +104,7 @@ void FrameLists::add(std::string parameter, std::vector<std::string> entries) {
 const std::string& FrameLists::at(std::string_view parameter, int frame) const {
   const auto found = entries_.find(parameter);
   DEBURR_CHECK(found != entries_.end() && !found->second.empty(),
-               fmt::format("{} is no list", parameter));
+               fmt::format("{} is not a list", parameter));
   const std::vector<std::string>& all = found->second;
   return all.size() == 1 ? all.front() : all.at(static_cast<std::size_t>(frame));
 }

@@ -69,7 +69,7 @@ class HostClock {
 
 Simulation::Simulation(const SimulationOptions& options)
     : options_(options), clock_("clock", clock_period(options.clock_mhz)), faults_(options.faults) {
-  faults_.know("", {{"lose-window", "Forgets what the third window counted.", "",
+  faults_.know("", {{"lose-window", "Loses the counts of the third sampling interval.", "",
                      options.interval_cycles > 0 ? "" : "run.interval_cycles"}});
 }
 

@@ -176,13 +176,13 @@ class Calls {
   std::uint32_t number() { return input_.number(); }
   void expect(deburr_golden* golden, int status, bool changed = false) {
     demand(status == DEBURR_OK || status == DEBURR_ARGUMENT || status == DEBURR_CONFIGURATION,
-           "a status that no argument explains");
+           "unexpected status");
     if (status == DEBURR_OK) return;
-    demand(!changed, "a call that failed has written");
+    demand(!changed, "a failed call wrote to its output");
     std::array<char, 60> text{};
     demand(deburr_error(golden, status, text.data(), text.size()) == DEBURR_OK &&
                std::strlen(text.data()) > 20,
-           "a call that failed says nothing");
+           "a failed call left no error text");
   }
   template <class Element, class Function, class... Arguments>
   void give(Function&& function, deburr_golden* golden, Arguments... arguments) {

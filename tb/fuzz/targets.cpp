@@ -70,7 +70,7 @@ void pictures(std::string_view bytes) {
     require(image.width > 0 && image.height > 0 &&
                 image.pixels.size() ==
                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-            "a picture without its pixels");
+            "the number of pixels is not width x height");
   });
 }
 
@@ -80,7 +80,7 @@ void depths(std::string_view bytes) {
     const DepthImage image = read_depth(file.path());
     require(image.pixels.size() ==
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
-            "a depth without its pixels");
+            "the number of depths is not width x height");
   });
 }
 
@@ -90,10 +90,10 @@ void mesh(std::string_view bytes, std::string_view extension, const ImportOption
     const Mesh read = import_mesh(file.path(), options);
     for (const Triangle& triangle : read.triangles)
       for (const std::uint32_t corner : triangle.vertex)
-        require(corner < read.vertices.size(), "a triangle of a vertex that is not there");
+        require(corner < read.vertices.size(), "a triangle uses a vertex that is not in the mesh");
   });
 }
-// Read as a mesh, and as the materials of one; images that they name are not read.
+// Reads the input as a mesh and as a material file; images that it names are not read.
 void obj(std::string_view bytes) {
   mesh(bytes, ".obj");
   const InputFile materials(bytes, ".mtl");
@@ -109,7 +109,8 @@ void read_traces(std::string_view bytes) {
   taken_or_rejected([&] {
     traces::FragmentReader reader(file.path(), kTextures);
     traces::TracedQuad quad;
-    while (reader.next(quad)) require(quad.quad.texture < kTextures, "a texture that is not there");
+    while (reader.next(quad))
+      require(quad.quad.texture < kTextures, "a quad uses a texture that does not exist");
   });
 }
 
@@ -124,7 +125,8 @@ void configurations(std::string_view bytes) {
     const std::string resolved = set.resolved().dump(), yaml = set.yaml();
     const InputFile again(yaml, ".again.yaml");
     set.load(again.path());
-    require(set.resolved().dump() == resolved, "another configuration than was written");
+    require(set.resolved().dump() == resolved,
+            "the configuration changed when it was written and read again");
   });
 }
 
@@ -135,7 +137,7 @@ void weights(std::string_view bytes) {
     const std::string text = stimuli::weight_file_text(read, {});
     const auto again = stimuli::parse_weight_file("again", text);
     require(stimuli::entries_of(again) == stimuli::entries_of(read),
-            "other weights than were written");
+            "the weights changed when they were written and read again");
   });
 }
 
@@ -143,7 +145,8 @@ constexpr std::string_view kPpm = "P3\n2 1\n255\n255 0 0 0 255 0\n";
 constexpr std::string_view kObj =
     "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
     "f 1/1/1 2/2/1 3/1/1\nf 2//1 4//1 3//1\n";
-// A byte order mark, a C, a bow tie, a hole with its bridge, a face without area, colours, a curve.
+// A byte order mark; faces: C-shaped, self-intersecting, with a hole and bridge, of zero area;
+// colours; a curve.
 constexpr std::string_view kPolygons =
     "\xEF\xBB\xBFv 0 0 0\nv 3 0 0 1 0 0\nv 3 1 0\nv 1 1 0\nv 1 2 0\nv 3 2 0\nv 3 3 0\nv 0 3 0\n"
     "f 1 2 3 4 5 6 7 8 # C\nf 1 7 2 8\nf 1 2 7 8 1 4 5 \\\n6 3 4\nf 1 2 2 1 1\ncurv 0 1 1 2\n";

@@ -30,10 +30,10 @@ void check_scopes(const rtl::ClockDomain& clock, const rtl::TraceOptions& trace)
     rtl::for_each_of<rtl::LinkBase>(clock, add);
     rtl::for_each_of<rtl::WireBase>(clock, add);
     rtl::for_each_of<rtl::Unit>(clock, add);
-    throw spec::ConfigError(fmt::format(
-        "trace: no link, wire, unit, counter or register matches {} (* stands for any text, "
-        "? for a letter); links, wires and units are:{}",
-        scope, known));
+    throw spec::ConfigError(
+        fmt::format("trace: no link, wire, unit, counter or register matches {} (* matches any "
+                    "text, ? any character); known links, wires and units:{}",
+                    scope, known));
   }
 }
 

@@ -63,8 +63,8 @@ FaultInjector::FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& 
       if (fault.link == link.name()) found = &link;
     });
     if (!found)
-      throw spec::ConfigError(fmt::format("fault: no link of {} is named {}; there are:{}",
-                                          clock.name(), fault.link, known));
+      throw spec::ConfigError(
+          fmt::format("fault: {} has no link named {}; known:{}", clock.name(), fault.link, known));
     rtl::Payload::Bit bit{};
     if (fault.kind == Fault::Kind::kFlip) {
       try {
@@ -114,8 +114,7 @@ void FaultInjector::check_fired() const {
   for (const Injected& injected : injected_)
     if (!injected.fired)
       throw spec::SimulationError(
-          fmt::format("the fault injected on {} at {} was never reached: the run was too short to "
-                      "show anything",
+          fmt::format("the fault on {} at {} was never reached: the run ended before it",
                       injected.fault.link, injected.fault.at));
 }
 

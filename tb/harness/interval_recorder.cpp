@@ -23,7 +23,7 @@ void put(Json& root, const std::string& key, Json value) {
   for (std::size_t dot; (dot = key.find('.', from)) != std::string::npos; from = dot + 1)
     node = &(*node)[key.substr(from, dot - from)];
   const std::string last = key.substr(from);
-  DEBURR_CHECK(!node->contains(last), "two parts of the design are called " + key);
+  DEBURR_CHECK(!node->contains(last), "two parts of the design have the same name: " + key);
   (*node)[last] = std::move(value);
 }
 
@@ -32,7 +32,7 @@ void put(Json& root, const std::string& key, Json value) {
 IntervalRecorder::IntervalRecorder(rtl::ClockDomain& clock, const IntervalOptions& options)
     : clock_(clock), options_(options), interval_(options.cycles) {
   DEBURR_CHECK(options.cycles > 0 && options.most >= 2 && options.most % 2 == 0,
-               "windows of no length, or an odd number of them");
+               "intervals need a length above 0, and an even maximum of at least 2");
   clock.add_after(*this);
 }
 

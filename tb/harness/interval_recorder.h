@@ -105,7 +105,7 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
   bool begun_ = false;
   std::vector<Counted> counted_;
   std::vector<Largest> largest_;
-  // Held by pointer: observers keep references to the elements.
+  // Pointers, because observers keep references to the elements.
   std::vector<std::unique_ptr<WatchedLink>> links_;
   std::vector<std::unique_ptr<WatchedPort>> ports_;
   std::vector<ThroughputSeries> throughput_;

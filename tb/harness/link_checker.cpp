@@ -57,7 +57,7 @@ LinkChecker::LinkChecker(rtl::ClockDomain& clock, const std::string& glob, bool 
     const std::uint64_t ring_bytes = std::uint64_t{link.depth()} * watched.slot_bytes;
     DEBURR_CHECK(
         ring_bytes <= ~std::uint32_t{0},
-        fmt::format("{}: {} beats are too many to keep a copy of each", link.name(), link.depth()));
+        fmt::format("{}: a link of {} beats is too deep to check", link.name(), link.depth()));
     watched.ring_bytes = static_cast<std::uint32_t>(ring_bytes);
     watched.copies = std::make_unique<std::byte[]>(ring_bytes);
     watched.follow = widths ? &LinkChecker::follow<true> : follower_of(link.payload_bytes());
@@ -96,14 +96,13 @@ void LinkChecker::reject_counts(const Watched& w, rtl::Cycle cycle) {
   const std::uint64_t pushed = link.last_push() == cycle, popped = link.last_pop() == cycle;
   if (link.pushes() != w.pushes + pushed)
     fail(link, cycle,
-         fmt::format("{} beats have gone in, {} were pushed: a beat vanished or appeared",
+         fmt::format("{} beats entered, but {} were pushed: a beat vanished or appeared",
                      link.pushes(), w.pushes + pushed));
   if (link.pops() != w.pops + popped)
     fail(link, cycle,
-         fmt::format("{} beats have gone out, {} were popped: a beat vanished", link.pops(),
+         fmt::format("{} beats left, but {} were popped: a beat vanished", link.pops(),
                      w.pops + popped));
-  if (pushed && w.pushes - w.pops == link.depth())
-    fail(link, cycle, "a push into a link that was full");
+  if (pushed && w.pushes - w.pops == link.depth()) fail(link, cycle, "a push into a full link");
   fail(link, cycle, "a pop of a beat that was pushed in the same cycle");
 }
 

@@ -52,7 +52,7 @@ tlm::tlm_sync_enum ProtocolTarget::forward(Payload& payload, tlm::tlm_phase& pha
   }
   const auto found = transactions_.find(&payload);
   if (found == transactions_.end()) {
-    complain(payload, "END_RESP of a transaction that is over");
+    complain(payload, "END_RESP of a transaction that has ended");
   } else if (!found->second.responding) {
     complain(payload, "END_RESP before BEGIN_RESP");
   } else {
@@ -63,7 +63,7 @@ tlm::tlm_sync_enum ProtocolTarget::forward(Payload& payload, tlm::tlm_phase& pha
   return tlm::TLM_COMPLETED;
 }
 
-// Returns false for a request that no memory can serve.
+// Returns false for an invalid request.
 bool ProtocolTarget::check_payload(const Payload& payload) {
   const std::size_t before = violations_.size();
   if (!payload.has_mm())
@@ -85,7 +85,7 @@ void ProtocolTarget::check_unchanged(const Payload& payload, const Transaction& 
   if (attributes_of(payload) != transaction.attributes)
     complain(payload, "attributes changed before the response");
   if (payload.get_ref_count() < 2)  // the target holds one reference itself
-    complain(payload, "the initiator gave its reference up before the response");
+    complain(payload, "the initiator released its reference before the response");
 }
 
 tlm::tlm_sync_enum ProtocolTarget::begin(Payload& payload, tlm::tlm_phase& phase, sc_time& delay) {

@@ -168,13 +168,13 @@ class Comparison {
   void expect(const FileRegister& info, const std::string& when, std::uint32_t expected,
               std::uint32_t got) {
     if (expected != got)
-      say(info, fmt::format("{}: {:#x} by the file, {:#x} in the hardware", when, expected, got));
+      say(info, fmt::format("{}: {:#x} in the file, {:#x} in the hardware", when, expected, got));
   }
   // A register without readable fields rejects a read; counts as 0.
   std::uint32_t read(std::uint32_t offset, const FileRegister& info) {
     try {
       const std::uint32_t value = hardware_.read(offset);
-      if (info.readable() == 0) say(info, "write only by the file, but it is read");
+      if (info.readable() == 0) say(info, "write-only in the file, but a read succeeds");
       return value;
     } catch (const spec::SimulationError& error) {
       if (info.readable() != 0) say(info, fmt::format("cannot be read: {}", error.what()));
@@ -203,18 +203,19 @@ class Comparison {
   void find_holes() {
     for (std::uint32_t offset = 0; offset < map_.rbegin()->first + 64; offset += 4)
       if (!map_.contains(offset) && hardware_.write(offset, 0) != tlm::TLM_ADDRESS_ERROR_RESPONSE)
-        wrong_.push_back(fmt::format("{:#x}: no register by the file, but it is written", offset));
+        wrong_.push_back(
+            fmt::format("{:#x}: no register in the file, but a write succeeds", offset));
   }
 
   void try_read_only(std::uint32_t offset, const FileRegister& info) {
     const std::uint32_t before = read(offset, info);
     for (const std::uint32_t value : {~std::uint32_t{0}, std::uint32_t{0}, ~before}) {
       const Response response = hardware_.write(offset, value);
-      expect(info, "after a write to what is read only", before, read(offset, info));
+      expect(info, "after a write to a read-only register", before, read(offset, info));
       // A register of an option that is not built accepts writes and reads 0.
       if (response != tlm::TLM_COMMAND_ERROR_RESPONSE &&
           (response != tlm::TLM_OK_RESPONSE || before != 0))
-        say(info, fmt::format("read only by the file; a write is answered with {}",
+        say(info, fmt::format("read-only in the file, but a write is answered with {}",
                               static_cast<int>(response)));
     }
   }
@@ -239,8 +240,8 @@ class Comparison {
       const std::uint32_t plain =
           info.bits([](auto& f) { return f.software_writes() && !f.clears() && f.has("hw = r"); });
       const std::uint32_t held = plain & ~info.commands();
-      expect(info, fmt::format("for the hardware after a write of {:#x}", value), value & held,
-             hardware_.seen(offset) & held);
+      expect(info, fmt::format("value for the hardware after a write of {:#x}", value),
+             value & held, hardware_.seen(offset) & held);
     }
     write(offset, info, old & ~info.commands());
   }
@@ -289,7 +290,7 @@ class Comparison {
     write(offset, info, before | field.mask());
     expect(info, fmt::format("after the command {}", field.name), before, read(offset, info));
     // The pulse lasts only for the write and is not stored.
-    expect(info, fmt::format("for the hardware after {}", field.name), 0,
+    expect(info, fmt::format("value for the hardware after {}", field.name), 0,
            hardware_.seen(offset) & field.mask());
     hardware_.reset();
   }
@@ -299,12 +300,12 @@ class Comparison {
     hardware_.reset();
     const std::uint32_t idle = read(offset, info);
     const bool sets = field.has("hwset");
-    if (hardware_.interrupt()) say(info, "an interrupt after a reset");
+    if (hardware_.interrupt()) say(info, "interrupt raised after a reset");
     if (!field.hardware_writes()) hardware_.set_sticky(field.mask());
     const std::uint32_t set = sets ? idle | field.mask() : idle;
     expect(info, fmt::format("with {} set by hardware", field.name), set, read(offset, info));
     if (hardware_.interrupt() != sets)
-      say(info, fmt::format("the interrupt with {} set", field.name));
+      say(info, fmt::format("wrong interrupt with {} set", field.name));
     for (const std::uint32_t value : {std::uint32_t{0}, ~field.mask()}) {
       write(offset, info, value);
       expect(info, fmt::format("{} after a write of {:#x}", field.name, value), set,
@@ -314,12 +315,12 @@ class Comparison {
     expect(info, fmt::format("{} after a one written to it", field.name),
            info.after(set, field.mask()), read(offset, info));
     if (hardware_.interrupt() != (sets && !field.clears()))
-      say(info, fmt::format("the interrupt with {} cleared", field.name));
+      say(info, fmt::format("wrong interrupt with {} cleared", field.name));
     // Writing a one clears no other bit.
     const std::uint32_t all = info.bits([](auto& f) { return f.has("hwset"); });
     hardware_.set_sticky(all);
     write(offset, info, field.mask());
-    expect(info, fmt::format("of all, after a one written to {}", field.name),
+    expect(info, fmt::format("with all bits set, after a one written to {}", field.name),
            info.after(idle | all, field.mask()), read(offset, info));
   }
 
@@ -334,15 +335,15 @@ class Comparison {
     };
     const FileField *const idle = bit("idle"), *const busy_write = bit("written_while_busy");
     if (!idle || !busy_write) {
-      wrong_.push_back("STATUS: no idle, or no written_while_busy");
+      wrong_.push_back("STATUS: the field idle or written_while_busy is missing");
       return;
     }
     hardware_.begin_job();
     hardware_.run_until([&] { return (read(status->first, status->second) & idle->mask()) == 0; });
     const std::uint32_t before = read(status->first, status->second);
     if (!idle->hardware_writes())
-      say(status->second, "idle changes, and hardware does not write it");
-    expect(status->second, "idle with a job under way", 0, before & idle->mask());
+      say(status->second, "idle changes, but the file does not let hardware write it");
+    expect(status->second, "idle during a job", 0, before & idle->mask());
     for (const auto& [offset, info] : map_) {
       const std::uint32_t kept = info.writable() & ~info.cleared() & ~info.commands();
       if (kept == 0 || (info.name == "CONTROL")) continue;
@@ -351,7 +352,7 @@ class Comparison {
       write(offset, info, inverted);
       const std::uint32_t locked = info.bits([](auto& f) { return f.has("swwe"); });
       const std::uint32_t open = ~locked & ~info.changing();
-      expect(info, "after a write with a job under way",
+      expect(info, "after a write during a job",
              (value & locked) | (info.after(value, inverted) & open),
              read(offset, info) & (locked | open));
       expect(status->second, fmt::format("written_while_busy after a write to {}", info.name),
@@ -368,7 +369,7 @@ class Comparison {
       const std::uint32_t sticky = info.bits([](auto& f) { return f.has("hwset"); });
       const std::uint32_t written = info.writable() & ~info.cleared();
       const std::uint32_t rest = ~(info.changing() | sticky | written);
-      expect(info, "after everything has happened", before.at(offset) & rest,
+      expect(info, "after every hardware event", before.at(offset) & rest,
              read(offset, info) & rest);
     }
   }
@@ -384,7 +385,7 @@ class Comparison {
 std::vector<std::string> register_differences(const std::string& systemrdl,
                                               const RegisterHardware& hardware, int& fields) {
   const FileMap map = read_file(systemrdl);
-  if (map.empty()) return {"no register in the file"};
+  if (map.empty()) return {"the file has no registers"};
   return Comparison(map, hardware, fields).run();
 }
 
@@ -447,8 +448,8 @@ std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(
     change(wrong);
     all.emplace_back(what, wrong);
   };
-  add("a reset leaves registers as they are", [](auto& h) { h.reset = [] {}; });
-  add("a bit of no field reads as 1", [&](auto& h) {
+  add("a reset does not change registers", [](auto& h) { h.reset = [] {}; });
+  add("a bit outside all fields reads as 1", [&](auto& h) {
     h.read = [right, status](std::uint32_t offset) {
       return right.read(offset) | (offset == status ? 1u << 31 : 0);
     };
@@ -478,41 +479,41 @@ std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(
       return found == last->end() ? value : (value & ~bits) | (found->second & bits);
     };
   };
-  add("idle is written", [&](auto& h) {
+  add("software writes idle", [&](auto& h) {
     shadowed(
         h, [status](std::uint32_t offset, Response) { return offset == status; }, idle);
   });
-  add("commands read as written", [&](auto& h) {
+  add("command bits read back as written", [&](auto& h) {
     shadowed(
         h, [control](std::uint32_t offset, Response) { return offset == control; }, commands);
   });
-  add("what is read only is written", [&](auto& h) {
+  add("a read-only register is written", [&](auto& h) {
     shadowed(
         h, [](std::uint32_t, Response r) { return r == tlm::TLM_COMMAND_ERROR_RESPONSE; },
         ~std::uint32_t{0});
   });
-  add("a write to what is read only is not rejected", [&](auto& h) {
+  add("a write to a read-only register is not rejected", [&](auto& h) {
     h.write = [right](std::uint32_t offset, std::uint32_t value) {
       const Response response = right.write(offset, value);
       return response == tlm::TLM_COMMAND_ERROR_RESPONSE ? tlm::TLM_OK_RESPONSE : response;
     };
   });
-  add("byte enables are not looked at", [&](auto& h) {
+  add("byte enables are ignored", [&](auto& h) {
     h.write_bytes = [right](std::uint32_t offset, unsigned bytes, bool enables) {
       const Response response = right.write_bytes(offset, bytes, enables);
       return enables ? tlm::TLM_OK_RESPONSE : response;
     };
   });
-  add("a write reaches the next register, too", [&](auto& h) {
+  add("a write also reaches the next register", [&](auto& h) {
     h.write = [right](std::uint32_t offset, std::uint32_t value) {
       const Response response = right.write(offset, value);
       if (response == tlm::TLM_OK_RESPONSE) right.write(offset + 4, value & ~7u);
       return response;
     };
   });
-  add("hardware does not set what sticks", [](auto& h) { h.set_sticky = [](std::uint32_t) {}; });
+  add("hardware does not set sticky bits", [](auto& h) { h.set_sticky = [](std::uint32_t) {}; });
   add("no interrupt", [](auto& h) { h.interrupt = [] { return false; }; });
-  add(locked ? "writes with a job under way are taken" : "writes with a job under way are ignored",
+  add(locked ? "writes during a job are accepted" : "writes during a job are ignored",
       [&](auto& h) {
         const auto busy = std::make_shared<bool>(false);
         if (locked)

@@ -77,7 +77,8 @@ class ResetSuite {
     kit_.clock().run(5);
     const std::vector<std::string> fresh = state_of(kit_);
     spoil();
-    EXPECT_NE(state_difference(fresh, state_of(kit_)), "") << "there is something to forget";
+    EXPECT_NE(state_difference(fresh, state_of(kit_)), "")
+        << "the jobs changed no state, so the test shows nothing";
     kit_.reset(kit_.long_reset());
     kit_.clock().run(5);
     EXPECT_EQ(state_difference(fresh, state_of(kit_)), "");

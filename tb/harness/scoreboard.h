@@ -146,7 +146,7 @@ class Scoreboard final : public ScoreboardBase {
     if (const auto found = std::find(waiting.begin(), end, value); !again && found != end) {
       for (auto lost = waiting.begin(); lost != found; ++lost) {
         fail({"", where, item(*lost), "order", text(lost->value),
-              "nothing, or it later: next came " + text(value)});
+              "nothing so far; next came " + text(value)});
         queue.lost.push_back(*lost);
         if (queue.lost.size() > kLookAhead) queue.lost.pop_front();
       }

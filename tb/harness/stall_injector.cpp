@@ -11,9 +11,10 @@ namespace deburr::tb {
 
 StallInjector::StallInjector(rtl::ClockDomain& clock, const Options& options) : options_(options) {
   if (options.push_permille >= 1000 || options.pop_permille >= 1000)
-    throw spec::ConfigError(fmt::format(
-        "random stalls in {} and {} of 1000 cycles: must be below 1000, or nothing ever moves",
-        options.push_permille, options.pop_permille));
+    throw spec::ConfigError(
+        fmt::format("random stalls in {} and {} of 1000 cycles: both must be below 1000, otherwise "
+                    "no beat ever moves",
+                    options.push_permille, options.pop_permille));
   rtl::for_each_of<rtl::LinkBase>(clock, [&](rtl::LinkBase& link) {
     if (rtl::glob_match(options.glob, link.name()))
       stalled_.push_back({&link, Random(options.seed, link.name())});

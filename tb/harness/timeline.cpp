@@ -199,7 +199,7 @@ std::string Timeline::json() const {
                                quoted(level.unit), s.value));
   }
   std::string text = fmt::format(
-      "{{\"displayTimeUnit\":\"ns\",\n\"otherData\":{{\"time\":\"a microsecond is a clock\","
+      "{{\"displayTimeUnit\":\"ns\",\n\"otherData\":{{\"time\":\"a microsecond is a cycle\","
       "\"from\":{},\"to\":{}}},\n\"traceEvents\":[\n"
       R"({{"ph":"M","name":"process_name","pid":{},"tid":0,"args":{{"name":"units"}}}})",
       options_.from, std::min(options_.to, end_), kProcess);

@@ -52,7 +52,8 @@ void Watchdog::reset() {
 
 std::string dump_state(const rtl::ClockDomain& clock,
                        const std::vector<std::array<std::uint64_t, rtl::kActivities>>& before) {
-  std::string text = "links (beats of depth; beats in, out; cycle of last push, pop; ends):\n";
+  std::string text =
+      "links (beats of depth; beats in, out; cycle of last push, pop; producer -> consumer):\n";
   for (const rtl::LinkBase* link : clock.links())
     text += fmt::format("  {:<40} {} of {}{}; {}, {}; {}, {}; {} -> {}\n", link->name(),
                         link->occupancy(), link->depth(),

@@ -121,12 +121,12 @@ class VerilatedAt : public rtl::Unit {
  public:
   // `seed`: for all noise.
   VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-              rtl::In<From>& in, rtl::Out<To>& out)
+              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& to = {})
       : Unit(name, clock),
         in_(in),
         out_(out),
         from_(rtl::Payload::of<From>()),
-        to_(rtl::Payload::of<To>()),
+        to_(rtl::Payload::of<To>(to)),
         noise_(seed, this->basename()),
         model_(made_with_noise<Model>(*context_, noise_)) {
     VerilatedAt::reset();
@@ -186,8 +186,9 @@ class VerilatedAt : public rtl::Unit {
 template <class Model, class From, class To>
 class VerilatedUnit final : public VerilatedAt<Model, From, To> {
  public:
-  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed)
-      : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out) {}
+  VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
+                const rtl::PayloadShape& to = {})
+      : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out, to) {}
 
   rtl::In<From> beats_in{"beats_in"};
   rtl::Out<To> beats_out{"beats_out"};

@@ -305,26 +305,26 @@ TEST(CounterpartAddressUnit, MatchesUnderHeavyStalls) {
 
 // ---- injected faults in the SystemVerilog
 
-TEST(TwinAddressUnitFaults, WrongNeighbourLaneIsDetected) {
+TEST(CounterpartAddressUnitFaults, WrongNeighbourLaneIsDetected) {
   EXPECT_GE(compare<VAddressWrongLane>(hdl::kVAddressWrongLane, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, LaterOfEqualCandidatesIsDetected) {
+TEST(CounterpartAddressUnitFaults, LaterOfEqualCandidatesIsDetected) {
   EXPECT_GE(compare<VAddressWrongEqual>(hdl::kVAddressWrongEqual, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, SwappedMortonIndexIsDetected) {
+TEST(CounterpartAddressUnitFaults, SwappedMortonIndexIsDetected) {
   EXPECT_GE(compare<VAddressWrongMorton>(hdl::kVAddressWrongMorton, 20'000, 300).golden_differ, 1u);
 }
-TEST(TwinAddressUnitFaults, UnroundedPitchIsDetected) {
+TEST(CounterpartAddressUnitFaults, UnroundedPitchIsDetected) {
   EXPECT_GE(compare<VAddressUnevenPitch>(hdl::kVAddressUnevenPitch, 20'000, 300).golden_differ, 1u);
 }
 // A request of the aborted work is issued after the reset.
-TEST(TwinAddressUnitFaults, FragmentKeptOverResetIsDetected) {
+TEST(CounterpartAddressUnitFaults, FragmentKeptOverResetIsDetected) {
   const Result r = compare<VAddressNotEmptied>(hdl::kVAddressNotEmptied, 20'000, 300);
   EXPECT_GE(r.golden_differ, 1u);
   EXPECT_GE(r.cycles_differ, 1u);
 }
 // Correct requests; timing differs only if the downstream units stall.
-TEST(TwinAddressUnitFaults, ThirdLinkEntryIsDetected) {
+TEST(CounterpartAddressUnitFaults, ThirdLinkEntryIsDetected) {
   const Result stalled = compare<VAddressThirdPlace>(hdl::kVAddressThirdPlace, 20'000, 300);
   EXPECT_EQ(stalled.golden_differ, 0u) << stalled.first;
   EXPECT_GE(stalled.cycles_differ, 1u);

@@ -28,7 +28,7 @@
 namespace deburr::tb::counterpart_filter_pipeline_test {
 namespace {
 
-using spec::texture::Colour;
+using spec::texture::ColourGroup;
 
 struct Result {
   std::uint64_t requests = 0, colours = 0, broken_off = 0;
@@ -51,8 +51,8 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   rtl::ClockDomain clock("clock", period());
   rtl::Link<hw::TexelQuadToken> texels_of_model("texels_of_model"),
       texels_of_counterpart("texels_of_counterpart");
-  rtl::Link<Colour> colours_of_model("colours_of_model"),
-      colours_of_counterpart("colours_of_counterpart");
+  rtl::Link<ColourGroup> colours_of_model("colours_of_model", 2, hw::colours_shape(parameters)),
+      colours_of_counterpart("colours_of_counterpart", 2, hw::colours_shape(parameters));
   rtl::LatencyProbe probe;
   const EndOptions before = hdl::stalled({permille, seed}),
                    after = hdl::stalled({permille, seed + 1000});
@@ -62,15 +62,16 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   for (Driver<hw::TexelQuadToken>* const source : {&source_of_model, &source_of_counterpart})
     source->send(hdl::those_of(sent));
   hw::FilterPipeline model("model", clock, parameters, probe);
-  hdl::VerilatedUnit<Model, hw::TexelQuadToken, Colour> counterpart("counterpart", clock, seed);
-  Sink<Colour> sink_of_model("sink_of_model", clock, after),
+  hdl::VerilatedUnit<Model, hw::TexelQuadToken, ColourGroup> counterpart(
+      "counterpart", clock, seed, hw::colours_shape(parameters));
+  Sink<ColourGroup> sink_of_model("sink_of_model", clock, after),
       sink_of_counterpart("sink_of_counterpart", clock, after);
   sink_of_model.keep(false);
   sink_of_counterpart.keep(false);
   hdl::LinkComparison<hw::TexelQuadToken> before_it("before_it", clock, texels_of_model,
                                                     texels_of_counterpart);
-  hdl::LinkComparison<Colour> behind_it("behind_it", clock, colours_of_model,
-                                        colours_of_counterpart);
+  hdl::LinkComparison<ColourGroup> behind_it("behind_it", clock, colours_of_model,
+                                             colours_of_counterpart);
   source_of_model.beats_out(texels_of_model);
   model.texels_in(texels_of_model);
   model.colours_out(colours_of_model);
@@ -84,9 +85,9 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   };
 
   Result result;
-  sink_of_counterpart.on_beat = [&](rtl::Cycle, const Colour& got) {
+  sink_of_counterpart.on_beat = [&](rtl::Cycle, const ColourGroup& got) {
     const std::uint64_t number = sent.front().ticket.tag + sink_of_counterpart.received() - 1;
-    if (number >= work.colours.size() || !(got == work.colours[number]))
+    if (number >= work.colours.size() || !(got.colour[0] == work.colours[number]))
       if (result.golden_differ++ == 0)
         result.first = "golden/counterpart colour " + std::to_string(number) + "; ";
   };
@@ -155,18 +156,18 @@ TEST(CounterpartFilterPipeline, MatchesUnderHeavyStalls) {
 
 // ---- injected faults in the SystemVerilog
 
-TEST(TwinFilterPipelineFaults, MissingSecondLevelIsDetected) {
+TEST(CounterpartFilterPipelineFaults, MissingSecondLevelIsDetected) {
   EXPECT_GE(compare<VFilterWrongOpen>(hdl::kVFilterWrongOpen, 300).golden_differ, 1u);
 }
-TEST(TwinFilterPipelineFaults, TruncationIsDetected) {
+TEST(CounterpartFilterPipelineFaults, TruncationIsDetected) {
   EXPECT_GE(compare<VFilterWrongRound>(hdl::kVFilterWrongRound, 300).golden_differ, 1u);
 }
 // A sample of the aborted work continues after the reset.
-TEST(TwinFilterPipelineFaults, SampleKeptOverResetIsDetected) {
+TEST(CounterpartFilterPipelineFaults, SampleKeptOverResetIsDetected) {
   EXPECT_GE(compare<VFilterNotEmptied>(hdl::kVFilterNotEmptied, 300).golden_differ, 1u);
 }
 // Correct colours with different timing: the pipeline does not close gaps at its end.
-TEST(TwinFilterPipelineFaults, UnneededWaitIsDetected) {
+TEST(CounterpartFilterPipelineFaults, UnneededWaitIsDetected) {
   const Result r = compare<VFilterWrongHold>(hdl::kVFilterWrongHold, 300);
   EXPECT_EQ(r.golden_differ, 0u) << r.first;
   EXPECT_GE(r.cycles_differ, 1u);

@@ -167,15 +167,15 @@ INSTANTIATE_TEST_SUITE_P(Texture, CounterpartsInEngine,
                          });
 
 // One RTL unit among SystemC units, and two.
-class SomeTwinsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
+class SomeCounterpartsInEngine : public testing::TestWithParam<std::vector<std::string>> {};
 
-TEST_P(SomeTwinsInEngine, SameResultsInTheSameCycles) {
+TEST_P(SomeCounterpartsInEngine, SameResultsInTheSameCycles) {
   const TextureRunOptions options = storm(false);
   expect_equal(run(options, {}, 96, {}, 200), run(options, {}, 96, GetParam(), 200),
                GetParam().size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
+INSTANTIATE_TEST_SUITE_P(Texture, SomeCounterpartsInEngine,
                          testing::Values(std::vector<std::string>{"address"},
                                          std::vector<std::string>{"cache"},
                                          std::vector<std::string>{"filter"},
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, SomeTwinsInEngine,
                          [](const auto& p) { return fmt::format("{}", fmt::join(p.param, "_")); });
 
 // The comparison of cycles detects a memory that takes one cycle more.
-TEST(TwinsInEngineFaults, OneMoreCycleIsDetected) {
+TEST(CounterpartsInEngineFaults, OneMoreCycleIsDetected) {
   TextureRunOptions later = calm(false);
   later.memory.latency += 1;
   later.texture.cache_fifo_depth = 107;
@@ -203,19 +203,36 @@ TEST(ChooseCounterparts, AllOrSomeInTheirOrder) {
   EXPECT_THROW(counterpart_units("adress"), spec::ConfigError);
 }
 
-TEST(ChooseCounterparts, RejectsUnitsThatAreNotBuilt) {
-  spec::texture::Parameters p;
-  p.cache_ways = 4;
-  p.cache_fifo_depth = 107;
-  EXPECT_NO_THROW(texture_counterparts({"address", "filter"}, p, 1));
+std::string rejection(const std::vector<std::string>& units, const spec::texture::Parameters& p) {
   try {
-    texture_counterparts({"address", "cache"}, p, 1);
-    FAIL();
+    texture_counterparts(units, p, 1);
+    return "";
   } catch (const spec::ConfigError& error) {
-    const std::string text = error.what();
-    for (const char* part : {"unit cache", "cache.ways=4", "cache.ways=2", "configurations.txt"})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
+    return error.what();
   }
+}
+
+TEST(ChooseCounterparts, RejectsUnitsThatAreNotBuilt) {
+  using testing::AllOf, testing::HasSubstr;
+  spec::texture::Parameters p;
+  p.cache_fifo_depth = 107;
+  spec::texture::Parameters ways = p, coarse = p, level = p, wide = p;
+  ways.cache_ways = 4;
+  EXPECT_EQ(rejection({"address", "filter"}, ways), "");
+  EXPECT_THAT(rejection({"address", "cache"}, ways),
+              AllOf(HasSubstr("unit cache"), HasSubstr("cache.ways=4"), HasSubstr("cache.ways=2"),
+                    HasSubstr("configurations.txt")));
+  coarse.derivatives = spec::texture::Derivatives::kCoarse;
+  EXPECT_EQ(rejection({"cache", "filter"}, coarse), "");
+  EXPECT_THAT(rejection({"address"}, coarse),
+              AllOf(HasSubstr("unit address"), HasSubstr("derivatives=coarse")));
+  level.blend = spec::texture::Blend::kLevel;
+  EXPECT_EQ(rejection({"cache"}, level), "");
+  for (const char* unit : {"address", "filter"})
+    EXPECT_THAT(rejection({unit}, level), AllOf(HasSubstr(unit), HasSubstr("blend=level")));
+  wide.width = 4;
+  for (const char* unit : {"address", "cache", "filter"})
+    EXPECT_THAT(rejection({unit}, wide), AllOf(HasSubstr(unit), HasSubstr("width=4")));
 }
 
 }  // namespace

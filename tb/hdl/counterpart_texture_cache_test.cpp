@@ -368,7 +368,7 @@ TEST(CounterpartTextureCache, MatchesLargeCache) {
 // ---- injected faults in the SystemVerilog
 
 // Two stages that do not stall together: a line's entry is freed too early.
-TEST(TwinTextureCacheFaults, FillDuringStallIsDetected) {
+TEST(CounterpartTextureCacheFaults, FillDuringStallIsDetected) {
   EXPECT_GE(compare<VCacheWhileHeld>(hdl::kVCacheWhileHeld, 20'000, 300).cycles_differ, 1u);
 }
 // Only the timing differs: every texel is right.
@@ -378,13 +378,13 @@ void expect_other_cycles(const char* settings, std::uint32_t permille = 300) {
   EXPECT_EQ(r.memory_differs, 0u) << r.first;
   EXPECT_GE(r.cycles_differ, 1u);
 }
-TEST(TwinTextureCacheFaults, LateFillIsDetected) {
+TEST(CounterpartTextureCacheFaults, LateFillIsDetected) {
   expect_other_cycles<VCacheLateFill>(hdl::kVCacheLateFill);
 }
-TEST(TwinTextureCacheFaults, LateMissQueueReleaseIsDetected) {
+TEST(CounterpartTextureCacheFaults, LateMissQueueReleaseIsDetected) {
   expect_other_cycles<VCacheFreedLater>(hdl::kVCacheFreedLater);
 }
-TEST(TwinTextureCacheFaults, MissingReadAheadIsDetected) {
+TEST(CounterpartTextureCacheFaults, MissingReadAheadIsDetected) {
   expect_other_cycles<VCacheNotAhead>(hdl::kVCacheNotAhead);
 }
 // Other lines are replaced.
@@ -393,17 +393,17 @@ void expect_other_lines(const char* settings) {
   const Result r = compare<Model>(settings, 20'000, 300, {.latency = 20, .scatter = 30});
   EXPECT_GE(r.cycles_differ + r.payloads_differ, 1u);
 }
-TEST(TwinTextureCacheFaults, HitCountedAsUseInFifoIsDetected) {
+TEST(CounterpartTextureCacheFaults, HitCountedAsUseInFifoIsDetected) {
   expect_other_lines<VCacheEveryUse>(hdl::kVCacheEveryUse);
 }
-TEST(TwinTextureCacheFaults, WrongShiftRegisterTapIsDetected) {
+TEST(CounterpartTextureCacheFaults, WrongShiftRegisterTapIsDetected) {
   expect_other_lines<VCacheWrongTap>(hdl::kVCacheWrongTap);
 }
-TEST(TwinTextureCacheFaults, StaleSetReadIsDetected) {
+TEST(CounterpartTextureCacheFaults, StaleSetReadIsDetected) {
   expect_other_lines<VCacheOldSet>(hdl::kVCacheOldSet);
 }
 // Wrong texels.
-TEST(TwinTextureCacheFaults, UnturnedLineIsDetected) {
+TEST(CounterpartTextureCacheFaults, UnturnedLineIsDetected) {
   EXPECT_GE(compare<VCacheNotTurned>(hdl::kVCacheNotTurned, 20'000, 300).memory_differs, 1u);
 }
 }  // namespace

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Proves one property of the units in hdl/, and that the proof can fail: with a fault injected in the
 source it must be refuted. Sequential properties are proved by induction over one to three cycles with
-invariants by hand (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT solver. Invariants
-stand in the unit, or in a proof module that names the unit's registers by wires with the attribute
+hand-written invariants (yosys-smtbmc, z3), combinational ones for all inputs by yosys' SAT solver. Invariants
+are in the unit, or in a proof module that names the unit's registers by wires with the attribute
 `hierconn`.
 
 usage: formal_test.py SOURCE HEADERS PROOF | --list"""
@@ -82,7 +82,7 @@ PROOFS = {
     "miss_path_5": Proof("miss_path_proof", "induction",
                          ("texture/miss_queue.sv", "if (count > 3'd2)", "if (count > 3'd3)"),
                          steps=1, base=3, registers=True, parameters={"ENTRIES": 5, "LINE_BYTES": 128}),
-    # The fault: a request with as many lines as entries is never accepted.
+    # The fault: a request for ENTRIES lines is never accepted.
     "cache_moves": Proof("cache_moves_proof", "induction",
                          ("texture/miss_queue.sv", "FULL = ENTRIES[COUNT_BITS:0]", "FULL = ENTRIES[COUNT_BITS:0] - 1'b1"),
                          steps=1, base=3, registers=True, free="tag_look_up"),
@@ -156,7 +156,7 @@ def proved(proof, source, headers, fault):
             file, wrong, right = proof.fault
             text = (root / "hdl" / file).read_text(encoding="utf-8")
             if text.count(wrong) != 1:
-                return None, f"{file} has {wrong!r} {text.count(wrong)} times, and the fault goes where it stands once"
+                return None, f"{file} has {wrong!r} {text.count(wrong)} times, expected once: the fault cannot be injected"
             (root / "hdl" / file).write_text(text.replace(wrong, right), encoding="utf-8")
         sources = needed(root, proof.top)
         smt, log = root / "model.smt2", root / "log"

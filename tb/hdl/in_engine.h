@@ -87,7 +87,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
   CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&, std::uint64_t seed)
       : VerilatedCacheAt<Model>(
             "cache_hdl", unit.cache.tag_stage.clock(), seed,
-            {unit.cache.tag_stage.texels_in, unit.cache.data_stage.texels_out,
+            {unit.cache.narrow->tag_stage.texels_in, unit.cache.narrow->data_stage.texels_out,
              unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
             unit.parameters()),
         unit_(unit),
@@ -97,7 +97,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
     rtl::ClockDomain& clock = this->clock();
     clock.replace(m, {&m.line_fills, &m.fill_bytes, &m.memory_errors});
     clock.replace(cache.tag_stage);
-    clock.replace(cache.latency_fifo);
+    clock.replace(cache.narrow->latency_fifo);
     clock.replace(cache.data_stage);
     unit.control.on_command(spec::texture::reg::kControlInvalidate, [this] { this->invalidate(); });
   }
@@ -127,19 +127,19 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
 
 template <class Model>
 class FilterInEngine final
-    : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour> {
+    : public VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup> {
  public:
   FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
-      : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::Colour>(
-            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in,
-            unit.filter.colours_out),
+      : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup>(
+            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in, unit.filter.colours_out,
+            rtl::texture::colours_shape(unit.parameters())),
         filter_(unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});
   }
 
  private:
-  void pushed(rtl::Cycle cycle, const spec::texture::Colour&) override {
+  void pushed(rtl::Cycle cycle, const spec::texture::ColourGroup&) override {
     ++filter_.fragments;
     filter_.fragment_latency.record(probe_.leaves(cycle + 1));
   }

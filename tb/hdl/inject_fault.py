@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Copies a source with a fault in it: a text that stands in it once becomes another one.
+"""Copies a source with an injected fault: replaces a text that occurs exactly once.
 
 usage: inject_fault.py SOURCE COPY NAME FROM TO"""
 import pathlib

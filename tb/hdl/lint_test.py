@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The modules of hdl/ that no other one builds, and all below them, in each configuration that is printed:
-Verilator reads them (-Wall, with the named waivers of hdl/lint.vlt), Icarus Verilog does, and yosys builds
-them (no latch, no loop, nothing driven twice). A injected fault is rejected by each. No file of hdl/ is left
-over that none of these configurations builds (Verilator) or reads (Icarus Verilog).
+"""Lints the top modules of hdl/ and all modules below them in every generated configuration: with Verilator (-Wall
+and the waivers of hdl/lint.vlt), with Icarus Verilog, and by synthesis with yosys (no latch, no loop, no multiple
+drivers). Each tool must reject an injected fault, and every file of hdl/ must be covered by a configuration
+(Verilator, Icarus Verilog).
 
 usage: lint_test.py SOURCE VERILATOR|ICARUS|YOSYS HEADERS..."""
 import pathlib
@@ -35,7 +35,7 @@ def commands(tool, root, headers, module):
 
 
 def seen(tool, root, headers, module, folder):
-    """The modules that the tool builds or reads below a top; None for yosys, which is given every file."""
+    """The modules that the tool reads below a top; None for yosys, which reads every file."""
     if tool == "yosys":
         return None
     command = list(map(str, commands(tool, root, headers, module)))
@@ -56,7 +56,7 @@ def left_over(tool, root, printed):
         found = [seen(tool, root, headers, top, folder) for headers in printed for top in tops_of(texts)]
     if None in found:
         return []
-    return [f"{tool}: {name}.sv: no configuration that is printed builds it" for name in
+    return [f"{tool}: {name}.sv: no configuration builds it" for name in
             sorted(texts.keys() - set().union(*found))]
 
 
@@ -97,19 +97,19 @@ def main():
         text = file.read_text(encoding="utf-8")
         good, bad = FAULTS[tool]
         if text.count(good) != 1:
-            sys.exit(f"log2_value.sv has {good!r} {text.count(good)} times, and the fault goes where it stands once")
+            sys.exit(f"log2_value.sv has {good!r} {text.count(good)} times, expected once: the fault cannot be injected")
         file.write_text(text.replace(good, bad), encoding="utf-8")
         if rejected(tool, copy, pathlib.Path(sys.argv[3]), "log2_value") is None:
-            problems.append(f"{tool} reads {bad!r} and finds nothing wrong")
+            problems.append(f"{tool} accepts the injected fault {bad!r}")
         # A module that a unit instantiates but that no configuration builds.
         file.write_text(text, encoding="utf-8")
         (copy / "texture/nowhere.sv").write_text("module nowhere (input logic clk);\nendmodule\n", encoding="utf-8")
         with (copy / "texture/address_unit.sv").open("a", encoding="utf-8") as stream:
             stream.write("`ifdef NEVER\nmodule never (input logic clk);\n  nowhere cell (.clk);\nendmodule\n`endif\n")
         if tool != "yosys" and not any("nowhere.sv" in said for said in left_over(tool, copy, printed[:1])):
-            problems.append(f"{tool} builds and reads nowhere.sv nowhere, and nothing is said of it")
+            problems.append(f"{tool}: the unused file nowhere.sv is not reported")
     problems = [problem for problem in problems if problem]
-    print("\n".join(problems) or f"{tool}: {count} times read, from {', '.join(tops)}")
+    print("\n".join(problems) or f"{tool}: {count} runs, top modules {', '.join(tops)}")
     sys.exit(1 if problems or not count else 0)
 
 

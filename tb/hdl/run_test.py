@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""`deburr run texture --hdl`: a run with units in SystemVerilog is checked and says which they are; what the
-build does not have is rejected; the same command with a fault in one of the units fails.
+"""`deburr run texture --hdl`: a run with SystemVerilog units is checked and lists them; units that were not built are
+rejected; the same command with a fault in a unit fails.
 
 usage: run_test.py DEBURR FAULTY_DEBURR"""
 import json

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""scripts/synthesise on cells of a few lines: figures that can be counted by hand, memories that stay memories, the
-cache, --check and what it must find, a row over the time limit, Ctrl-C, and its errors.
+"""Tests scripts/synthesise on small modules: figures that can be counted by hand, preserved memories, the cache,
+--check and the differences that it must find, a row over the time limit, Ctrl-C, and errors.
 
 usage: synthesise_test.py SOURCE [unittest options]"""
 import json
@@ -49,7 +49,7 @@ SLOW = """module slow (input logic clk, input logic [255:0] a, output logic [511
   always_ff @(posedge clk) p <= a * {a[127:0], a[255:128]};
 endmodule
 """
-CONFIGURATIONS = """VBoth both ways=3  # twice the cell
+CONFIGURATIONS = """VBoth both ways=3  # two instances of the cell
 VSmall small
 VPaper small axes=two footprint=half log2=mitchell count=floor
 """
@@ -161,13 +161,13 @@ class Synthesise(unittest.TestCase):
                 ("hdl/fabric/sram_1r1w.sv", "if (write) memory", "if (!write) memory", "VBoth: its sources have changed"),
                 ("headers", "CHOSEN_WAYS %s", "CHOSEN_WAYS 1%s", "VBoth: its sources have changed"),
                 ("configurations", "ways=3", "ways=4", "VBoth: its settings have changed"),
-                ("configurations", "VBoth", "VOther", "VOther is not in it\nVBoth is no configuration any more"),
+                ("configurations", "VBoth", "VOther", "VOther is not in it\nconfiguration VBoth no longer exists"),
                 ("configurations", "axes=two footprint=half", "footprint=half axes=two",
                  "no configuration of paper: axes=two footprint=half log2=mitchell count=floor"),
                 ("configurations", "VSmall small", "VSmall small ways=3",
-                 "no configuration of deburr: none without settings"),
+                 "no configuration of deburr: default settings"),
                 ("out/cost.md", "| `small` | `ways=3` | ", "| `small` | `ways=3` | 1", "cost.md is not what cost.json says"),
-                ("out/cost.json", '"flow": "', '"flow": "0', "mapped in another way")):
+                ("out/cost.json", '"flow": "', '"flow": "0', "the mapping flow has changed")):
             with self.subTest(said=said, name=name):
                 text = (self.root / name).read_text(encoding="utf-8")
                 self.assertGreaterEqual(text.count(good), 1)
@@ -178,7 +178,8 @@ class Synthesise(unittest.TestCase):
                 self.assertIn(said, done.stdout)
 
     def test_check_finds_missing_preset_row(self):
-        for name, said in (("small", "VSmall: small ways=3 is not run for xc7\n"), ("sram_1r1w", "VSmall: sram_1r1w ")):
+        for name, said in (("small", "VSmall: small ways=3 has not been mapped for xc7\n"),
+                           ("sram_1r1w", "VSmall: sram_1r1w ")):
             cost = self.cost()
             for unit in cost["units"]:
                 if unit["unit"] == name:
@@ -254,16 +255,16 @@ class Synthesise(unittest.TestCase):
 
         said("yosys is not installed: scripts/install synthesis (package yosys)", 2, env={"PATH": self.shell_alone()})
         said("--target deburr_hdl_headers", 2, "--headers", str(self.root / "absent"))
-        said("there is no unit absent; there are both, small, sram_1r1w", 2, "--unit", "absent")
+        said("unknown unit absent (known: both, small, sram_1r1w)", 2, "--unit", "absent")
         said("No such file", 2, "--configurations", str(self.root / "absent"))
         said("no *.sv in", 2, "--hdl", str(self.root / "out"))
         said("above 0", 2, "--seconds", "0")
-        for line, words in (("VBoth", "other:1: no NAME TOP"), ("VBoth both ways", "no NAME TOP"),
-                            ("VBoth absent ways=1", "there is no module absent"), ("# none", "no configuration")):
+        for line, words in (("VBoth", "other:1: expected NAME TOP"), ("VBoth both ways", "expected NAME TOP"),
+                            ("VBoth absent ways=1", "no module absent"), ("# none", "no configuration")):
             self.write("other", line + "\n")
             said(words, 2, "--configurations", str(self.root / "other"))
         self.changed("hdl/texture/both.sv", ".sum(sum[7:0]))", ".summ(sum[7:0]))")
-        said("VBoth: both is not read: ERROR", 2)
+        said("VBoth: module both was not read: ERROR", 2)
 
 
 def main():

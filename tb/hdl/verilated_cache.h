@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The verilated texture cache of hdl/texture: a unit with two additional links to memory, which
-// take the place of the SystemC cache's memory port (tb/hdl/adapter.h).
+// replace the SystemC cache's memory port (tb/hdl/adapter.h).
 #pragma once
 
 #include <cstdint>

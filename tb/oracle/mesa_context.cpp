@@ -75,11 +75,11 @@ std::unique_ptr<MesaContext> MesaContext::open(const std::string& driver,
   context->context_ = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kVersion.data());
   if (context->context_ == EGL_NO_CONTEXT ||
       eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context_) == EGL_FALSE) {
-    why = "EGL gave no OpenGL ES 3 context";
+    why = "EGL did not create an OpenGL ES 3 context";
     return nullptr;
   }
   if (context->name().find(driver) == std::string::npos) {
-    why = "Mesa offers " + context->name() + " where " + driver + " was asked for";
+    why = "Mesa offers " + context->name() + " instead of " + driver;
     return nullptr;
   }
   return context;

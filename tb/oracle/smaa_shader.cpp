@@ -141,7 +141,7 @@ std::unique_ptr<SmaaShader> SmaaShader::open(std::string& why) {
   if (context == nullptr) return nullptr;
   const std::string extensions = reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS));
   if (extensions.find("GL_EXT_color_buffer_float") == std::string::npos) {
-    why = "Mesa draws to no target of floats: install libegl1 and libgl1-mesa-dri of Debian 12";
+    why = "Mesa cannot render to float textures: install libegl1 and libgl1-mesa-dri of Debian 12";
     return nullptr;
   }
   std::unique_ptr<SmaaShader> shader(new SmaaShader);

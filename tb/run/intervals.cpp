@@ -49,8 +49,9 @@ void check_intervals(const Json& intervals, const Json& result) {
   const auto cycles = intervals.at("cycles").get<std::vector<std::uint64_t>>();
   std::map<std::string, std::vector<std::uint64_t>> of_unit;
   for (const auto& [key, values] : all) {
-    DEBURR_CHECK(values.size() == cycles.size(), fmt::format("windows: {} has {} of {} windows",
-                                                             key, values.size(), cycles.size()));
+    DEBURR_CHECK(values.size() == cycles.size(),
+                 fmt::format("intervals: {} has {} values for {} intervals", key, values.size(),
+                             cycles.size()));
     if (!key.starts_with("units.")) continue;
     std::vector<std::uint64_t>& sums = of_unit[key.substr(0, key.find('.', 6))];
     sums.resize(values.size());
@@ -59,16 +60,17 @@ void check_intervals(const Json& intervals, const Json& result) {
   for (const auto& [unit, sums] : of_unit)
     for (std::size_t i = 0; i < sums.size(); ++i)
       DEBURR_CHECK(sums[i] == cycles[i],
-                   fmt::format("windows: {} accounts for {} of the {} cycles of window {}", unit,
-                               sums[i], cycles[i], i));
+                   fmt::format("intervals: {} accounts for {} of the {} cycles of interval {}",
+                               unit, sums[i], cycles[i], i));
   for (const auto& [key, values] : all) {
     if (key.starts_with("ports.") || key.ends_with(".most")) continue;  // per interval only
     const Json* total = find(result, key);
-    DEBURR_CHECK(total != nullptr, fmt::format("windows: result.json has no {}", key));
+    DEBURR_CHECK(total != nullptr, fmt::format("intervals: {} is missing in result.json", key));
     const std::uint64_t sum = std::accumulate(values.begin(), values.end(), std::uint64_t{0});
-    DEBURR_CHECK(*total == sum,
-                 fmt::format("windows: {} sums up to {} over all windows, but the run counted {}",
-                             key, sum, total->dump()));
+    DEBURR_CHECK(
+        *total == sum,
+        fmt::format("intervals: {} adds up to {} over all intervals, but the run counted {}", key,
+                    sum, total->dump()));
   }
 }
 

@@ -71,7 +71,7 @@ class Manifest {
     const YAML::Node& root = yaml.root();
     if (const std::string unit = scalar_of(root, "unit"); !engine.empty() && unit != engine)
       yaml.fail(root["unit"],
-                fmt::format("this manifest is of a run of '{}', and not of '{}'", unit, engine));
+                fmt::format("this manifest belongs to a run of '{}', not of '{}'", unit, engine));
     for (const auto& parameter : entry_of(root, "parameters"))
       from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
     for (const auto& input : entry_of(root, "inputs"))
@@ -152,7 +152,7 @@ class YamlLoader {
         continue;
       }
       if (!entry.second.IsScalar())
-        yaml_.fail(entry.first, fmt::format("'{}' wants a single value, got {}", name,
+        yaml_.fail(entry.first, fmt::format("'{}' must be a single value, got {}", name,
                                             YamlFile::kind(entry.second)));
       set_.set(name, entry.second.Scalar(), here, ParameterSet::Origin::kFile);
     }
@@ -198,7 +198,7 @@ void ParameterSet::Binder::is_work(std::string_view name, GivenWork work) {
       prefix_.empty() ? std::string(name) : fmt::format("{}.{}", prefix_, name);
   const auto found = std::find_if(set_.parameters_.begin(), set_.parameters_.end(),
                                   [&](const Parameter& p) { return p.name == whole; });
-  DEBURR_CHECK(found != set_.parameters_.end(), "unknown '" + whole + "' is said to be work");
+  DEBURR_CHECK(found != set_.parameters_.end(), "unknown parameter '" + whole + "' marked as work");
   found->work = work;
 }
 
@@ -211,7 +211,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int64_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("must be an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -227,7 +227,7 @@ void ParameterSet::Binder::integer(std::string_view name, std::int32_t& value, s
       [&value] { return nlohmann::ordered_json(value); },
       [&value, min, max](std::string_view text) -> std::string {
         std::int64_t parsed = 0;
-        if (!parse_integer(text, parsed)) return fmt::format("wants an integer {}..{}", min, max);
+        if (!parse_integer(text, parsed)) return fmt::format("must be an integer {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = static_cast<std::int32_t>(parsed);
         return "";
@@ -243,7 +243,7 @@ void ParameterSet::Binder::real(std::string_view name, double& value, double min
       [&value, min, max](std::string_view text) -> std::string {
         double parsed = 0;
         if (!parse_number(text, parsed) || !std::isfinite(parsed))
-          return fmt::format("wants a number {}..{}", min, max);
+          return fmt::format("must be a number {}..{}", min, max);
         if (parsed < min || parsed > max) return fmt::format("is outside {}..{}", min, max);
         value = parsed;
         return "";
@@ -271,7 +271,7 @@ void ParameterSet::Binder::boolean(std::string_view name, bool& value, std::stri
         else if (text == "false" || text == "off" || text == "no")
           value = false;
         else
-          return "wants true or false";
+          return "must be true or false";
         return "";
       });
 }
@@ -288,7 +288,7 @@ void ParameterSet::Binder::add_choice(std::string_view name,
       [names, set](std::string_view text) -> std::string {
         const auto found = std::find(names.begin(), names.end(), text);
         if (found == names.end())
-          return fmt::format("wants one of {}{}", join(names, ", "),
+          return fmt::format("must be one of {}{}", join(names, ", "),
                              did_you_mean(tb::near_matches(text, {names.begin(), names.end()})));
         set(static_cast<std::size_t>(found - names.begin()));
         return "";
@@ -307,7 +307,7 @@ void ParameterSet::alias(std::string_view name, std::string_view word, std::stri
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const Parameter& p) { return p.name == name; });
   DEBURR_CHECK(found != parameters_.end(),
-               fmt::format("'{}' is a word of unknown '{}'", word, name));
+               fmt::format("alias '{}' of unknown parameter '{}'", word, name));
   found->aliases.emplace_back(word);
   found->parse = [parse = std::move(found->parse), word = std::string(word),
                   value = std::string(value)](std::string_view text) {

@@ -146,7 +146,7 @@ void check_map(const PictureMap& map) {
   constexpr double kRounding = 1e-5;  // rounding error of sums of floats
   const double error = std::abs(map.account->mapped - map.account->counted);
   DEBURR_CHECK(error <= kRounding * std::max(1.0, map.account->counted),
-               fmt::format("map {}: its pixels come to {}, but {} is {}", map.name,
+               fmt::format("map {}: its pixels add up to {}, but {} is {}", map.name,
                            map.account->mapped, map.account->of, map.account->counted));
 }
 

@@ -78,8 +78,8 @@ std::size_t room() { return std::max<std::size_t>(terminal_columns(STDERR_FILENO
 std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_t total,
                           std::string_view unit) {
   return fmt::format(
-      "not done after {} cycles, which is all that --max-cycles (run.max_cycles) allows: {} of {} "
-      "{}s are done; raise it, or set it to 0 for no limit",
+      "not done after {} cycles, the limit of --max-cycles (run.max_cycles): {} of {} {}s are "
+      "done; raise the limit, or set it to 0 for none",
       grouped(cycles), grouped(done), grouped(total), unit);
 }
 

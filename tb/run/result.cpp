@@ -200,11 +200,11 @@ namespace {
 
 constexpr std::string_view kDownstream = "downstream";
 // A unit that waits for run descriptors waits for a unit that completes them.
-constexpr std::string_view kRecords = "records";
-constexpr std::array<std::string_view, 5> kFinishRecords = {
-    "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area"};
-// Fractions of a unit's cycles: stalls below kNegligible are no bottleneck; units within kTie are
-// equally busy.
+constexpr std::string_view kDescriptors = "descriptors";
+constexpr std::array<std::string_view, 5> kFinishDescriptors = {
+    "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area_unit"};
+// Fractions of a unit's cycles: stalls below kNegligible are not a bottleneck; units within kTie
+// are equally busy.
 constexpr double kNegligible = 0.01, kTie = 0.001;
 
 double cycles_of(const UnitCycles& unit) {
@@ -235,6 +235,9 @@ Bottleneck busy(const UnitCycles& unit) {
 
 std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                                           std::string_view output) {
+  DEBURR_CHECK(units.empty() || std::any_of(units.begin(), units.end(),
+                                            [&](const UnitCycles& u) { return u.name == output; }),
+               fmt::format("no unit '{}' among those of the pipeline", output));
   struct Loss {
     const UnitCycles* unit;
     const StallCycles* stall;
@@ -266,9 +269,9 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                         deepest->unit->name.ends_with("_h") && loss.unit->name.ends_with("_v");
     if (!beside || loss.share > deepest->share) deepest = &loss;
   }
-  if (deepest->stall->cause == kRecords) {
+  if (deepest->stall->cause == kDescriptors) {
     const UnitCycles* unit = busiest(units, [](const UnitCycles& u) {
-      return std::any_of(kFinishRecords.begin(), kFinishRecords.end(),
+      return std::any_of(kFinishDescriptors.begin(), kFinishDescriptors.end(),
                          [&](std::string_view name) { return u.name.ends_with(name); });
     });
     if (unit) return busy(*unit);

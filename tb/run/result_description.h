@@ -109,7 +109,8 @@ void describe(const MemoryFigures& m, Visitor& v) {
             "SRAM that returns the new word of the same cycle.");
   if (v.has(m.high_water.has_value()))
     v.value("high_water", m.high_water.value_or(0), "word",
-            "Of a FIFO: largest number of entries in a cycle, including the entry read in it.");
+            "For a FIFO: largest number of entries in a cycle, including the entry read in that "
+            "cycle.");
 }
 
 template <class Visitor>
@@ -168,7 +169,7 @@ void describe(const Quality& q, Visitor& v) {
   v.each("identical", figures, &PsnrFigure::name, [&](const PsnrFigure& psnr) {
     v.item(psnr.identical(), "",
            "Whether the pictures are equal in every pixel that this PSNR counts; the infinite PSNR "
-           "is then null. Null without this flag: there is no such pixel.");
+           "is then null. If the PSNR is null without this flag, no pixel counts.");
   });
   constexpr std::string_view kBefore = "The same for the input picture.";
   v.value("flip", q.flip, "",
@@ -186,8 +187,8 @@ void describe(const Change& c, Visitor& v) {
           "Pixels that differ from the input by more than 2 codes in R, G or B.");
   v.value("over_16_percent", c.large_percent, "%", "The same for more than 16 codes.");
   v.value("right_over_2_percent", c.right_small_percent, "%",
-          "Of the input pixels within 2 codes of the reference: those that the engine changes by "
-          "more than 2 codes; null without a reference.");
+          "Pixels that the engine changes by more than 2 codes although the input is within 2 "
+          "codes of the reference; null without a reference.");
   v.value("right_over_16_percent", c.right_large_percent, "%", "The same for more than 16 codes.");
   const std::vector<PsnrFigure> figures = psnr_figures(c);
   for (const PsnrFigure& psnr : figures) v.value(psnr.name, psnr.finite(), "dB", psnr.meaning);
@@ -221,7 +222,7 @@ void describe(const Result& r, Visitor& v) {
            v.value("comparisons", board.comparisons, "value",
                    "Outputs that one scoreboard compared with the golden model.");
            v.value("mismatches", board.mismatches, "value",
-                   "Of these: outputs that differ or are missing.");
+                   "Outputs of this scoreboard that differ or are missing.");
          });
   v.value("cycles", r.cycles, "clk", "From the end of reset to the last output.");
   v.value("clock_mhz", r.clock_mhz, "MHz", "Clock frequency for which rates and times are given.");
@@ -258,7 +259,7 @@ void describe(const Result& r, Visitor& v) {
     v.value("idle", unit.idle, "clk",
             "Cycles without work, or with nothing to do but wait for memory responses.");
     v.each("stalls", unit.stalls, &StallCycles::cause, [&](const StallCycles& stall) {
-      v.item(stall.cycles, "clk", "Cycles in which the unit had work and could do none of it.",
+      v.item(stall.cycles, "clk", "Cycles in which the unit had work but could do none of it.",
              stall.meaning);
     });
   });

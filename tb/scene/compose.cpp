@@ -17,8 +17,8 @@ void paste(Image& onto, const Image& picture, int left, int top) {
 
 Image painted(Image image, const Mask& mask, const Rgba8& colour) {
   if (image.width != mask.width || image.height != mask.height)
-    throw spec::ConfigError(fmt::format("no {} x {} pixels of a mask in {} x {} pixels", mask.width,
-                                        mask.height, image.width, image.height));
+    throw spec::ConfigError(fmt::format("the mask has {} x {} pixels, but the image {} x {}",
+                                        mask.width, mask.height, image.width, image.height));
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     if (mask.pixels[i] != 0) image.pixels[i] = colour;
   return image;
@@ -26,8 +26,9 @@ Image painted(Image image, const Mask& mask, const Rgba8& colour) {
 
 Image difference(const Image& a, const Image& b, int gain) {
   if (a.width != b.width || a.height != b.height)
-    throw spec::ConfigError(fmt::format("no difference between {} x {} and {} x {} pixels", a.width,
-                                        a.height, b.width, b.height));
+    throw spec::ConfigError(
+        fmt::format("images of different size cannot be compared: {} x {} and {} x {} pixels",
+                    a.width, a.height, b.width, b.height));
   Image result(a.width, a.height);
   for (std::size_t i = 0; i < result.pixels.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c)

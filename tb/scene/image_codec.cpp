@@ -16,11 +16,11 @@ const ImageCodec* load() {
   void* const module = ::dlopen(kImageModule, RTLD_LAZY | RTLD_LOCAL);
   void* const symbol = module != nullptr ? ::dlsym(module, kImageModuleEntry) : nullptr;
   if (symbol == nullptr)
-    throw spec::FileError(fmt::format(
-        "images cannot be read, nor written but as PNG: the module {0} cannot be loaded ({1}); put "
-        "the {0} of the same build beside the program, and install OpenImageIO (in the repository: "
-        "scripts/demo --complete)",
-        kImageModule, ::dlerror()));
+    throw spec::FileError(
+        fmt::format("images can only be written as PNG, and not read: the module {0} cannot be "
+                    "loaded ({1}); copy the {0} of the same build next to the program, and install "
+                    "OpenImageIO (in the repository: scripts/demo --complete)",
+                    kImageModule, ::dlerror()));
   return reinterpret_cast<Entry>(symbol)();
 }
 

@@ -70,10 +70,9 @@ DecoderPointer open_file(const fs::path& path) {
   if (!std::ifstream(path)) fail_read(path.string(), "permission denied");
   ImageCodec::Source source = image_codec().open_file(path.string());
   if (!source.decoder) {
-    fail_read(path.string(),
-              fmt::format("not an image that OpenImageIO understands, or a damaged one ({}); "
-                          "give a PNG, JPEG, TIFF, EXR, ...",
-                          source.error));
+    fail_read(path.string(), fmt::format("OpenImageIO cannot read it: unsupported format or "
+                                         "damaged file ({}); use PNG, JPEG, TIFF, EXR, ...",
+                                         source.error));
   }
   return std::move(source.decoder);
 }
@@ -92,18 +91,19 @@ void check_header(const std::string& name, const Header& header) {
   for (const auto& [width, height] :
        {std::pair(header.width, header.height), std::pair(header.full_width, header.full_height)})
     if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
-      fail_read(name,
-                fmt::format("its header says {} x {} pixels, the limit is {} x {}; scale it down "
-                            "or cut it",
-                            width, height, kMaxImageSide, kMaxImageSide));
+      fail_read(name, fmt::format(
+                          "its header says {} x {} pixels, the limit is {} x {}; scale or crop it",
+                          width, height, kMaxImageSide, kMaxImageSide));
   if ((header.file_format == "rla" || header.file_format == "iff") && is_window(header))
     fail_read(name,
-              "it is a part of a picture, which OpenImageIO misplaces in this format; write "
-              "the whole picture, or an EXR");
+              "it stores a part of an image, which OpenImageIO misplaces in this format; write the "
+              "whole image, or an EXR");
   if (!header.other_colours.empty())
-    fail_read(name, fmt::format("its colours are of the kind '{}', which is not converted; save it "
-                                "as RGB, or as grey whose black is 0",
-                                header.other_colours));
+    fail_read(
+        name,
+        fmt::format(
+            "its colour type '{}' is not supported; save it as RGB, or as grey with black = 0",
+            header.other_colours));
   if (!header.flat) fail_read(name, "it is a volume or a deep image; flatten it to two dimensions");
 }
 
@@ -183,7 +183,7 @@ struct Channels {
 
 Channels channels_of(const std::string& name, const Header& header) {
   if (!header.odd_channels.empty())
-    fail_read(name, fmt::format("it has {} where a picture has R, G and B, or Y alone; write it so",
+    fail_read(name, fmt::format("it has the channels {}; an image needs R, G and B, or only Y",
                                 header.odd_channels));
   Channels channels;
   std::vector<std::size_t> colours;
@@ -191,7 +191,7 @@ Channels channels_of(const std::string& name, const Header& header) {
     if (c != header.alpha && (c != header.depth || header.channels == 1))
       colours.push_back(static_cast<std::size_t>(c));
   if (colours.empty() || colours.size() == 2)
-    fail_read(name, fmt::format("it has {} channels of colour; a picture has one (grey) or three",
+    fail_read(name, fmt::format("it has {} colour channels; expected one (grey) or three",
                                 colours.size()));
   for (std::size_t c = 0; c < 3; ++c) channels.colour[c] = colours[colours.size() == 3 ? c : 0];
   channels.read = static_cast<int>(colours.back()) + 1;
@@ -243,8 +243,8 @@ bool declares_linear_light(const Header& header) {
 void note_window(const Header& header, std::string_view around, ReadReport& report) {
   if (is_window(header))
     report.conversions.push_back(
-        fmt::format("{} x {} stored pixels placed at ({}, {}) of a picture of {} x {}: {} where "
-                    "there are none, cut where they reach beyond",
+        fmt::format("{} x {} stored pixels placed at ({}, {}) in an image of {} x {}: the rest is "
+                    "{}, pixels outside are dropped",
                     header.width, header.height, header.x, header.y, header.full_width,
                     header.full_height, around));
 }
@@ -259,21 +259,21 @@ void describe_conversions(const Header& header, const Channels& channels, bool l
     note(fmt::format("{} values scaled to 8 bits", header.value_format));
   if (linear) note("linear light encoded with the sRGB curve");
   if (!linear && header.floating_point)
-    note("the file does not say that it is linear light: taken as encoded");
-  if (header.cmyk) note("CMYK made RGB without its colour profile");
+    note("the file does not declare linear light: read as sRGB-encoded");
+  if (header.cmyk) note("CMYK converted to RGB without its colour profile");
   if (channels.colour[0] == channels.colour[2]) note("grey copied to R, G and B");
-  if (header.channels > 4) note(fmt::format("channels 5 to {} left out", header.channels));
+  if (header.channels > 4) note(fmt::format("channels 5 to {} ignored", header.channels));
   if (header.other_layers > 0)
-    note(fmt::format("the first layer; {} channels of others left out", header.other_layers));
-  if (header.associated) note("colours are stored multiplied by alpha: divided by it");
+    note(fmt::format("only the first layer is read; {} channels of other layers ignored",
+                     header.other_layers));
+  if (header.associated) note("premultiplied colours divided by alpha");
   if (header.alpha >= 0 && !header.alpha_named && header.file_format == "tiff")
-    note(
-        fmt::format("the file does not say what channel {} is: taken as alpha, colours left as "
-                    "they are",
-                    header.alpha + 1));
+    note(fmt::format(
+        "the file does not declare the type of channel {}: read as alpha that is not premultiplied",
+        header.alpha + 1));
   note_window(header, "black with alpha 0", report);
   if (header.orientation != 1) note("orientation tag ignored");
-  if (header.several) note("the first of several pictures");
+  if (header.several) note("only the first of several images is read");
 }
 
 // Pixels outside the image are not counted.
@@ -297,7 +297,7 @@ void describe_values(const Header& header, const std::vector<float>& values, std
     if (found.number > 0) report.conversions.push_back(found.in_words(seen, width, what));
   };
   note(outside, "clamped to [0, 1]");
-  note(nan, "NaN made 0");
+  note(nan, "NaN replaced by 0");
 }
 
 Image of_bytes(const std::vector<std::uint8_t>& values, const Header& header,
@@ -380,14 +380,15 @@ float depth_of_code(std::uint64_t code) {
 std::optional<int> named_depth(const std::string& name, const Header& header, ReadReport* report) {
   const std::size_t all = header.names.size();
   if (header.depth < 0 && (all > 1 || (all == 1 && header.several)))
-    fail_read(name,
-              fmt::format("it has {} {}, of which not one alone is named as depth (Z); write "
-                          "the depth alone",
-                          header.several ? "several pictures, the first with" : "the channels",
-                          fmt::join(header.names, ", ")));
+    fail_read(
+        name,
+        fmt::format(
+            "it has {} {}, but needs exactly one channel named as depth (Z); write only the depth",
+            header.several ? "several images, the first with" : "the channels",
+            fmt::join(header.names, ", ")));
   if (all < 2) return std::nullopt;
   if (report != nullptr)
-    report->conversions.push_back(fmt::format("channel {} of {} taken as depth",
+    report->conversions.push_back(fmt::format("channel {} of {} read as depth",
                                               header.names[static_cast<std::size_t>(header.depth)],
                                               all));
   return header.depth;
@@ -428,8 +429,9 @@ Image decode_memory(const std::string& name, const std::string& extension, std::
                     ReadReport* report) {
   const ImageCodec::Source source = image_codec().open_memory("memory" + extension, bytes);
   if (!source.decoder)
-    fail_read(name, fmt::format("not an image that OpenImageIO understands, or a damaged one ({})",
-                                source.error));
+    fail_read(name,
+              fmt::format("OpenImageIO cannot read it: unsupported format or damaged data ({})",
+                          source.error));
   check_header(name, source.decoder->header());
   return decode(name, *source.decoder, report);
 }
@@ -460,7 +462,7 @@ std::string_view view(const std::vector<unsigned char>& bytes) {
 
 void check_not_empty(const fs::path& path, int width, int height) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
-    fail_write(path, fmt::format("its size is {} x {}, allowed are 1 to {}", width, height,
+    fail_write(path, fmt::format("its size is {} x {}; each side must be 1 to {}", width, height,
                                  kMaxImageSide));
 }
 
@@ -477,7 +479,7 @@ Image read_image_memory(const std::string& name, std::string_view bytes, ReadRep
   if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
   const std::string extension = extension_of(bytes);
   if (extension.empty())  // OpenImageIO would try every reader
-    fail_read(name, "its first bytes are of no format that is read from memory; use PNG or JPEG");
+    fail_read(name, "unknown format of an embedded image; use PNG or JPEG");
   return decode_memory(name, extension, bytes, report);
 }
 
@@ -489,7 +491,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
   if (report != nullptr) {
     *report = {header.channels, header.value_format, {}};
     note_window(header, "infinitely far", *report);
-    if (header.several) report->conversions.push_back("the first of several pictures");
+    if (header.several) report->conversions.push_back("only the first of several images is read");
   }
   const std::optional<int> named = named_depth(name, header, report);
   if (named && report != nullptr) report->channels = 1;
@@ -510,7 +512,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
     }
     if (report != nullptr)
       report->conversions.push_back(
-          "16 bits of grey taken as near / w: 0 infinitely far, 65535 at the near plane");
+          "16-bit grey read as near / w: 0 infinitely far, 65535 at the near plane");
   } else if (header.channels >= 3 && header.value_format == kBytes && !divided && !changed) {
     const auto bytes = read_pixels<std::uint8_t>(name, *decoder, header.channels >= 4 ? 4 : 3);
     const std::size_t step = header.channels >= 4 ? 4 : 3;
@@ -520,14 +522,14 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
                                       static_cast<std::uint64_t>(from[1]) << 8 | from[2]);
     }
   } else {
-    fail_read(name, fmt::format(
-                        "a depth picture has 24 bits in R, G and B (8 bits each), 16 bits of grey, "
-                        "or one float channel; this one has {} channel{} of {}{}. Write the depth "
-                        "alone, as one of these",
-                        header.channels, header.channels == 1 ? "" : "s", header.value_format,
-                        divided   ? ", multiplied by alpha"
-                        : changed ? ", changed by compression or conversion"
-                                  : ""));
+    fail_read(name,
+              fmt::format("a depth image must have 24 bits in R, G and B (8 bits each), 16-bit "
+                          "grey, or one float channel; this one has {} channel{} of {}{}. Write "
+                          "only the depth, in one of these formats",
+                          header.channels, header.channels == 1 ? "" : "s", header.value_format,
+                          divided   ? ", premultiplied by alpha"
+                          : changed ? ", changed by compression or conversion"
+                                    : ""));
   }
   depth = placed(std::move(depth), header, 0.0f);
   check_depths(name, depth, report);
@@ -548,7 +550,7 @@ void write_image(const fs::path& path, const Image& image) {
   const Image back = decode_memory(path.string(), path.extension().string(), view(bytes), nullptr);
   if (back.width != image.width || back.height != image.height ||
       ((!opaque || !is_lossy(path)) && back.pixels != image.pixels))
-    fail_write(path, "the format does not keep these pixels as they are; use .png");
+    fail_write(path, "the format cannot store these pixels exactly; use .png");
   write_file_atomically(path, view(bytes));
 }
 

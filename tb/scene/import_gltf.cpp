@@ -206,7 +206,7 @@ class GltfImporter final : public Importer {
     if (model_.scenes.size() > 1)
       builder_.note(fmt::format("scene {} of {} (from 0) is drawn, the others were left out",
                                 scene_number(), model_.scenes.size()));
-    if (hidden_nodes_) builder_.note("hidden nodes and those below them were left out");
+    if (hidden_nodes_) builder_.note("hidden nodes and their children were left out");
     if (incomplete_corners_ > 0)
       builder_.note(
           fmt::format("{} corners after the last whole triangle of a primitive were left "
@@ -217,9 +217,9 @@ class GltfImporter final : public Importer {
           fmt::format("accessors without a buffer view, which are all zeros: {}", listed(zeros_)));
     if (const auto names = unread_of_materials(); !names.empty())
       builder_.note(
-          fmt::format("of materials the base colour is read: {} left out", listed(names)));
+          fmt::format("only the base colour of materials is read: {} left out", listed(names)));
     if (const auto names = unread_extensions(); !names.empty())
-      builder_.note(fmt::format("extensions that are not read: {}", listed(names)));
+      builder_.note(fmt::format("unsupported extensions were ignored: {}", listed(names)));
   }
 
   void parse() {
@@ -262,13 +262,13 @@ class GltfImporter final : public Importer {
       fail(fmt::format(
           "{}; {}the file is truncated or damaged, export it again",
           errors.empty() ? "no glTF could be read" : errors,
-          unread.empty() ? "" : fmt::format("without {}, which is not read, ", listed(unread))));
+          unread.empty() ? "" : fmt::format("{} is not supported, or ", listed(unread))));
     }
     if (!model_.asset.version.starts_with("2."))
-      fail(fmt::format("it is glTF {}, and glTF 2 is read; export it as that",
+      fail(fmt::format("it is glTF {}, but only glTF 2 is supported; export it as glTF 2",
                        model_.asset.version.empty() ? "of no version" : model_.asset.version));
     if (const std::string& least = model_.asset.minVersion; !least.empty() && least != "2.0")
-      fail(fmt::format("it needs a reader of glTF {}, and 2.0 is read; export it as that", least));
+      fail(fmt::format("it requires glTF {}, but 2.0 is supported; export it as glTF 2.0", least));
   }
 
   // Keeps encoded images: OpenImageIO decodes the ones that a material uses. tinygltf does not
@@ -442,11 +442,10 @@ class GltfImporter final : public Importer {
     if (source >= 0) return source;
     std::set<std::string> names;
     for (const auto& [name, value] : texture.extensions) names.insert(name);
-    fail(names.empty()
-             ? fmt::format("texture {} has no image; export it again", index)
-             : fmt::format("texture {} has its image in {} only, which is not read; export "
-                           "it as PNG, JPEG or WebP",
-                           index, listed(names)));
+    fail(names.empty() ? fmt::format("texture {} has no image; export it again", index)
+                       : fmt::format("texture {} has an image only in {}, which is not supported; "
+                                     "export it as PNG, JPEG or WebP",
+                                     index, listed(names)));
   }
 
   int texture(int index) {
@@ -466,7 +465,7 @@ class GltfImporter final : public Importer {
     const auto encoded = encoded_.find(source);
     if (encoded == encoded_.end())
       fail(fmt::format(
-          "its texture '{}' is missing; put it beside the file or give a texture of your own",
+          "its texture '{}' is missing; put it next to the file or give another texture",
           shown_name(ours.name)));
     ReadReport report;
     ours.image = read_image_memory(fmt::format("{}: {}", path().string(), shown_name(ours.name)),
@@ -643,8 +642,8 @@ class GltfImporter final : public Importer {
     numbers_read_ += numbers;
     if (numbers_read_ > kMaxNumbers)
       fail(
-          fmt::format("its nodes and primitives read more than {} numbers of accessors; share "
-                      "less between them or split it",
+          fmt::format("its nodes and primitives read more than {} accessor values; reduce shared "
+                      "use of accessors or split the file",
                       kMaxNumbers));
   }
 
@@ -690,10 +689,9 @@ class GltfImporter final : public Importer {
                 index);
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!(places[i] >= 0.0 && places[i] < static_cast<double>(result.count)))
-        fail(
-            fmt::format("accessor {} has {} elements and a sparse one with number {}; the file is "
-                        "damaged",
-                        index, result.count, places[i]));
+        fail(fmt::format(
+            "accessor {} has {} elements, but a sparse element has index {}; the file is damaged",
+            index, result.count, places[i]));
       std::copy_n(
           values.begin() + static_cast<std::ptrdiff_t>(i * result.components), result.components,
           result.values.begin() +
@@ -725,7 +723,7 @@ class GltfImporter final : public Importer {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return load<float>(from, false);
       default:
-        fail(fmt::format("it has numbers of type {}, which glTF does not have", type));
+        fail(fmt::format("it has the component type {}, which glTF does not define", type));
     }
   }
 
@@ -769,7 +767,8 @@ class GltfImporter final : public Importer {
                         const std::vector<M44d>& places) {
     const int mode = primitive.mode;
     if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
-      fail(fmt::format("a primitive has mode {}, which glTF does not have; export it again", mode));
+      fail(fmt::format("a primitive has mode {}, which glTF does not define; export it again",
+                       mode));
     if (mode < TINYGLTF_MODE_TRIANGLES) {
       skipped_primitives_ = true;
       return;
@@ -788,10 +787,9 @@ class GltfImporter final : public Importer {
     if (accessor.bufferView == -1 && !accessor.sparse.isSparse && !primitive.extensions.empty()) {
       std::set<std::string> names;
       for (const auto& [name, value] : primitive.extensions) names.insert(name);
-      fail(
-          fmt::format("a primitive has its positions in {} only, which is not read; export "
-                      "without it",
-                      listed(names)));
+      fail(fmt::format(
+          "a primitive stores its positions only in {}, which is not supported; export without it",
+          listed(names)));
     }
     if (primitive.material >= 0) item(model_.materials, primitive.material, "material");
     const std::size_t material = primitive.material < 0

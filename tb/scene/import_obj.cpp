@@ -115,11 +115,11 @@ class FaceAdder {
 
   void finish() const {
     if (!any_ && without_area_.count > 0)
-      fail_mesh(path_, fmt::format("line {}: a face has no area, and no other face has one; repair "
-                                   "the vertices",
-                                   without_area_.first));
-    without_area_.note(builder_, "faces without an area are not seen");
-    crossing_.note(builder_, "faces that cross themselves were filled");
+      fail_mesh(path_,
+                fmt::format("line {}: this face and all others have zero area; repair the vertices",
+                            without_area_.first));
+    without_area_.note(builder_, "faces of zero area are invisible");
+    crossing_.note(builder_, "self-intersecting faces were filled");
   }
 
  private:
@@ -169,7 +169,7 @@ class ObjImporter final : public Importer {
   Mesh build() override {
     const TinyObj loaded = load(text_, [this](const std::string& name) {
       const auto found = material_files_.find(name);
-      DEBURR_CHECK(found != material_files_.end(), "nobody has opened the materials " + name);
+      DEBURR_CHECK(found != material_files_.end(), "material file was not opened: " + name);
       return found->second ? &*found->second : nullptr;
     });
     MeshBuilder builder(path());
@@ -199,7 +199,7 @@ class ObjImporter final : public Importer {
                     std::string* /*errors*/) override {
       const ObjMaterials* const file = file_(name);
       if (file == nullptr) {
-        *warnings += fmt::format("the materials '{}' are not there\n", shown_name(name));
+        *warnings += fmt::format("the material file '{}' is missing\n", shown_name(name));
         return false;
       }
       for (const ObjMaterial& material : file->materials) {
@@ -250,11 +250,11 @@ class ObjImporter final : public Importer {
   void add_notes(const TinyObj& loaded, MeshBuilder& builder) const {
     if (!loaded.warnings.empty()) builder.note(one_line(loaded.warnings));
     if (checked_->no_final_newline())
-      builder.note("the last line has no end; the file may have been truncated there");
+      builder.note("the last line is not terminated; the file may be truncated");
     if (checked_->has_lines()) builder.note("points and lines were left out");
     if (checked_->has_colours()) builder.note("vertex colours were left out");
     if (const std::string text = checked_->not_read().text(); !text.empty())
-      builder.note("statements that were left out: " + text);
+      builder.note("statements were left out: " + text);
     for (const auto& [name, file] : material_files_)
       if (const std::string text = file ? file->not_read.text() : ""; !text.empty())
         builder.note(fmt::format("'{}': left out: {}", shown_name(name), text));

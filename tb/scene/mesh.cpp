@@ -340,10 +340,10 @@ int MeshBuilder::texture_from_file(const fs::path& file, spec::texture::Wrap wra
     for (const std::string& conversion : report.conversions)
       note(fmt::format("'{}': {}", texture.name, conversion));
   } catch (const spec::FileError& error) {
-    fail_mesh(path_,
-              fmt::format("its texture cannot be used ({}); repair the reference or give a texture "
-                          "of your own",
-                          error.what()));
+    fail_mesh(
+        path_,
+        fmt::format("its texture cannot be used ({}); repair the reference or give another texture",
+                    error.what()));
   }
   return texture_files_[{file, wrap}] = add_texture(std::move(texture));
 }

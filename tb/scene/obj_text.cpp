@@ -66,7 +66,7 @@ std::string shown(std::string_view keyword) {
   const bool is_word =
       keyword.size() <= 16 &&
       std::all_of(keyword.begin(), keyword.end(), [](char c) { return c > ' ' && c <= '~'; });
-  return is_word ? fmt::format("'{}'", keyword) : "what is no statement";
+  return is_word ? fmt::format("'{}'", keyword) : "an unreadable keyword";
 }
 
 constexpr std::array<std::string_view, 20> kObjStatements = {
@@ -187,8 +187,7 @@ int ObjChecker::check_numbers(std::string_view line, std::size_t kind, int neede
     if (!is_number(word, value))
       fail(fmt::format("'{}' in a {} is not a finite number", word, what));
     if (std::abs(value) > 1e30)
-      fail(
-          fmt::format("'{}' in a {} is beyond 1e30, the largest number that is taken", word, what));
+      fail(fmt::format("'{}' in a {} is beyond 1e30, the limit", word, what));
   }
   if (found < needed) fail(fmt::format("a {} has {} numbers instead of {}", what, found, needed));
   ++count_[kind];

@@ -417,7 +417,7 @@ Image render(const Scene& scene, const RenderOptions& options) {
   const int n = options.samples;
   if (n < 1 || n > kMaxSamples)
     throw spec::ConfigError(fmt::format(
-        "{0} x {0} samples a pixel were asked for; 1 to {1} a side are possible", n, kMaxSamples));
+        "{0} x {0} samples per pixel requested; expected 1 x 1 to {1} x {1}", n, kMaxSamples));
   const View view(scene.camera, options.width, options.height, n);
   const std::vector<Primitive> primitives = set_up(scene.mesh, view);
   const Transport transport = transport_of(options.shading, options.averaging);
@@ -551,7 +551,7 @@ Image render_covered(const Scene& scene, int width, int height, int samples, Sha
   constexpr int kMaxCoverage = 8;
   if (samples < 1 || samples > kMaxCoverage)
     throw spec::ConfigError(
-        fmt::format("{0} x {0} samples of coverage were asked for; 1 to {1} a side are possible",
+        fmt::format("{0} x {0} coverage samples per pixel requested; expected 1 x 1 to {1} x {1}",
                     samples, kMaxCoverage));
   std::vector<SampleOffset> grid;
   const auto offset = [&](int i) { return 128 * (2 * i + 1) / samples - 128; };

@@ -135,8 +135,8 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
 
 void make_plane(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
-  // Three repeats per ten units. 160 units exceed what is visible, since the horizon lies two
-  // degrees above the picture's top edge.
+  // Three repeats per ten units. 160 units are more than visible: the horizon is two degrees above
+  // the top edge of the image.
   constexpr double kSide = 160.0, kRepeats = 0.3 * kSide;
   add_parallelogram(scene.mesh, V3d(-0.5 * kSide, 0, 4), V3d(kSide, 0, 0), V3d(0, 0, -kSide),
                     V2d(kRepeats, kRepeats), 0);
@@ -280,7 +280,7 @@ Scene make_scene(std::string_view name, const SceneOptions& options) {
     std::string known;
     for (const SceneName& each : kSceneNames) known += fmt::format(" {}", each.name);
     throw spec::ConfigError(fmt::format(
-        "there is no scene '{}'; known are:{}, or a mesh file (.obj, .gltf, .glb)", name, known));
+        "unknown scene '{}'; known:{}, or a mesh file (.obj, .gltf, .glb)", name, known));
   }
   texture_everything(scene.mesh, nullptr);
   finish(scene, options);
@@ -295,8 +295,8 @@ Scene import_scene(const std::filesystem::path& path, const SceneOptions& option
   const Texture fallback = choose_texture(options.texture, "checker", options, scene.mesh);
   const bool plain = options.plain && !replace;
   if (!replace && !plain && scene.mesh.textures.empty())
-    scene.mesh.notes.push_back(
-        fmt::format("'{}' has no texture: all of it gets '{}'", path.string(), fallback.name));
+    scene.mesh.notes.push_back(fmt::format("'{}' has no texture: '{}' is used for all of it",
+                                           path.string(), fallback.name));
   texture_everything(scene.mesh, plain ? nullptr : &fallback);
   if (scene.mesh.textures.size() > spec::texture::kMaxTextures)
     throw spec::FileError(

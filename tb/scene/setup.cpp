@@ -164,8 +164,8 @@ View::View(const Camera& camera, int width, int height, int grid)
       grid_(grid) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide)
     throw spec::ConfigError(
-        fmt::format("a picture of {} x {} pixels was asked for; sides are 1 to {}", width, height,
-                    kMaxImageSide));
+        fmt::format("an image of {} x {} pixels requested; each side must be 1 to {}", width,
+                    height, kMaxImageSide));
   const V3d towards = camera.target - camera.eye, sideways = towards.cross(camera.up);
   if (!finite(camera.eye) || !finite(towards) || !finite(sideways) || !(sideways.length() > 0.0))
     throw spec::ConfigError(

@@ -286,8 +286,8 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
   if (width < 1 || height < 1 || width > spec::texture::kMaxTextureSize ||
       height > spec::texture::kMaxTextureSize)
     throw spec::ConfigError(
-        fmt::format("a texture of {} x {} texels was asked for; sides are 1 to {}", width, height,
-                    spec::texture::kMaxTextureSize));
+        fmt::format("a texture of {} x {} texels requested; each side must be 1 to {}", width,
+                    height, spec::texture::kMaxTextureSize));
   if (name == "checker") return checkerboard(width, height);
   if (name == "road") return road(width, height, seed);
   if (name == "brick") return brick(width, height, seed);
@@ -297,7 +297,7 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
   if (name == "noise") return noise(width, height, seed);
   std::string known;
   for (std::string_view each : kTextureNames) known += fmt::format(" {}", each);
-  throw spec::ConfigError(fmt::format("there is no texture '{}'; known are:{}", name, known));
+  throw spec::ConfigError(fmt::format("unknown texture '{}'; known:{}", name, known));
 }
 
 std::vector<Image> mip_chain(const Image& base, MipSpace space) {

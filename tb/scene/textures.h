@@ -35,7 +35,7 @@ std::span<const std::string_view> texture_names();
 // outside 1..spec::texture::kMaxTextureSize.
 Image make_texture(std::string_view name, int width, int height, std::uint32_t seed = 1);
 
-// Which values are averaged: those stored, or the linear light that sRGB bytes stand for.
+// Which values are averaged: those stored, or the linear light that sRGB bytes encode.
 enum class MipSpace { kStored, kSrgb };
 
 // Levels of size max(1, w >> k), max(1, h >> k), down to 1 x 1. A texel is the exact area average

@@ -71,7 +71,7 @@ Image checkerboard(int width, int height) {
 }
 
 Image random_edges(int width, int height, int permille, std::uint64_t seed) {
-  DEBURR_CHECK(permille >= 0 && permille <= 750, "more edges than noise has");
+  DEBURR_CHECK(permille >= 0 && permille <= 750, "at most 750 of 1000 pixels can have an edge");
   // A pixel is white with probability w and has an edge unless its left and upper neighbours have
   // its colour: 1 - w^3 - (1 - w)^3 = 3 w (1 - w) of all pixels.
   const double white = (1 - std::sqrt(1 - permille / 750.0)) / 2;

@@ -126,8 +126,9 @@ WeightTables parse_weight_file(std::string_view name, std::string_view text) {
   reader.expect("sum");
   const std::uint32_t sum = sum_of(tables);
   if (const std::int64_t said = reader.number(0, 0xFFFFFFFF); said != sum)
-    reader.fail(fmt::format("the sum is {}, the entries make {}: the file was changed", said, sum));
-  if (!reader.word().empty()) reader.fail("expected the end of the file after the sum");
+    reader.fail(fmt::format("the checksum is {}, but the entries give {}: the file was changed",
+                            said, sum));
+  if (!reader.word().empty()) reader.fail("expected the end of the file after the checksum");
   return tables;
 }
 

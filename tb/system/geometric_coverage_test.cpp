@@ -245,7 +245,7 @@ TEST(GeometricCoverage, MissedBinsAreListed) {
     EXPECT_TRUE(empty.contains(bin)) << bin;
   for (const char* const bin :
        {"geometric/group-lines/tiled/1", "geometric/group-lines/tiled/2", "geometric/block/fresh",
-        "geometric/class/edges/shading/boundary", "geometric/look-up/depth/hit"})
+        "geometric/class/edges/shading/boundary", "geometric/lookup/depth/hit"})
     EXPECT_FALSE(empty.contains(bin)) << bin;
   EXPECT_THROW(coverage.hit("geometric/group-lines/tiled/3"), spec::CheckFailed);
 }

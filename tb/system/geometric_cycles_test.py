@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The cycles that docs/reference/geometric/hardware.md quotes of a dense frame, against those that the bench counts.
+"""Compares the cycles of a dense frame quoted by docs/reference/geometric/hardware.md with those that the benchmark counts.
 
 usage: geometric_cycles_test.py BENCH"""
 import pathlib
@@ -22,12 +22,12 @@ def frame(*arguments):
     """Cycles of the edges and of the resolve, the counters, and lines of memory of both phases."""
     text = bench("--frames", "1", *arguments)
     edges, resolve = map(int, re.search(r"edges (\d+), resolve (\d+)", text).groups())
-    lines = tuple(map(int, re.search(r"lines of memory a frame: edges (\d+), resolve (\d+)", text).groups()))
+    lines = tuple(map(int, re.search(r"memory lines per frame: edges (\d+), resolve (\d+)", text).groups()))
     return edges, resolve, {name: int(value) for name, value in re.findall(r"([A-Z_]+) (\d+)", text)}, lines
 
 
 def said(text):
-    """A number with blanks between its thousands."""
+    """A number with blanks as thousands separators."""
     return f"{int(text):,}".replace(",", " ")
 
 
@@ -40,7 +40,7 @@ class Cycles(unittest.TestCase):
         self.assertIn(text, self.page)
 
     def test_dense_frames(self):
-        """Rings apart and stacked, with a fast and a slow memory, against the cycles of the port."""
+        """Separate and stacked rings, fast and slow memory, compared with the minimum cycles of the memory port."""
         for passes, name in (("1", "apart"), ("3", "stacked")):
             for coverage in ("distance", "area"):
                 for latency in ("20", "100"):
@@ -58,8 +58,8 @@ class Cycles(unittest.TestCase):
                         self.assertLess(edges + resolve, 1.05 * bound)
 
     def test_less_traffic(self):
-        """The same with the build choices that leave out lines; with the larger cache near the port's bound, far from a
-        memory, too."""
+        """The same with build parameters that save memory lines. With the larger cache the frame is close to the
+        minimum of the port, also with slow memory."""
         larger = "records=split colour_lines=128 weight_blocks=256"
         for passes, name in (("1", "apart"), ("3", "stacked")):
             for latency in ("20", "100"):

@@ -58,7 +58,7 @@ inline Frame random_frame(int width, int height, std::uint64_t seed, int edges =
     const auto v = static_cast<std::uint32_t>(screen.vertices.size());
     screen.vertices.push_back(p);
     screen.vertices.push_back(q);
-    // Mostly the edge's own vertices, sometimes those of others or missing ones.
+    // Mostly the vertices of the edge, sometimes other or missing ones.
     const auto vertex = [&](std::uint32_t own) {
       return random.chance(5) ? own + 1'000'000 : random.chance(100) ? random.below(own + 1) : own;
     };

@@ -24,7 +24,7 @@ class GeometricStress : public testing::TestWithParam<Preset> {
     return options;
   }
   static GeometricOutcome run(const GeometricRunOptions& options) {
-    // Drawn before the first run, so that child processes do not draw them again.
+    // The frames are drawn before the first run, so that child processes do not draw them again.
     static const std::vector<Frame> kFrames = {scene_frame("object", 120, 90),
                                                random_frame(77, 50, 4)};
     return forked<GeometricOutcome>([&] { return simulate(kFrames, options); });

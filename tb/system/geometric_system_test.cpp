@@ -180,9 +180,9 @@ constexpr Rule kConfiguration[] = {
        p.crease_depth = 4;
        p.cull = spec::geometric::Cull::kNone;
      }}};
-class RuledFrame : public testing::TestWithParam<std::tuple<std::size_t, const char*>> {};
+class OptionFrame : public testing::TestWithParam<std::tuple<std::size_t, const char*>> {};
 
-TEST_P(RuledFrame, FramesMatchGoldenInAnyOrderOfEdges) {
+TEST_P(OptionFrame, FramesMatchGoldenInAnyOrderOfEdges) {
   const auto& [rule, scene] = GetParam();
   std::vector<std::uint64_t> hashes;
   for (const std::uint64_t shuffle : {0u, 7u}) {
@@ -209,7 +209,7 @@ TEST_P(RuledFrame, FramesMatchGoldenInAnyOrderOfEdges) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Geometric, RuledFrame,
+INSTANTIATE_TEST_SUITE_P(Geometric, OptionFrame,
                          testing::Combine(testing::Range(std::size_t{0}, std::size(kConfiguration)),
                                           testing::Values("wheelcover", "object", "terrain")),
                          [](const auto& row) {

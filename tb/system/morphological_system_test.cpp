@@ -211,9 +211,9 @@ TEST(Morphological, HighestFrameIsIdenticalToGolden) {
 // ---- every option of edges, predictor and light -------------------------------------------------
 
 using Rule = std::tuple<int, int>;
-class EveryRule : public testing::TestWithParam<Rule> {};
+class EveryOption : public testing::TestWithParam<Rule> {};
 
-TEST_P(EveryRule, FramesMatchGolden) {
+TEST_P(EveryOption, FramesMatchGolden) {
   const auto [edges, line] = GetParam();
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
@@ -243,7 +243,7 @@ TEST_P(EveryRule, FramesMatchGolden) {
       {blocks(170, 140, static_cast<std::uint64_t>(edges + 1)), fans(20), noise(60, 60)}, options);
 }
 
-INSTANTIATE_TEST_SUITE_P(Morphological, EveryRule,
+INSTANTIATE_TEST_SUITE_P(Morphological, EveryOption,
                          testing::Combine(testing::Range(0, 6), testing::Range(0, 6)));
 
 // ---- SMAA: qualities, and its units mixed with those of other presets
@@ -386,12 +386,12 @@ struct Late {
   spec::morphological::Lanes lanes;
 };
 void PrintTo(const Late& late, std::ostream* out) { *out << late.name; }
-class LateRecords : public testing::TestWithParam<Late> {};
+class LateDescriptors : public testing::TestWithParam<Late> {};
 
 // Run descriptors of a slot row are still extended while the next one writes the window; an
 // additional row is kept for that. Conditions: N = R - 1, one slow predictor, room for all
 // descriptors, one-pixel steps with a few flaws, and more rows than the window has.
-TEST_P(LateRecords, LateDescriptorsUseTheRowsTheyWereFoundIn) {
+TEST_P(LateDescriptors, UseRowsTheyWereFoundIn) {
   MorphologicalRunOptions options;
   Parameters& p = options.morphological;
   p = preset(GetParam().preset, GetParam().lanes);
@@ -409,10 +409,10 @@ TEST_P(LateRecords, LateDescriptorsUseTheRowsTheyWereFoundIn) {
     return grey(((x + y) / 2 % 2 != 0) != ((h >> 7) % 17 == 0) ? 255 : 0);
   });
   const MorphologicalOutcome outcome = expect_identical({frame, noise(97, 61), frame}, options);
-  EXPECT_GT(outcome.descriptor_stalls, 0u) << "no record is late";
+  EXPECT_GT(outcome.descriptor_stalls, 0u) << "no descriptor is late";
 }
 INSTANTIATE_TEST_SUITE_P(
-    Morphological, LateRecords,
+    Morphological, LateDescriptors,
     testing::Values(
         Late{"mlaa_slope", Preset::kMlaaSlope, false, spec::morphological::Lanes::kOne},
         Late{"contiguous", Preset::kMlaaSlope, true, spec::morphological::Lanes::kOne},

@@ -213,7 +213,7 @@ TEST(WeightsCoverage, EveryClassAndReachableWordIsRead) {
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
   EXPECT_EQ(coverage.size(), 72u + 8 + 16 + 1);
 
-  // Unreachable words are never read. Of the words that the page allows, most are read; the rest is
+  // Unreachable words are never read. Most of the words that the page allows are read; the rest is
   // listed, including some that only seem reachable here.
   constexpr std::array<std::size_t, 3> kNamed = {532, 300, 220};
   std::string rest;

@@ -17,3 +17,6 @@ deburr_test(texture_limits_test PROGRAM system_texture_tests LABELS system
 deburr_test(texture_targets_test PROGRAM system_texture_tests LABELS system
             SOURCE texture_targets_test.cpp
             LINK deburr::texture_environment)
+deburr_test(texture_width_test PROGRAM system_texture_tests LABELS system
+            SOURCE texture_width_test.cpp
+            LINK deburr::texture_environment)

@@ -51,6 +51,7 @@ class QuadBench {
             platform::MemoryModelParameters memory = {}, const BenchOptions& options = {},
             const rtl::texture::TextureUnit::StandIns& stand_ins = {})
       : input_(input),
+        colours_("colours", 2, rtl::texture::colours_shape(parameters)),
         unit_("texture", clock_, parameters, memory_cycles(memory), stand_ins),
         memory_("memory", clock_.period(), sized(memory, input)),
         parameters_(parameters) {
@@ -90,7 +91,8 @@ class QuadBench {
     outcome.cycles = bench_->run(
         [&] { return driver_.done() && unit_.idle() && quads_.empty() && colours_.empty(); },
         limit);
-    outcome.colours = sink_.beats();
+    for (const spec::texture::ColourGroup& group : sink_.beats())
+      outcome.colours.insert(outcome.colours.end(), group.begin(), group.end());
     outcome.fills = memory_.lines_read();
     for (const rtl::Counter* counter : unit_.counters())
       outcome.counters.push_back(counter->value());
@@ -166,10 +168,10 @@ class QuadBench {
   const QuadInput& input_;
   rtl::ClockDomain clock_{"clock", sc_core::sc_time(6, sc_core::SC_NS)};
   rtl::Link<spec::texture::Quad> quads_{"quads"};
-  rtl::Link<spec::texture::Colour> colours_{"colours"};
+  rtl::Link<spec::texture::ColourGroup> colours_;
   Driver<spec::texture::Quad> driver_{"driver", clock_};
   rtl::texture::TextureUnit unit_;
-  Sink<spec::texture::Colour> sink_{"sink", clock_};
+  Sink<spec::texture::ColourGroup> sink_{"sink", clock_};
   platform::MemoryModel memory_;
   platform::RegisterHost host_{"host"};
   spec::texture::Parameters parameters_;

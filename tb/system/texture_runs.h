@@ -52,7 +52,7 @@ inline rtl::texture::TextureUnit::StandIns stand_ins_of_suite(
     const spec::texture::Parameters& parameters, const rtl::MemoryCycles& memory,
     std::uint64_t seed) {
   if (!counterparts_do_the_work()) return {};
-  return texture_counterparts_there_are(as_built(parameters, memory), seed);
+  return available_texture_counterparts(as_built(parameters, memory), seed);
 }
 // Units that may stay SystemC in the running suite, because the build lacks some of its
 // configurations.

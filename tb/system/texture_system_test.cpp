@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, EveryFormat,
 // Axes, count and footprint in all 45 combinations with both kernels; logarithm, cap, spread,
 // output and cycles of the directions vary along with them.
 using Configuration = std::tuple<int, int, int, int>;
-class EveryRule : public testing::TestWithParam<Configuration> {};
+class EveryOption : public testing::TestWithParam<Configuration> {};
 
 spec::texture::Parameters configuration_of(const Configuration& configuration) {
   const auto [axes, count, footprint, kernel] = configuration;
@@ -129,7 +129,7 @@ spec::texture::Parameters configuration_of(const Configuration& configuration) {
   return p;
 }
 
-TEST_P(EveryRule, FramesMatchGolden) {
+TEST_P(EveryOption, FramesMatchGolden) {
   TextureRunOptions options;
   options.texture = configuration_of(GetParam());
   SamplerParameters sampler;
@@ -137,7 +137,7 @@ TEST_P(EveryRule, FramesMatchGolden) {
   expect_identical(simulate(picture("tunnel", 64), sampler, options));
 }
 
-INSTANTIATE_TEST_SUITE_P(Texture, EveryRule,
+INSTANTIATE_TEST_SUITE_P(Texture, EveryOption,
                          testing::Combine(testing::Range(0, 3), testing::Range(0, 3),
                                           testing::Range(0, 5), testing::Range(0, 2)),
                          [](const auto& p) {

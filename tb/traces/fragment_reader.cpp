@@ -39,8 +39,7 @@ FragmentReader::FragmentReader(const std::filesystem::path& file, std::size_t te
     throw spec::FileError(fmt::format("cannot read '{}': it is not a regular file", file.string()));
   input_.open(file, std::ios::binary);
   if (!input_)
-    throw spec::FileError(
-        fmt::format("cannot open '{}': it may not be read by this user", file.string()));
+    throw spec::FileError(fmt::format("cannot open '{}': permission denied", file.string()));
   std::array<char, kFragmentTraceTitle.size()> bytes{};
   const std::string_view begins(bytes.data(), read(bytes.data(), bytes.size()));
   input_.clear();
@@ -52,9 +51,9 @@ FragmentReader::FragmentReader(const std::filesystem::path& file, std::size_t te
   line_ = 1;
   if (begins != kFragmentTraceTitle)
     fail(
-        fmt::format("{}: a trace of fragments begins with '{} {}' as text, or with the bytes '{}' "
+        fmt::format("{}: a fragment trace begins with '{} {}' as text, or with the bytes '{}' "
                     "(docs/reference/traces.md)",
-                    begins.empty() ? "the file is empty" : "this is something else",
+                    begins.empty() ? "the file is empty" : "not a fragment trace",
                     kFragmentTraceTitle, kFragmentTraceVersion, kFragmentTraceMagic));
   line_ = 0;
   open_text();
@@ -68,7 +67,7 @@ std::size_t FragmentReader::read(char* bytes, std::size_t count) {
 
 void FragmentReader::set_size(std::uint64_t width, std::uint64_t height) {
   if (width == 0 || height == 0 || width > kMostPictureSide || height > kMostPictureSide)
-    fail(fmt::format("a picture of {} x {} pixels: each side must be 1 to {}", width, height,
+    fail(fmt::format("an image of {} x {} pixels: each side must be 1 to {}", width, height,
                      kMostPictureSide));
   width_ = static_cast<int>(width);
   height_ = static_cast<int>(height);
@@ -85,14 +84,14 @@ bool FragmentReader::next_line() {
     int c = 0;
     while ((c = input_.get()) != std::ifstream::traits_type::eof() && c != '\n') {
       if (text_.size() == kMostLine)
-        fail(fmt::format("a line of more than {} characters: is this a trace of fragments?",
-                         kMostLine));
+        fail(
+            fmt::format("a line of more than {} characters: is this a fragment trace?", kMostLine));
       text_ += static_cast<char>(c);
     }
     if (input_.bad()) throw spec::FileError(fmt::format("cannot read '{}'", file_.string()));
     if (c == std::ifstream::traits_type::eof()) {
       if (text_.empty()) return false;
-      fail("the file ends in the middle of a line: it was cut short; make it again");
+      fail("the file is truncated in the middle of a line; write it again");
     }
     split();
     if (!fields_.empty()) return true;
@@ -140,13 +139,13 @@ double FragmentReader::real(std::string_view field, std::string_view name) const
 }
 
 void FragmentReader::open_text() {
-  if (!next_line()) fail("the file ends within its title");
+  if (!next_line()) fail("truncated header");
   need_fields(2, fmt::format("{} VERSION", kFragmentTraceTitle));
   if (const std::uint32_t version = integer(fields_[1], "version", 1'000'000);
       version != kFragmentTraceVersion)
-    fail(fmt::format("version {}, and this program reads version {}: write the trace anew", version,
-                     kFragmentTraceVersion));
-  if (!next_line()) fail("the file ends after its title: it was cut short; make it again");
+    fail(fmt::format("version {}, but this program reads version {}: write the trace again",
+                     version, kFragmentTraceVersion));
+  if (!next_line()) fail("the file is truncated after its first line; write it again");
   if (fields_[0] != "size") {
     held_ = true;
     return;
@@ -166,8 +165,8 @@ void FragmentReader::place(Record& record, std::string_view x, std::string_view 
 bool FragmentReader::next_text(Record& record) {
   if (!next_line())
     fail(
-        fmt::format("no line 'end {}' after the last record: the file was cut short; make it "
-                    "again, or add that line if this is all of it",
+        fmt::format("no line 'end {}' after the last record: the file is truncated; write it "
+                    "again, or add that line if the trace is complete",
                     quads_));
   constexpr std::uint32_t kMask = 0xF, kMostTexture = 255;
   constexpr int kHex = 16;
@@ -207,9 +206,9 @@ void FragmentReader::end_text() {
   if (const std::uint32_t count =
           integer(fields_[1], "records", std::numeric_limits<std::uint32_t>::max());
       count != quads_)
-    fail(fmt::format("'end {}' after {} records: some were lost or added; make the file again",
+    fail(fmt::format("'end {}' after {} records: records were lost or added; write the file again",
                      count, quads_));
-  if (next_line()) fail("more after the line 'end'");
+  if (next_line()) fail("text after the line 'end'");
 }
 
 // ---- binary format -----------------------------------------------------------------------------
@@ -221,14 +220,12 @@ void FragmentReader::open_binary() {
   };
   std::array<char, kFragmentHeaderBytes> bytes{};
   if (read(bytes.data(), bytes.size()) != bytes.size())
-    reject(
-        fmt::format("the file ends within its header of {} bytes: it was cut short; make it "
-                    "again",
-                    kFragmentHeaderBytes));
+    reject(fmt::format("truncated header, expected {} bytes; write the file again",
+                       kFragmentHeaderBytes));
   const std::string_view header(bytes.data(), bytes.size());
   const auto field = [&](std::size_t at) { return get_little_endian<std::uint32_t>(header, at); };
   if (field(8) != kFragmentTraceVersion)
-    reject(fmt::format("version {}, and this program reads version {}: write the trace anew",
+    reject(fmt::format("version {}, but this program reads version {}: write the trace again",
                        field(8), kFragmentTraceVersion));
   if (field(12) != kFragmentHeaderBytes || field(16) != kFragmentRecordBytes)
     reject(fmt::format("a header of {} bytes and records of {}, expected {} and {}", field(12),
@@ -236,20 +233,20 @@ void FragmentReader::open_binary() {
   if (field(20) != 0 || field(24) != 0) set_size(field(20), field(24));
   expected_ = get_little_endian<std::uint64_t>(header, 32);
   if (expected_ > kMostQuads)
-    reject(fmt::format("{} records, and {} is the most: cut it into several runs", expected_,
-                       kMostQuads));
+    reject(fmt::format("{} records, but the limit is {}: split the trace into several runs",
+                       expected_, kMostQuads));
   const std::uint64_t size = std::filesystem::file_size(file_);
   const std::uint64_t whole = kFragmentHeaderBytes + expected_ * kFragmentRecordBytes;
   if (size != whole)
-    reject(fmt::format("{} bytes, and a header with {} records says {}: the file {}; make it again",
-                       size, expected_, whole, size < whole ? "was cut short" : "is too long"));
+    reject(fmt::format("the file has {} bytes, but {} records need {}: it {}; write it again", size,
+                       expected_, whole, size < whole ? "is truncated" : "is too long"));
 }
 
 bool FragmentReader::next_binary(Record& record) {
   if (quads_ == expected_) return false;
   std::array<char, kFragmentRecordBytes> bytes{};
   if (read(bytes.data(), bytes.size()) != bytes.size())
-    fail("the file ends here: it has changed while it was read");
+    fail("the file ends here: it was changed while it was read");
   const std::string_view fields(bytes.data(), bytes.size());
   const auto byte = [&](std::size_t at) { return get_little_endian<std::uint8_t>(fields, at); };
   record.x = get_little_endian<std::uint32_t>(fields, 0);
@@ -277,7 +274,7 @@ bool FragmentReader::next(TracedQuad& quad) {
     return false;
   }
   if (quads_ == kMostQuads)
-    fail(fmt::format("more than {} records: cut the trace into several runs", kMostQuads));
+    fail(fmt::format("more than {} records: split the trace into several runs", kMostQuads));
   quad = {};
   check(record, quad);
   quad.quad.tag = static_cast<std::uint32_t>(quads_++);
@@ -287,18 +284,18 @@ bool FragmentReader::next(TracedQuad& quad) {
 void FragmentReader::check(const Record& record, TracedQuad& quad) const {
   if (record.texture >= textures_)
     fail(
-        fmt::format("texture {}, and the unit is given {}: 0 to {}; name a scene that has as many "
-                    "(--in FILE.gltf), or change the handle",
+        fmt::format("texture {}, but the scene has {}: expected 0 to {}; choose a scene with more "
+                    "textures (--in FILE.gltf), or change the handle",
                     record.texture, textures_, textures_ - 1));
   quad.quad.texture = static_cast<std::uint8_t>(record.texture);
   if (record.placed) {
     if (width_ == 0)
       fail(
-          "a place in a picture whose size is not said: begin with 'size WIDTH HEIGHT' (or the "
-          "header's fields), or leave out x and y");
+          "a position, but the trace has no image size: begin with 'size WIDTH HEIGHT' (or set the "
+          "header's fields), or omit x and y");
     if (record.x >= static_cast<std::uint32_t>(width_) ||
         record.y >= static_cast<std::uint32_t>(height_))
-      fail(fmt::format("place ({}, {}) is outside of the picture of {} x {} pixels", record.x,
+      fail(fmt::format("position ({}, {}) is outside the image of {} x {} pixels", record.x,
                        record.y, width_, height_));
     quad.placed = true;
   }
@@ -324,15 +321,14 @@ void FragmentReader::check_quad(const Record& record, TracedQuad& quad) const {
       fail(fmt::format("{} = {:#x}: a mask of four lanes is at most 0xf", name, mask));
   if (quad.placed) {
     if (record.x % 2 != 0 || record.y % 2 != 0)
-      fail(fmt::format("a quad at ({}, {}): lane 0 stands at even x and y", record.x, record.y));
+      fail(fmt::format("a quad at ({}, {}): x and y of lane 0 must be even", record.x, record.y));
     for (unsigned lane = 0; lane < 4; ++lane)
       if ((record.coverage >> lane & 1) != 0 &&
           (record.x + (lane & 1) >= static_cast<std::uint32_t>(width_) ||
            record.y + (lane >> 1) >= static_cast<std::uint32_t>(height_)))
-        fail(
-            fmt::format("lane {} of the quad at ({}, {}) is covered and outside of the picture "
-                        "of {} x {} pixels",
-                        lane, record.x, record.y, width_, height_));
+        fail(fmt::format(
+            "lane {} of the quad at ({}, {}) is covered, but outside the image of {} x {} pixels",
+            lane, record.x, record.y, width_, height_));
     quad.quad.x = static_cast<std::uint16_t>(record.x);
     quad.quad.y = static_cast<std::uint16_t>(record.y);
   }

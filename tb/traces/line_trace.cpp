@@ -43,10 +43,10 @@ void LineTrace::attach_ports() {
   const rtl::ClockDomain* clock = nullptr;
   rtl::for_each<rtl::MemoryPort>([&](rtl::MemoryPort& port) {
     if (clock && clock != &port.clock())
-      throw spec::ConfigError(fmt::format(
-          "run.line_trace: its cycles are of one clock, but {} belongs to {} and {} to {}: trace "
-          "engines of one clock domain",
-          ports_.front().name, clock->name(), port.name(), port.clock().name()));
+      throw spec::ConfigError(
+          fmt::format("run.line_trace: a trace covers one clock domain, but {} belongs to {} and "
+                      "{} to {}: trace engines of one domain",
+                      ports_.front().name, clock->name(), port.name(), port.clock().name()));
     clock = &port.clock();
     const std::uint32_t line_bytes = port.parameters().line_bytes;
     const auto number = static_cast<std::uint8_t>(ports_.size());
@@ -61,8 +61,8 @@ void LineTrace::attach_ports() {
   });
   if (ports_.empty())
     throw spec::ConfigError(
-        "run.line_trace: nothing that is built asks memory for anything: build what does, or leave "
-        "it out");
+        "run.line_trace: no unit of this build accesses memory: build one that does, or omit the "
+        "option");
 }
 
 void LineTrace::attach_caches() {
@@ -83,8 +83,8 @@ void LineTrace::attach_caches() {
   });
   if (!any)
     throw spec::ConfigError(
-        "run.line_trace_lookups: no cache that is built shows its look-ups: build one that does, "
-        "or leave it out");
+        "run.line_trace_lookups: no cache of this build reports lookups: build one that does, or "
+        "omit the option");
 }
 
 void LineTrace::detach() {

@@ -6,7 +6,7 @@
 //   ...                               // cycles
 //   trace.finish();
 //
-// Needs bounded memory; without a LineTrace there is no overhead.
+// Needs bounded memory. A run without a LineTrace has no overhead.
 #pragma once
 
 #include <cstdint>

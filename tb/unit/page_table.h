@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A table of a page of docs/, as a test compares it with what is built.
+// A table of a page in docs/, for tests that compare it with the implementation.
 #pragma once
 
 #include <algorithm>

@@ -37,7 +37,7 @@ CLI::Validator tolerance() {
         double value = 0;
         if (CLI::detail::lexical_cast(given, value) && std::isfinite(value) && value >= 0)
           return "";
-        return fmt::format("'{}' is no tolerance: expected a number from 0 on", given);
+        return fmt::format("'{}' is not a tolerance: expected a number of 0 or more", given);
       },
       "FLOAT >= 0");
 }
@@ -156,7 +156,7 @@ void print_worst_points(const Json& comparison) {
   for (const Json& point : comparison.at("points")) {
     if (!point.at("worse").get<bool>()) continue;
     if (++told > kMost) {
-      fmt::print("and at others\n");
+      fmt::print("and at other points\n");
       return;
     }
     std::string place;
@@ -170,14 +170,14 @@ void print_worst_points(const Json& comparison) {
 void print_sweeps(const Json& comparison) {
   const Json& sweeps = comparison.at("sweeps");
   print_parameters(comparison, sweeps);
-  tb::print_wrapped(fmt::format("{} points in all of them, {} not done in all\n",
+  tb::print_wrapped(fmt::format("{} points in all sweeps, {} not finished in all\n",
                                 comparison.at("points").size(), comparison.at("only").size()));
   for (const Json& sweep : sweeps)
     if (sweep.contains("joint_front"))
-      tb::print_wrapped(fmt::format("{}: {} of its points are on the front of all together\n",
+      tb::print_wrapped(fmt::format("{}: {} points on the joint Pareto front\n",
                                     text(sweep.at("name")), tb::json_text(sweep["joint_front"])));
   std::vector<std::vector<std::string>> rows = {
-      {"", "better", "equal", "worse", "mean change", "least", "most"}};
+      {"", "better", "equal", "worse", "mean change", "smallest", "largest"}};
   for (std::size_t i = 1; i < sweeps.size(); ++i)
     for (std::size_t m = 0; m < comparison.at("metrics").size(); ++m) {
       const Json& sum = comparison.at("summary")[i - 1][m];
@@ -212,7 +212,7 @@ std::vector<std::string> what_is_worse(const Json& comparison) {
                                     text(comparison["sweeps"][i + 1]["name"])));
   const auto lost = std::count_if(comparison.at("only").begin(), comparison.at("only").end(),
                                   [](const Json& point) { return point.at("worse").get<bool>(); });
-  if (lost > 0) worse.push_back(fmt::format("{} points that A has failed", lost));
+  if (lost > 0) worse.push_back(fmt::format("{} points of A failed in other sweeps", lost));
   return worse;
 }
 
@@ -235,8 +235,9 @@ std::string unsaid_value(const std::string& engine_name,
 
 Json comparison_of(const CompareOptions& options) {
   if (options.paths.size() > kMostCompared)
-    throw spec::ConfigError(fmt::format("{} to compare, and {} are the most: a sweep shows more",
-                                        options.paths.size(), kMostCompared));
+    throw spec::ConfigError(
+        fmt::format("{} results to compare, at most {} are possible: use a sweep for more",
+                    options.paths.size(), kMostCompared));
   const auto sweeps =
       static_cast<std::size_t>(std::count_if(options.paths.begin(), options.paths.end(), is_sweep));
   if (sweeps == 0) return compare_runs(options.paths, options.tolerances);
@@ -268,9 +269,8 @@ Outcome of_written_files(const std::vector<std::string>& paths,
   try {
     return made();
   } catch (const Json::exception& error) {
-    throw spec::FileError(
-        fmt::format("'{}': a result or a manifest is damaged ({}): run that again",
-                    fmt::join(paths, "', '"), error.what()));
+    throw spec::FileError(fmt::format("'{}': damaged result or manifest ({}): run it again",
+                                      fmt::join(paths, "', '"), error.what()));
   }
 }
 
@@ -296,7 +296,7 @@ Outcome compare_results(const CompareOptions& options, bool json) {
     outcome.text = fmt::format("FAIL worse: {}{}", fmt::join(what_is_worse(comparison), ", "),
                                not_implementable);
   } else {
-    outcome.text = "PASS compare: nothing is worse by more than its tolerance" + not_implementable;
+    outcome.text = "PASS compare: nothing is worse beyond its tolerance" + not_implementable;
   }
   if (json) outcome.details = tb::json_text(Json{{"comparison", comparison}});
   return outcome;
@@ -313,15 +313,15 @@ Outcome rebuild_reports(const std::vector<std::string>& directories) {
 }  // namespace
 
 void add_compare(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand(
-      "compare", "Runs or sweeps side by side; fails when one is worse than the first");
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare runs or sweeps; fails if one is worse than the first");
   show_examples(*command, {"deburr compare out/a out/b --html out/a_b.html",
                            "deburr compare out/sweeps/before out/sweeps/after --cycles-percent 5"});
   const auto options = std::make_shared<CompareOptions>();
   command
       ->add_option("DIR", options->paths,
-                   "Directories of runs (or their result.json), or of sweeps that were collected; "
-                   "the first is what the others are compared with")
+                   "Directories of runs (or their result.json), or of collected sweeps; the first "
+                   "is the baseline")
       ->required()
       ->expected(2, -1);
   Tolerances& tolerances = options->tolerances;
@@ -346,12 +346,12 @@ void add_compare(CLI::App& app, CommandLine& line) {
       ->check(tolerance());
   command
       ->add_option("--memory-percent", tolerances.memory_percent,
-                   "Bits of memory may grow by this much; without it they are compared and fail "
-                   "nothing")
+                   "Memory bits may grow by this much; without it they are compared but never fail")
       ->check(tolerance());
-  command->add_option("--html", options->page, "Write all of it as one self-contained page")
+  command->add_option("--html", options->page, "Write the comparison as one self-contained page")
       ->type_name("FILE");
-  command->add_flag("--all", options->all, "Of runs: print every value that differs, counters too");
+  command->add_flag("--all", options->all,
+                    "For runs: print every value that differs, including counters");
   command->add_flag("--json", line.json, "Print one JSON object: exit code, outcome, comparison");
   command->callback([options, &line] {
     line.action = [options, &line] {

@@ -288,7 +288,7 @@ void add_completion(CLI::App& app, CommandLine& line) {
                  "deburr completion zsh > ~/.zfunc/_deburr",
                  "deburr completion fish > ~/.config/fish/completions/deburr.fish"});
   const auto shell = std::make_shared<std::string>("bash");
-  command->add_option("SHELL", *shell, "Whose script it is")
+  command->add_option("SHELL", *shell, "Shell to complete commands in")
       ->check(CLI::IsMember({"bash", "zsh", "fish"}))
       ->capture_default_str();
   command->callback([&app, shell, &line] {

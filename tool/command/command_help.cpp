@@ -70,13 +70,13 @@ std::string man_page(const CLI::App& app) {
 }  // namespace
 
 void add_help(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("help", "What a command does, and its options");
+  CLI::App* command = app.add_subcommand("help", "Show what a command does and its options");
   show_examples(*command, {"deburr help sweep",
                            fmt::format("deburr help run {}", engines().front()->name())});
   const auto words = std::make_shared<std::vector<std::string>>();
-  command->add_option("COMMAND", *words, "The command (all of them)");
+  command->add_option("COMMAND", *words, "The command (default: all)");
   const auto man = std::make_shared<bool>(false);
-  command->add_flag("--man", *man, "All of it as a manual page, for man -l -")
+  command->add_flag("--man", *man, "Print everything as a manual page, for man -l -")
       ->excludes(command->get_option("COMMAND"));
   command->callback([&app, words, man, &line] {
     line.action = [&app, words, man] {

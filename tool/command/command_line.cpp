@@ -106,8 +106,7 @@ void require_utf8(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (!is_utf8(argv[i]))
       throw spec::ConfigError(fmt::format(
-          "word {} of the command line is not UTF-8, as results and pages are: rename the file",
-          i));
+          "argument {} is not valid UTF-8, which results and pages need: rename the file", i));
 }
 
 // Flushes standard output: a full disk is a failure too.
@@ -116,7 +115,7 @@ int flushed(int code) {
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   const int reason = errno != 0 ? errno : EIO;
   if (!lost) return code;
-  fmt::print(stderr, "deburr: standard output could not be written: {}\n", std::strerror(reason));
+  fmt::print(stderr, "deburr: cannot write to standard output: {}\n", std::strerror(reason));
   return code != 0 ? code : static_cast<int>(ExitCode::kFile);
 }
 
@@ -166,7 +165,7 @@ std::string explain(const CLI::App& app, int argc, char** argv, const std::strin
     }
   }
   if (const auto commands = commands_of(*command); !commands.empty())
-    return see(fmt::format("{} what? Known are {}", path, quoted_names(commands)));
+    return see(fmt::format("{}: missing command (known: {})", path, quoted_names(commands)));
   return see(complaint);
 }
 
@@ -186,9 +185,8 @@ std::string missing_value(const CLI::App& app, int argc, char** argv) {
       if (word.find('=') != std::string::npos || option->get_items_expected_min() == 0) continue;
       if (++i < argc && option_of(argv[i]))
         return fmt::format(
-            "{} needs a value, and '{}' is an option: a name that begins so is "
-            "written {}={}",
-            word, argv[i], word, argv[i]);
+            "{} needs a value, but '{}' is an option: to use it as the value, write {}={}", word,
+            argv[i], word, argv[i]);
     } else {
       for (const CLI::App* inner : commands_of(*command))
         if (inner->get_name() == word) {

@@ -14,13 +14,13 @@ void add_papers(CLI::App& app, CommandLine& line, PapersAction action) {
   command->add_option("--out", options->out, "Directory for index.html, papers.json and pictures")
       ->capture_default_str();
   command->add_option("ID,--only", options->only, "Papers to reproduce, such as 004 (all)");
-  command->add_option("--size", options->size, "Side of the pictures, pixel")
+  command->add_option("--size", options->size, "Width and height of the pictures in pixels")
       ->capture_default_str()
       ->check(CLI::Range(64, 4096));
-  command->add_flag("--quick", options->quick, "Leave out what takes more than a few seconds");
+  command->add_flag("--quick", options->quick, "Skip figures that take more than a few seconds");
   command->add_flag("--wait", options->wait,
-                    "Wait for another run that has the directory, instead of an error");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors and the line RESULT: ...");
+                    "Wait while another run uses the directory, instead of failing");
+  command->add_flag("--quiet", options->quiet, "Print only errors and the line RESULT: ...");
   command->add_flag("--json", line.json,
                     "Print one JSON object: exit code, outcome, directory, result");
   command->callback([options, action, &line] {

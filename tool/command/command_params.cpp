@@ -48,7 +48,7 @@ void list_options(const Engine& engine, const tb::ParameterSet& set, Json& liste
     Json parameters = {shorthand.parameter};
     if (!shorthand.second_parameter.empty()) parameters.push_back(shorthand.second_parameter);
     const Parameter* const parameter = set.find(shorthand.parameter);
-    DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
+    DEBURR_CHECK(parameter, shorthand.option + " sets an unknown parameter");
     const bool is_switch = parameter->range == "true | false";
     listed.push_back({{"engine", engine.name()},
                       {"option", shorthand.option},
@@ -150,7 +150,7 @@ Outcome print_params(const ParamsCommand& command, bool json) {
                                          p.range, p.unit, p.meaning},
                                         {}, columns));
   if (!limits.empty())
-    tb::print_wrapped("\nWhat hardware can be built with, beyond these ranges:\n", 0);
+    tb::print_wrapped("\nBuild limits of the hardware, in addition to these ranges:\n", 0);
   for (const tb::BuildLimit& limit : limits)
     tb::print_wrapped(fmt::format("{:{}}  {}\n", limit.parameters.front(), name, limit.must),
                       fits ? name + 2 : 4);
@@ -166,7 +166,7 @@ void add_params(CLI::App& app, CommandLine& line) {
                            "deburr params --c-header"});
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
-                      "Only these: run, scene, sampler, texture, memory, ...");
+                      "Only parameters of this group: run, scene, sampler, texture, memory, ...");
   CLI::Option* const markdown =
       command->add_option("--markdown", options->markdown,
                           "Print a page of the docs instead: parameters, statistics, registers, "

@@ -48,8 +48,9 @@ struct RegressOptions : PointOptions {
 
   void reject_half_a_rerun() const {
     if (failed == (action == "rerun")) return;
-    throw spec::ConfigError(failed ? "--failed goes with 'rerun': rerun --failed"
-                                   : "rerun: of what? 'rerun --failed' runs again what has failed");
+    throw spec::ConfigError(
+        failed ? "--failed is only valid with 'rerun': rerun --failed"
+               : "rerun needs --failed: 'rerun --failed' repeats the runs that failed");
   }
 
   // `deburr regress status` uses the default testplan.
@@ -114,7 +115,7 @@ class Regression {
       if (failed_.erase(origin_of(point).name()) > 0) points.push_back(point);
     });
     for (const std::string& name : failed_)
-      say(options_, fmt::format("gone        {}: the testplan has no such run any more", name));
+      say(options_, fmt::format("gone        {}: the testplan no longer has this run", name));
     const Pending pending = find_pending(place_, points, /*retry=*/true);
     if (!pending.points.empty()) {
       if (!options_.slurm.empty())
@@ -134,7 +135,7 @@ class Regression {
       if (state == PointState::kFailed) failed.push_back(&point);
     }
     const std::string figures =
-        fmt::format("{} of {} runs that had failed pass now, {} fail", grouped(passed),
+        fmt::format("{} of {} previously failed runs pass now, {} fail", grouped(passed),
                     grouped(points.size()), grouped(failed.size()));
     if (!tb::interrupted()) {
       if (const Status status = look(place_, plan_); status.missing + status.running == 0) {
@@ -143,8 +144,8 @@ class Regression {
       }
     }
     const std::string text = fmt::format(
-        "{}: {}; other runs have no result of this state, so the report stays as it "
-        "is: 'run' it for all of them",
+        "{}: {}; other runs lack a current result, so the report is unchanged: use 'run' to "
+        "simulate them",
         what_, figures);
     Json failures = Json::array();
     for (const PlannedPoint* point : failed) {
@@ -180,7 +181,8 @@ class Regression {
     return settings;
   }
 
-  // Failures group into few signatures: their waveforms are recorded here, whoever ran the points.
+  // Failures group into few signatures: their waveforms are recorded here, regardless of where the
+  // points ran.
   RegressionResult collect() const {
     RegressionResult result = collect_regression(testplan_, place_);
     const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);
@@ -219,12 +221,12 @@ class Regression {
       if (!covered.met()) say(options_, "broken      all runs: " + reason(covered, /*named=*/true));
     for (const UnmetBin& unmet : result.unmet)
       if (unmet.hits > 0)
-        say(options_,
-            fmt::format("met         {}, which the testplan excepts: {}", unmet.bin, unmet.reason));
+        say(options_, fmt::format("met         {}, which the testplan lists as unmet: {}",
+                                  unmet.bin, unmet.reason));
     if (tb::interrupted()) return {tb::kInterruptedExit, "INTERRUPTED " + figures};
     if (result.missing > 0)
       return {static_cast<int>(ExitCode::kSimulation),
-              fmt::format("FAIL {}: 'run' it again for what is missing", figures)};
+              fmt::format("FAIL {}: use 'run' again for the missing runs", figures)};
     if (!result.holds()) {
       Outcome outcome{static_cast<int>(ExitCode::kMismatch), "FAIL " + figures};
       if (!result.signatures.empty()) outcome.repro = arguments_of_example(result);
@@ -276,7 +278,7 @@ class Regression {
 
 void add_regress(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand(
-      "regress", "A testplan: many seeds of many configurations, and what failed of them");
+      "regress", "Run a testplan: many seeds of many configurations, and a report of the failures");
   show_examples(*command, {"deburr regress", "deburr regress tb/testplan/nightly.yaml --divide 100",
                            "deburr regress tb/testplan/nightly.yaml rerun --failed"});
   const auto options = std::make_shared<RegressOptions>();
@@ -284,22 +286,22 @@ void add_regress(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   const CLI::Option* action =
       command
-          ->add_option(
-              "ACTION", options->action,
-              "plan: name every point; run: simulate those without a result, and collect; rerun: "
-              "with --failed, the failures of the last report again, and only them; status: how "
-              "far it is; collect: failures again with waves, and JUnit, JSON and "
-              "a page of what is there")
+          ->add_option("ACTION", options->action,
+                       "plan: list every point; run: simulate points without a result, then "
+                       "collect; rerun --failed: repeat only the failures of the last report; "
+                       "status: show the progress; collect: repeat failures with waveforms, and "
+                       "write JUnit, JSON and a page of the results so far")
           ->check(CLI::IsMember(std::vector<std::string>(kActions.begin(), kActions.end())))
           ->capture_default_str();
-  command->add_flag("--failed", options->failed, "rerun: what failed in the last report");
+  command->add_flag("--failed", options->failed, "rerun: repeat the failures of the last report");
   add_seed(*command,
-           "Base seed of all points (the day, as 20261231; rerun: that of the last report)",
+           "Base seed of all points (default: the date, such as 20261231; rerun: that of the last "
+           "report)",
            [seed = &options->seed](std::uint64_t given) { *seed = given; });
   command
-      ->add_option(
-          "--divide", options->divide,
-          "Of each configuration one of N seeds, at least one, and of what must be compared")
+      ->add_option("--divide", options->divide,
+                   "Run one of N seeds of each configuration, at least one; required comparisons "
+                   "are divided by N as well")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000}));
   add_point_options(*command, *options, line);

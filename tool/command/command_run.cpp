@@ -175,9 +175,9 @@ std::string figures_of(const tb::Result& r) {
         "than {}",
         c.small_percent, tb::Change::kSmall, c.large_percent, tb::Change::kLarge);
     if (c.right_small_percent && c.right_large_percent)
-      text += fmt::format(" (of those that were right before {:.2f} % and {:.2f} %)",
+      text += fmt::format(" (of correct input pixels {:.2f} % and {:.2f} %)",
                           *c.right_small_percent, *c.right_large_percent);
-    text += fmt::format("; {} to what went in\n", decibels(c.psnr_db, std::nullopt));
+    text += fmt::format("; {} to the input\n", decibels(c.psnr_db, std::nullopt));
   }
   return text;
 }
@@ -230,8 +230,8 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
             directory};
   if (result.interrupted) {
     fmt::print(stderr,
-               "deburr: interrupted; the partial results are kept. Run the same command again "
-               "for all of it.\n");
+               "deburr: interrupted; the partial results are kept. Run the same command again for "
+               "complete results.\n");
     return {tb::kInterruptedExit, fmt::format("INTERRUPTED {}", summary), directory};
   }
   return {
@@ -306,12 +306,11 @@ void add_run(CLI::App& app, CommandLine& line) {
         ->type_name("NAME=VALUE");
     command
         ->add_option("--out", options->out,
-                     fmt::format("Directory of the results (out/{})", engine->name()))
+                     fmt::format("Directory for the results (out/{})", engine->name()))
         ->type_name("DIR");
     command->add_flag("--wait", options->wait,
-                      "Wait for another run that has the directory, instead of an error");
-    command->add_flag("--quiet", options->quiet,
-                      "Print nothing but errors and the line RESULT: ...");
+                      "Wait while another run uses the directory, instead of failing");
+    command->add_flag("--quiet", options->quiet, "Print only errors and the line RESULT: ...");
     command->add_flag("--json", line.json,
                       "Print one JSON object: exit code, outcome, directory, result");
     command->add_flag("--show-config", options->resolve_only,
@@ -320,7 +319,7 @@ void add_run(CLI::App& app, CommandLine& line) {
     const BoundEngine probe(*engine);
     for (const Shorthand& shorthand : shorthands_of(*engine)) {
       const tb::Parameter* parameter = probe.set.find(shorthand.parameter);
-      DEBURR_CHECK(parameter, shorthand.option + " stands for an unknown parameter");
+      DEBURR_CHECK(parameter, shorthand.option + " sets an unknown parameter");
       add_shorthand(*command, shorthand, *options, *parameter);
     }
     command->callback([engine, options, &line] {

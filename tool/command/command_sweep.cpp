@@ -191,58 +191,60 @@ Outcome search(const SweepOptions& options) {
   }
   const Plan plan = read_plan(place.directory);
   if (!changes_since(plan, definition.file).empty())
-    throw spec::ConfigError(
-        fmt::format("'{}' is of another state of '{}', of its inputs or of the model: search again",
-                    place.directory.string(), options.file));
+    throw spec::ConfigError(fmt::format(
+        "'{}' was made with another version of '{}', of its inputs or of the model: search again",
+        place.directory.string(), options.file));
   return collect_points(options, what, definition, plan, place);
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("sweep", "Many runs of an engine over axes of parameters");
+  CLI::App* command =
+      app.add_subcommand("sweep", "Run an engine for many values of its parameters");
   show_examples(*command, {"deburr sweep first.yaml plan", "deburr sweep first.yaml run --jobs 4",
                            "deburr sweep first.yaml collect"});
   const auto options = std::make_shared<SweepOptions>();
-  command->add_option("FILE", options->file, "YAML file of the sweep")->required();
+  command->add_option("FILE", options->file, "YAML file that defines the sweep")->required();
   command
-      ->add_option("ACTION", options->action,
-                   "plan: name every point; run: simulate those without a result; status: how far "
-                   "it is; collect: table, front and effects as CSV, JSON and a page")
+      ->add_option(
+          "ACTION", options->action,
+          "plan: list every point; run: simulate points without a result; status: show the "
+          "progress; collect: write table, Pareto front and effects as CSV, JSON and a page")
       ->required()
       ->check(CLI::IsMember({"plan", "run", "status", "collect"}));
   add_point_options(*command, *options, line);
   command->callback([options, &line] { line.action = [options] { return sweep(*options); }; });
 
   CLI::App* searching = app.add_subcommand(
-      "search", "The Pareto front of a sweep with a part of its points, by NSGA-II");
+      "search", "Search the Pareto front of a sweep with NSGA-II, running only part of its points");
   show_examples(*searching,
                 {"deburr search first.yaml --runs 100", "deburr search first.yaml status"});
   const auto sought = std::make_shared<SweepOptions>();
   sought->action = "run";
   sought->search.population = 0;
-  searching->add_option("FILE", sought->file, "YAML file of the sweep")->required();
+  searching->add_option("FILE", sought->file, "YAML file that defines the sweep")->required();
   searching
       ->add_option("ACTION", sought->action,
-                   "run: search, and collect what was found; status: how far it is; collect: table "
-                   "and front of what is there")
+                   "run: search, then collect the points found; status: show the progress; "
+                   "collect: write table and Pareto front of the points so far")
       ->check(CLI::IsMember({"run", "status", "collect"}))
       ->capture_default_str();
   searching
-      ->add_option("--runs", sought->search.runs, "Points to evaluate, those included that exist")
+      ->add_option("--runs", sought->search.runs, "Points to evaluate, including existing ones")
       ->check(CLI::Range(std::uint64_t{Evolution::kLeast}, kMostPoints))
       ->capture_default_str();
   searching
       ->add_option("--population", sought->search.population,
-                   "Points of a generation, a multiple of 4 (about the root of the runs)")
+                   "Points per generation, a multiple of 4 (about the square root of --runs)")
       ->check([](const std::string& text) {
         std::uint64_t value = 0;
         const bool number = CLI::detail::lexical_cast(text, value);
         return number && value >= Evolution::kLeast && value <= 4096 &&
                        value % Evolution::kGroup == 0
                    ? std::string()
-                   : fmt::format("'{}' is no multiple of {} in {}..4096", text, Evolution::kGroup,
-                                 Evolution::kLeast);
+                   : fmt::format("'{}' is not a multiple of {} in {}..4096", text,
+                                 Evolution::kGroup, Evolution::kLeast);
       });
   searching
       ->add_flag_callback(
@@ -250,15 +252,15 @@ void add_sweep(CLI::App& app, CommandLine& line) {
           [] {
             throw CLI::ValidationError(
                 "--no-guess",
-                "gone since 0.4.0: a search always runs every generation; leave it out");
+                "removed in 0.4.0: a search always runs every generation; leave it out");
           })
       ->group("");
-  add_seed(*searching, "The same one asks for the same points (1)",
+  add_seed(*searching, "Seed of the search; the same seed selects the same points (1)",
            [seed = &sought->search.seed](std::uint64_t given) { *seed = given; });
   add_point_options(*searching, *sought, line);
   searching->callback([sought, &line] { line.action = [sought] { return search(*sought); }; });
 
-  CLI::App* worker = app.add_subcommand("sweep-worker", "Runs a chunk of a sweep")->group("");
+  CLI::App* worker = app.add_subcommand("sweep-worker", "Run a chunk of a sweep")->group("");
   const auto chunk = std::make_shared<WorkerOptions>();
   worker->add_option("OUT", chunk->out)->required();
   worker->add_option("SWEEP", chunk->sweep)->required();

@@ -71,19 +71,21 @@ std::string in_words(const FailedPoint& point) {
 void add_point_options(CLI::App& command, PointOptions& options, CommandLine& line) {
   command
       .add_option("--slurm", options.slurm,
-                  "run: on Slurm as this YAML profile says, instead of here")
+                  "run: use Slurm with this YAML profile instead of this machine")
       ->type_name("PROFILE");
-  command.add_option("--out", options.out, "Directory of points, cache and what is made of them")
+  command.add_option("--out", options.out, "Directory for points, cache and collected results")
       ->type_name("DIR")
       ->transform(as_a_name())
       ->capture_default_str();
-  command.add_option("-j,--jobs", options.jobs, "Points at a time (the number of processors)")
+  command
+      .add_option("-j,--jobs", options.jobs,
+                  "Concurrent points (default: the number of processors)")
       ->check(CLI::Range(1u, 4096u));
-  command.add_flag("--retry", options.retry, "Run again what failed, too");
-  command.add_flag("--quiet", options.quiet, "Print nothing but errors and the line RESULT: ...");
+  command.add_flag("--retry", options.retry, "Also repeat points that failed");
+  command.add_flag("--quiet", options.quiet, "Print only errors and the line RESULT: ...");
   command.add_flag_callback(
       "--json", [&options, &line] { options.json = line.json = true; },
-      "Print one JSON object: exit code, outcome, counts, failures, what was collected");
+      "Print one JSON object: exit code, outcome, counts, failures, collected files");
 }
 
 // CLI11 alone takes -1 and numbers that are too large for the largest number, and an empty text for
@@ -95,7 +97,7 @@ void add_seed(CLI::App& command, const std::string& meaning,
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, seed);
     if (error != std::errc() || rest != end)
-      throw CLI::ValidationError("--seed", fmt::format("'{}' is no integer 0..{}", text,
+      throw CLI::ValidationError("--seed", fmt::format("'{}' is not an integer in 0..{}", text,
                                                        std::numeric_limits<std::uint64_t>::max()));
     take(seed);
   };
@@ -139,10 +141,10 @@ Outcome run_on_slurm(const PointOptions& options, const std::string& what, const
   const SlurmJob job =
       submit(plan, place, points, read_profile(options.slurm), run_settings(options));
   note_start(place, points.size());
-  Outcome outcome{0, fmt::format("PASS {}: {} submitted as {} task{} of job {}; 'status' shows how "
-                                 "far it is",
-                                 what, points_of(points.size()), grouped(job.tasks),
-                                 job.tasks == 1 ? "" : "s", job.id)};
+  Outcome outcome{
+      0,
+      fmt::format("PASS {}: {} submitted as {} task{} of job {}; 'status' shows the progress", what,
+                  points_of(points.size()), grouped(job.tasks), job.tasks == 1 ? "" : "s", job.id)};
   outcome.details = text_of({{"directory", place.directory.string()},
                              {"counts", {{"points", plan.points}, {"submitted", points.size()}}},
                              {"job", {{"id", job.id}, {"tasks", job.tasks}}}});
@@ -174,15 +176,15 @@ Outcome ended(const PointOptions& options, const std::string& what, const SweepP
     return outcome;
   };
   if (code == tb::kInterruptedExit) {
-    fmt::print(stderr, "deburr: interrupted; run the same command again for what is missing\n");
+    fmt::print(stderr, "deburr: interrupted; run the same command again for the missing points\n");
     return with(tb::kInterruptedExit, fmt::format("INTERRUPTED {}: {}", what, figures));
   }
   for (const FailedPoint& point : status.failures) say(options, in_words(point));
   if (status.done + status.failed < points)
-    return with(
-        static_cast<int>(code == static_cast<int>(ExitCode::kFile) ? ExitCode::kFile
-                                                                   : ExitCode::kSimulation),
-        fmt::format("FAIL {}: {}: run the same command again for what is missing", what, figures));
+    return with(static_cast<int>(code == static_cast<int>(ExitCode::kFile) ? ExitCode::kFile
+                                                                           : ExitCode::kSimulation),
+                fmt::format("FAIL {}: {}: run the same command again for the missing points", what,
+                            figures));
   if (status.failed > 0) {
     outcome.repro = status.failures.front().arguments;
     return with(static_cast<int>(ExitCode::kMismatch), fmt::format("FAIL {}: {}", what, figures));
@@ -199,19 +201,19 @@ void say_changes(const PointOptions& options, const std::string& action, const S
   const bool keeps_results = is_of_this_model(*plan);
   if (action == "collect" && !keeps_results)
     throw spec::ConfigError(
-        fmt::format("the results in '{}' are of another state of the model, and count for nothing "
-                    "in this one: 'run' them again",
+        fmt::format("the results in '{}' are from another version of the model and are not used: "
+                    "'run' them again",
                     place.directory.string()));
   say(options, fmt::format("changed     {} since the plan was made: {}", changes,
-                           action == "status" ? "these figures are of what it was before"
-                           : keeps_results    ? "points that are as before keep their results"
-                                              : "no result of before counts"));
+                           action == "status" ? "these figures are from before the change"
+                           : keeps_results    ? "unchanged points keep their results"
+                                              : "earlier results are not used"));
 }
 
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place) {
   const std::uint64_t done = look(place, plan).done;
   Outcome outcome{
-      0, fmt::format("PASS {}: {} over {} input{}, {} of them done; {}", what,
+      0, fmt::format("PASS {}: {} over {} input{}, {} already done; {}", what,
                      points_of(plan.points), grouped(plan.inputs), plan.inputs == 1 ? "" : "s",
                      grouped(done), place.directory.string())};
   outcome.details =

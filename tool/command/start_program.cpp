@@ -16,26 +16,24 @@
 namespace deburr::tool {
 namespace {
 
-[[noreturn]] void become(std::string_view name, std::string_view what, const CommandLine& line) {
+[[noreturn]] void become(std::string_view name, const CommandLine& line) {
   const std::filesystem::path program =
       std::filesystem::read_symlink("/proc/self/exe").replace_filename(name);
   ::execv(program.c_str(), line.words);
   const int reason = errno;
   throw spec::FileError(
-      fmt::format("{} by a program of its own, {}, which cannot be started ({}); put that of the "
-                  "same build there (in the repository: scripts/demo --complete)",
-                  what, program.string(), std::strerror(reason)));
+      fmt::format("this command needs the program {}, which cannot be started ({}): put it there, "
+                  "from the same build (in the repository: scripts/demo --complete)",
+                  program.string(), std::strerror(reason)));
 }
 
 }  // namespace
 
 // The other program parses the options again.
 Outcome start_papers(const PapersOptions&, const CommandLine& line) {
-  become("deburr_papers", "papers are reproduced", line);
+  become("deburr_papers", line);
 }
 
-Outcome start_train(const TrainOptions&, const CommandLine& line) {
-  become("deburr_train", "shares are trained", line);
-}
+Outcome start_train(const TrainOptions&, const CommandLine& line) { become("deburr_train", line); }
 
 }  // namespace deburr::tool

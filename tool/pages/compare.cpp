@@ -65,7 +65,7 @@ Better better_of(const std::string& key) {
 using KeyValues = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
-  // Not compared: the host's speed says nothing about the hardware, coverage bins have no
+  // Not compared: the host's speed is unrelated to the hardware, coverage bins are without
   // direction, the histogram is covered by its percentiles, and identical pictures have infinite
   // values.
   if (path == "host" || path == "quality.identical" || path == "change.identical" ||

@@ -58,7 +58,7 @@ std::string change_of(const std::string& key, std::optional<double> a, std::opti
 // Formats the value of a result under a dotted key; "-" for none.
 std::string value_text(const nlohmann::ordered_json& value);
 std::optional<double> as_number(const nlohmann::ordered_json& value);
-// null if there is none.
+// null if absent.
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
 
 // Compares the work of two manifests: inputs (by content) and parameters marked as work (scene,

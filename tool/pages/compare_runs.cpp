@@ -26,33 +26,31 @@ struct Run {
   Json result, manifest;  // manifest: null if missing
 };
 
-// Explains why there is no result, as far as the directory shows.
+// Explains why the result is missing, as far as the directory shows.
 [[noreturn]] void reject_unfinished(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / ".deburr_run" / "claim.json", error))
     throw spec::FileError(
-        fmt::format("'{}' has no result.json: its run is not over, or was killed; wait for it, or "
-                    "run it again",
+        fmt::format("'{}' has no result.json: its run is not finished or was killed: wait for it, "
+                    "or run it again",
                     folder.string()));
   if (fs::exists(folder / "failure.json", error))
-    throw spec::FileError(
-        fmt::format("'{}' has no result.json: it is a sweep's point that failed, see its "
-                    "failure.json",
-                    folder.string()));
+    throw spec::FileError(fmt::format(
+        "'{}' has no result.json: it is a failed point of a sweep: see its failure.json",
+        folder.string()));
   if (fs::exists(folder / "plan.json", error))
     throw spec::FileError(
         fmt::format("'{}' is a sweep that was not collected: run 'deburr sweep FILE collect' first",
                     folder.string()));
   throw spec::FileError(
-      fmt::format("'{}' has no result.json: name the directory of a run that is complete, or of a "
-                  "sweep",
+      fmt::format("'{}' has no result.json: name the directory of a complete run or of a sweep",
                   folder.string()));
 }
 
 Run read_run(const fs::path& path, std::size_t index) {
   std::error_code error;
   if (!fs::exists(path, error))
-    throw spec::FileError(fmt::format("'{}' is not there", path.string()));
+    throw spec::FileError(fmt::format("'{}' does not exist", path.string()));
   const bool folder = fs::is_directory(path, error);
   if (folder && !fs::exists(path / "result.json", error)) reject_unfinished(path);
   Run run{letter(index), path, folder ? path : path.parent_path(), tb::read_result(path), nullptr};
@@ -61,7 +59,7 @@ Run read_run(const fs::path& path, std::size_t index) {
   run.manifest = tb::try_parse_json(tb::read_file(manifest, kMaxRunManifestBytes));
   if (!run.manifest.is_object())
     throw spec::FileError(
-        fmt::format("'{}' is damaged: run that again, or remove it", manifest.string()));
+        fmt::format("'{}' is damaged: run it again, or remove it", manifest.string()));
   return run;
 }
 
@@ -77,13 +75,10 @@ Json warnings_of(const std::vector<Run>& runs) {
   Json warnings = Json::array();
   for (const Run& run : runs) {
     for (const std::string& memory : tb::not_implementable_memories(run.result))
-      warnings.push_back(
-          fmt::format("{} cannot be built: not implementable: memory {}", run.letter, memory));
+      warnings.push_back(fmt::format("{} is not implementable: memory {}", run.letter, memory));
     if (run.result.value("interrupted", false))
       warnings.push_back(
-          fmt::format("{} was interrupted: its figures cover what was done until "
-                      "then",
-                      run.letter));
+          fmt::format("{} was interrupted: its figures cover only the completed part", run.letter));
     if (&run == &runs[0] || !run.manifest.is_object() || !runs[0].manifest.is_object()) continue;
     for (std::string line : different_work(runs[0].manifest, run.manifest)) {
       // different_work() uses the letters A and B.
@@ -229,7 +224,7 @@ Headlines headlines(const std::vector<Run>& runs) {
                    {"FLIP", "quality.flip"},
                    {"SSIM", "quality.ssim"},
                    {"Pixels changed by more than 2 codes", "change.over_2_percent"},
-                   {"Right pixels changed by more than 2 codes", "change.right_over_2_percent"}};
+                   {"Correct pixels changed by more than 2 codes", "change.right_over_2_percent"}};
   for (const Run& run : runs)
     for (const Json& figure : run.result.value("figures", Json::array()))
       if (const std::string key = figure.value("key", "");

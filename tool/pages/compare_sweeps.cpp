@@ -63,9 +63,9 @@ Sweep read_sweep(const fs::path& path) {
     throw FileError(fmt::format("'{}' is damaged ({}): run 'deburr sweep FILE collect' again",
                                 file.string(), what));
   };
-  if (!json.is_object()) damaged("it is no JSON object");
+  if (!json.is_object()) damaged("not a JSON object");
   if (json.value("schema", 0) != kCollectionSchema)
-    damaged(fmt::format("it is not of schema {}", kCollectionSchema));
+    damaged(fmt::format("expected schema {}", kCollectionSchema));
   for (const char* key :
        {"sweep", "engine", "counts", "base", "axes", "metrics", "objectives", "points"})
     if (!json.contains(key)) damaged(fmt::format("'{}' is missing", key));
@@ -176,8 +176,8 @@ class SweepComparison {
     }
     if (metrics_.empty())
       throw spec::ConfigError(
-          "the sweeps have no metric in common, by its key: name one in all of them, and collect "
-          "them again");
+          "the sweeps have no metric key in common: add the same metric to all of them, and "
+          "collect them again");
   }
 
   // A key of result.json in the notation of compare().

@@ -83,7 +83,7 @@
     const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];
-    // JSON has no infinity: identical pictures are flagged next to their values.
+    // JSON cannot represent infinity: identical pictures are flagged next to their values.
     for (const p of every)
       p.values.forEach((values, s) => metrics.forEach((m, i) => {
         if (p.identical[s].includes(m.name)) values[i] = Infinity;

@@ -71,7 +71,7 @@ class ComparisonPage {
   // The compared inputs: the columns of every table.
   void fill_inputs(const Json& inputs) {
     mustache::data list{mustache::data::type::list};
-    HtmlTable table("|Directory:mono anywhere|What it is");
+    HtmlTable table("|Directory:mono anywhere|Title");
     std::string title;
     for (const Json& input : inputs) {
       mustache::data data;
@@ -79,7 +79,7 @@ class ComparisonPage {
       data.set("command", text_of(input.value("command", Json())));
       list << data;
       HtmlCell path = text_of(input.at("path"));
-      if (&input == &inputs.front()) path.add(" " + muted("(what the others are compared with)"));
+      if (&input == &inputs.front()) path.add(" " + muted("(baseline)"));
       table.row({letter(input.at("name")), path,
                  HtmlCell(text_of(input.at("title")))
                      .add(" " + muted(text_of(input.value("summary", Json()))))});
@@ -172,7 +172,7 @@ class ComparisonPage {
                       entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
         if (const std::string change = entry.value("change", ""); !change.empty())
           cell.add("<small>" + mustache::html_escape(change) + "</small>");
-        // A percentage of decibels has no meaning.
+        // A percentage of decibels is meaningless.
         const auto value = as_number(entry.at("value"));
         if (bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value))
           cell.add(fmt::format(R"(<div class="bar"><i style="width: {:.1f}%"></i></div>)",
@@ -240,7 +240,7 @@ class ComparisonPage {
           "{} points, {} done, {} on its front", figure_text(counts.value("points", Json(0))),
           figure_text(counts.value("done", Json(0))), figure_text(counts.value("front", Json(0))));
       if (sweep.contains("joint_front"))
-        text += fmt::format(", {} on the front of all together", figure_text(sweep["joint_front"]));
+        text += fmt::format(", {} on the joint front", figure_text(sweep["joint_front"]));
       sweep["summary"] = text;
     }
     fill_inputs(sweeps);
@@ -253,7 +253,7 @@ class ComparisonPage {
       axes += (axes.empty() ? "" : ", ") + text_of(axis);
     page_.set("axes", axes);
     HtmlTable rows(
-        "|Metric:name|Better:n|Equal:n|Worse:n|Mean change:n|Least:n|Most:n|Unit|"
+        "|Metric:name|Better:n|Equal:n|Worse:n|Mean change:n|Smallest:n|Largest:n|Unit|"
         "Meaning:muted meaning");
     const Json& metrics = comparison_.at("metrics");
     for (std::size_t i = 0; i < comparison_.at("summary").size(); ++i)

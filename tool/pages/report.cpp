@@ -169,11 +169,11 @@ class ReportBuilder {
       const Json before = quality->value(edges ? "psnr_edge_before_db" : "psnr_before_db", Json());
       const std::string gain = gain_of(before, after);
       tile(edges ? "PSNR, edge pixels" : "PSNR", two_digits(after), "dB",
-           gain == "-" ? "of what came out" : gain + " dB, before " + two_digits(before));
+           gain == "-" ? "of the output" : gain + " dB, before " + two_digits(before));
     }
     tile("Simulation", fmt::format("{:.2f}", number(result_["host"], "mcycles_per_s")), "Mcycle/s",
-         fmt::format("{:.1f} s, {:.1f} s of them computing", number(result_["host"], "seconds"),
-                     number(result_["host"], "cpu_seconds")));
+         fmt::format("{:.1f} s, of which {:.1f} s processor time",
+                     number(result_["host"], "seconds"), number(result_["host"], "cpu_seconds")));
     page_.set("tiles", html_of(tiles));
 
     mustache::data meters{mustache::data::type::list};
@@ -225,7 +225,7 @@ class ReportBuilder {
     return text;
   }
 
-  // The value under a dotted key; null if there is none.
+  // The value under a dotted key; null if absent.
   Json value_at(const std::string& key) const {
     const Json* node = &result_;
     for (std::size_t from = 0; from <= key.size();) {
@@ -343,15 +343,15 @@ class ReportBuilder {
     page_.set("has_change", change != result_.end());
     if (change == result_.end()) return;
     HtmlTable table(
-        "Pixels, against what went in|All:n|Right before:n:within 2 codes of the reference "
-        "before|Unit",
+        "Pixels, compared with the input|All:n|Correct input:n:input within 2 codes of the "
+        "reference|Unit",
         "after");
     const auto text = [&](const char* key) { return two_digits(change->value(key, Json())); };
     table.row({"Changed by more than 2 codes", text("over_2_percent"), text("right_over_2_percent"),
                "%"});
     table.row({"Changed by more than 16 codes", text("over_16_percent"),
                text("right_over_16_percent"), "%"});
-    table.row({"PSNR to what went in", text("psnr_db"), "", "dB"});
+    table.row({"PSNR to the input", text("psnr_db"), "", "dB"});
     page_.set("change", table.html());
   }
 

@@ -204,7 +204,7 @@
       if (!map)
         return `${title} RGBA ${colour(index, pixel.x, pixel.y)}`;
       const value = valueOf(map, pixel);
-      return `${title} ${value === null ? 'has nothing there' : `${amount(value)} ${map.unit}`}`;
+      return `${title} ${value === null ? 'has no value there' : `${amount(value)} ${map.unit}`}`;
     }
     function tell() {
       byId('probe').textContent = pointed
@@ -597,7 +597,7 @@
     const name = byId('link').value, link = data.result.links[name], watched = intervals.series.links[name];
     add('link-time', 'line', [
       line('mean', css('--busy'), over(watched.occupancy, cycles)),
-      line('most', css('--warn'), watched.most)
+      line('maximum', css('--warn'), watched.most)
     ], 'beats', {suggestedMax: link.depth});
     const total = link.histogram.reduce((a, b) => a + b, 0);
     const beatTicks = roundTicks([...link.histogram.map((_, i) => i), link.histogram.length]);

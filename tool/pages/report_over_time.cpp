@@ -52,12 +52,13 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   const std::vector<std::uint64_t> from = column(intervals["from"]),
                                    cycles = column(intervals["cycles"]);
   page.set("intervals_note",
-           fmt::format("{} intervals of {} cycles{}.", tb::grouped(from.size()),
-                       report_text(intervals["interval_cycles"]),
-                       intervals["interval_cycles"] == intervals["asked_cycles"]
-                           ? ""
-                           : fmt::format("; {} were asked for, which would be too many intervals",
-                                         report_text(intervals["asked_cycles"]))));
+           fmt::format(
+               "{} intervals of {} cycles{}.", tb::grouped(from.size()),
+               report_text(intervals["interval_cycles"]),
+               intervals["interval_cycles"] == intervals["asked_cycles"]
+                   ? ""
+                   : fmt::format("; intervals of {} cycles were requested, which would be too many",
+                                 report_text(intervals["asked_cycles"]))));
 
   // A rate is a series divided by cycles.
   std::vector<std::vector<std::uint64_t>> columns;
@@ -92,7 +93,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
   page.set("intervals", table.html());
 
   HtmlTable links(
-      "Link:name|Of waves:name mono muted|Depth:n|Beats:n|Mean:n|Most:n|Full, % of cycles:n");
+      "Link:name|Waveform:name mono muted|Depth:n|Beats:n|Mean:n|Maximum:n|Full, % of cycles:n");
   const Json of_links = source.result.value("links", Json::object());
   for (const auto& [link, figures] : of_links.items())
     links.row({link, figures.value("link", ""), report_text(figures, "depth"),

@@ -111,7 +111,7 @@ Json fill_pictures(const ReportSource& source, mustache::data& page) {
   fill_stills(source, page);
   Json kept = Json::object();
   HtmlTable table(
-      "Map|Least:n|Mean:n|Most:n|Unit|Sum:n|Pixels:n|Values:mono|Meaning:muted meaning");
+      "Map|Minimum:n|Mean:n|Maximum:n|Unit|Sum:n|Pixels:n|Values:mono|Meaning:muted meaning");
   const Json maps = source.result.value("maps", Json::object());
   for (const auto& [name, map] : maps.items()) {
     const auto text = [&of = map](const char* key) { return tb::amount(number(of, key)); };

@@ -60,7 +60,7 @@ void fill_pixel(const ReportSource& source, kainjow::mustache::data& page) {
   page.set("pixel", pixel);
   page.set("pixel_note", found->value("note", ""));
   page.set("pixel_differences", report_text(*found, "differences"));
-  HtmlTable steps("Step:name|What:name|Golden:mono|Hardware:mono|Clock:n", "history");
+  HtmlTable steps("Step:name|Value:name|Golden:mono|Hardware:mono|Cycle:n", "history");
   std::string part;
   std::optional<std::uint64_t> first, last;
   for (const Json& step : found->value("steps", Json::array())) {

@@ -146,7 +146,7 @@ void RunContext::add_inputs(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     DEBURR_CHECK(!shared_ || std::find(shared_files_.begin(), shared_files_.end(), file) !=
                                  shared_files_.end(),
-                 fmt::format("'{}' was read, and is in no key", file.string()));
+                 fmt::format("'{}' was read but is in no key", file.string()));
     list(file, shared_ ? shared_->files().content(file) : content_of(file), "");
   }
   if (shared_) shared_->files().reject_changed(files);

@@ -83,8 +83,8 @@ std::string holder(const fs::path& claim) {
 
 [[noreturn]] void reject_foreign(const fs::path& file) {
   throw spec::ConfigError(
-      fmt::format("'{}' exists, and no manifest.json beside it names it as an earlier run's: move "
-                  "it away, or choose another directory with --out",
+      fmt::format("'{}' exists, but no manifest.json next to it lists it as a file of an earlier "
+                  "run: move it away, or choose another directory with --out",
                   file.string()));
 }
 
@@ -137,12 +137,12 @@ void RunDirectory::lock(IfTaken if_taken) {
   while (!try_lock()) {
     const std::string other = holder(draft() / kClaim);
     if (if_taken == IfTaken::kReject && (!other.empty() || steady_clock::now() > patience))
-      throw spec::FileError(fmt::format(
-          "'{}' is taken by another run{}: wait until it is over (--wait does), or choose another "
-          "directory with --out",
-          path_.string(), other.empty() ? "" : ", " + other));
+      throw spec::FileError(
+          fmt::format("'{}' is used by another run{}: wait for its end (--wait), or choose another "
+                      "directory with --out",
+                      path_.string(), other.empty() ? "" : ", " + other));
     if (if_taken == IfTaken::kWait && !told && !other.empty()) {
-      fmt::print(stderr, "deburr: waiting for '{}', which is taken by {}\n", path_.string(), other);
+      fmt::print(stderr, "deburr: waiting for '{}', which is used by {}\n", path_.string(), other);
       told = true;
     }
     if (tb::interrupted()) throw tb::Interrupted();
@@ -160,7 +160,7 @@ bool RunDirectory::try_lock() {
   if (!fs::exists(fs::symlink_status(draft(), error))) fs::create_directories(draft(), error);
   if (error) fail("make the folder", path_, error.message());
   if (!fs::is_directory(fs::symlink_status(draft())))
-    fail("make the folder", draft(), "something else has its name");
+    fail("make the folder", draft(), "something that is not a folder has its name");
   const fs::path file = draft() / kClaim;
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0 && errno == ENOENT) return false;
@@ -217,10 +217,9 @@ void RunDirectory::reject_to_replace(const fs::path& file) const {
   std::error_code error;
   for (const std::string& name : going)
     if (fs::exists(path_ / name, error) && fs::equivalent(path_ / name, file, error))
-      throw spec::ConfigError(
-          fmt::format("the run reads '{}', and its results would replace it: choose another "
-                      "directory with --out",
-                      file.string()));
+      throw spec::ConfigError(fmt::format(
+          "the results would overwrite the input '{}': choose another directory with --out",
+          file.string()));
 }
 
 // ---- releasing ----------------------------------------------------------------------------------
@@ -267,7 +266,7 @@ void RunDirectory::clear_draft() const {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(draft(), error))
     if (entry.path().filename() != kClaim && (fs::remove_all(entry.path(), error), error))
-      fail("remove what a dead run left,", entry.path(), error.message());
+      fail("remove a file of a killed run,", entry.path(), error.message());
 }
 
 // Deletes the claim while it is locked, so that a process waiting for the lock notices that the

@@ -19,7 +19,7 @@
       plugins: {legend: kLegend},
       scales: {
         rate: axis('%', {position: 'left', max: 100}),
-        speed: axis('thousand cycles a second', {position: 'right', beginAtZero: true, grid: {drawOnChartArea: false}}),
+        speed: axis('thousand cycles per second', {position: 'right', beginAtZero: true, grid: {drawOnChartArea: false}}),
       },
     },
   });

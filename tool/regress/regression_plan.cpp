@@ -45,7 +45,7 @@ class RegressionPlanner {
         const std::size_t before = points_.size();
         expand(feature, stimulus);
         if (points_.size() == before)
-          throw ConfigError(fmt::format("{}: feature '{}': stimulus '{}' has no point",
+          throw ConfigError(fmt::format("{}: feature '{}': stimulus '{}' has zero points",
                                         testplan_.file.string(), feature.id, stimulus.name));
       }
     if (points_.size() > kMostPoints)
@@ -115,8 +115,9 @@ class RegressionPlanner {
     const std::string& engine = stimulus.configurations.engine;
     for (const Setting& each : settings)
       if (each.name == "run.check" && each.value == "none")
-        throw ConfigError(fmt::format("{}: {} has run.check = none: what nobody checks would pass",
-                                      testplan_.file.string(), name));
+        throw ConfigError(
+            fmt::format("{}: {} has run.check = none: unchecked runs would always pass",
+                        testplan_.file.string(), name));
     give("run.images", "false");
     give("run.coverage", "true");
     try {

@@ -106,7 +106,7 @@ Json to_json(const FailureSignature& signature, const RegressionResult& result,
         {"reason", example.failure.reason},
         {"directory", seen_from(place, point_directory(place.points(), example.point.name))},
         {"command", command_of(example.point)}}}};
-  // A rejected or killed run has no result.
+  // A rejected or killed run leaves no result.
   const fs::path result_file = point_directory(place.points(), example.point.name) / "result.json";
   if (std::error_code error; fs::exists(result_file, error))
     json["example"]["result"] = seen_from(place, result_file);
@@ -209,18 +209,13 @@ std::string junit_of(const Testplan& testplan, const RegressionResult& result) {
         test = {test.name,        run.seconds,        JunitOutcome::kFailed,
                 run.failure.kind, run.failure.reason, command_of(run.point)};
       else if (run.state != PointState::kDone)
-        test = {test.name,
-                0,
-                JunitOutcome::kError,
-                "missing",
-                "there is no result",
-                command_of(run.point)};
+        test = {test.name, 0, JunitOutcome::kError, "missing", "no result", command_of(run.point)};
       report.add(test);
     }
     for (const CheckResult& check : feature.checks)
       report.add({"checks: " + check.required.scoreboard, 0,
                   check.met() ? JunitOutcome::kPassed : JunitOutcome::kFailed, "checks",
-                  check.unknown.empty() ? fmt::format("{} comparisons, {} are wanted",
+                  check.unknown.empty() ? fmt::format("{} comparisons, at least {} are required",
                                                       check.comparisons, check.required.minimum)
                                         : check.unknown,
                   check.required.where});
@@ -366,8 +361,8 @@ mustache::data card_of(const Json& signature) {
 // The latest nights; the chart shows all.
 void tell_trend(const std::vector<Night>& nights, mustache::data& page) {
   HtmlTable rows(
-      "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand cycles a second:n|"
-      "Worse than before");
+      "Night|Base seed|Commit:mono|Runs:n|Rate:n|Bins met:n|Seconds:n|Thousand cycles per "
+      "second:n|Worse than before");
   const std::size_t shown = std::min(nights.size(), kMostNights);
   for (std::size_t i = nights.size(); i > nights.size() - shown; --i) {
     const Night& night = nights[i - 1];
@@ -486,7 +481,7 @@ std::uint64_t seed_of_last_report(const fs::path& out, const std::string& testpl
   }
   if (!last)
     throw spec::FileError(
-        fmt::format("there is no report of '{}' in '{}': 'run' it first", testplan, all.string()));
+        fmt::format("no report of '{}' in '{}': use 'run' first", testplan, all.string()));
   return last->second;
 }
 
@@ -495,7 +490,7 @@ std::set<std::string> failed_in_report(const SweepPlace& place) {
   std::error_code error;
   if (!fs::exists(file, error))
     throw spec::FileError(
-        fmt::format("there is no report in '{}': 'run' it first", place.directory.string()));
+        fmt::format("no report in '{}': use 'run' first", place.directory.string()));
   const Json json = tb::try_parse_json(tb::read_file(file, kMaxReportBytes));
   if (!json.is_object() || json.value("schema", 0) != kReportSchema)
     throw spec::FileError(

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using SortedJson = nlohmann::json;
 
-// Null if the run has no result.
+// Null if the run lacks a result.
 SortedJson result_in(const fs::path& directory) {
   const fs::path file = directory / "result.json";
   std::error_code error;
@@ -151,7 +151,7 @@ class RunCollector {
   static std::string unknown(const std::string& where, std::string_view what,
                              const std::string& name, const std::vector<std::string>& known,
                              std::string_view whose = "this feature") {
-    return fmt::format("{}: no run of {} has a {} '{}' (there are {}){}", where, whose, what, name,
+    return fmt::format("{}: no run of {} has a {} '{}' (known: {}){}", where, whose, what, name,
                        fmt::join(known, ", "), tb::did_you_mean(tb::near_matches(name, known)));
   }
 

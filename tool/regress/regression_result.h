@@ -97,7 +97,7 @@ std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_
                                           const Plan& plan, const SweepPlace& place,
                                           const RegressionResult& result);
 
-// The base seed of this testplan's latest report. FileError if there is none.
+// The base seed of this testplan's latest report. FileError if it does not exist.
 std::uint64_t seed_of_last_report(const std::filesystem::path& out, const std::string& testplan);
 // Names (PointOrigin::name) of the failed runs in the report. FileError as above.
 std::set<std::string> failed_in_report(const SweepPlace& place);

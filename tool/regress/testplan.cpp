@@ -113,7 +113,7 @@ class TestplanFile {
     for (const YAML::Node& node : list_of(root, "features")) {
       Feature feature = read_feature(node);
       if (feature_named(feature.id))
-        yaml_.fail(node["id"], fmt::format("there are two features '{}'", feature.id));
+        yaml_.fail(node["id"], fmt::format("duplicate feature '{}'", feature.id));
       common_.push_back(std::move(feature));
     }
     return files;
@@ -125,8 +125,7 @@ class TestplanFile {
     std::set<std::string> own;
     for (const YAML::Node& node : list_of(yaml_.root(), "features")) {
       const std::string id = name_of(node, "id");
-      if (!own.insert(id).second)
-        yaml_.fail(node["id"], fmt::format("there are two features '{}'", id));
+      if (!own.insert(id).second) yaml_.fail(node["id"], fmt::format("duplicate feature '{}'", id));
       if (Feature* const feature = feature_named(id))
         add_to(*feature, node);
       else
@@ -154,7 +153,7 @@ class TestplanFile {
     }
     yaml_.require_keys(glob.node, {"bins", "reason"});
     const std::string reason = text_of(glob.node, "reason");
-    if (reason.empty()) yaml_.fail(glob.node["reason"], "'reason' wants a text");
+    if (reason.empty()) yaml_.fail(glob.node["reason"], "'reason' must be a text");
     if (!glob.node["bins"]) yaml_.fail(glob.node, "'bins' is missing");
     plan.unmet.push_back({read_glob(glob.node["bins"], "bins", bins, "the plan's"), reason, where});
   }
@@ -165,7 +164,7 @@ class TestplanFile {
     const YAML::Node list = map[key];
     if (!list) yaml_.fail(map, fmt::format("'{}' is missing", key));
     if (!list.IsSequence() || list.size() == 0)
-      yaml_.fail(list, fmt::format("'{}' wants a list, got {}", key, YamlFile::kind(list)));
+      yaml_.fail(list, fmt::format("'{}' must be a list, got {}", key, YamlFile::kind(list)));
     return list;
   }
 
@@ -183,7 +182,7 @@ class TestplanFile {
     for (const std::string& name : names) {
       files.push_back((yaml_.path().parent_path() / name).lexically_normal());
       if (std::error_code error; !fs::is_regular_file(files.back(), error))
-        yaml_.fail(node, fmt::format("there is no file '{}'", files.back().string()));
+        yaml_.fail(node, fmt::format("file '{}' not found", files.back().string()));
     }
     return files;
   }
@@ -205,8 +204,9 @@ class TestplanFile {
     std::string name = text_of(map, key);
     if (name.empty() ||
         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
-      yaml_.fail(map[key],
-                 fmt::format("'{}' = '{}' wants lower-case letters, digits and -", key, name));
+      yaml_.fail(
+          map[key],
+          fmt::format("'{}' = '{}' must consist of lower-case letters, digits and -", key, name));
     return name;
   }
 
@@ -219,7 +219,9 @@ class TestplanFile {
     if (!includes_ || node["traces"]) read_traces_of(node, feature);
     if (!includes_ || node["stimuli"]) read_stimuli_of(node, feature);
     if (!includes_ && !node["checks"] && !node["coverage"])
-      yaml_.fail(node, "'checks' is missing, and so is 'coverage': what must its runs show?");
+      yaml_.fail(
+          node,
+          "'checks' and 'coverage' are both missing: give one of them, so that the runs can fail");
     read_checks(node, feature);
     note_globs(node, feature.id);
     return feature;
@@ -243,7 +245,7 @@ class TestplanFile {
       Stimulus stimulus = read_stimulus(entry);
       for (const Stimulus& other : feature.stimuli)
         if (other.name == stimulus.name)
-          yaml_.fail(entry["name"], fmt::format("there are two stimuli '{}'", stimulus.name));
+          yaml_.fail(entry["name"], fmt::format("duplicate stimulus '{}'", stimulus.name));
       feature.stimuli.push_back(std::move(stimulus));
     }
   }
@@ -253,8 +255,9 @@ class TestplanFile {
       if (!node[key]) continue;
       for (const YAML::Node& glob : list_of(node, key)) {
         if (glob.IsMap() != (key == std::string_view("unmet")))
-          yaml_.fail(glob, fmt::format("'{}' wants {}, got {}", key,
-                                       glob.IsMap() ? "a list of globs" : "maps of bins and reason",
+          yaml_.fail(glob, fmt::format("'{}' must be {}, got {}", key,
+                                       glob.IsMap() ? "a list of globs"
+                                                    : "a list of maps of bins and reason",
                                        YamlFile::kind(glob)));
         globs_.push_back({feature, glob, &yaml_});
       }
@@ -277,13 +280,13 @@ class TestplanFile {
     const std::size_t mark = std::min(trace.find('#'), trace.size());
     const fs::path page = trace.substr(0, mark);
     if (!is_in_docs(page))
-      yaml_.fail(node, fmt::format("'traces' = '{}' wants a heading of a page of the "
+      yaml_.fail(node, fmt::format("'traces' = '{}' must be a heading of a page of the "
                                    "documentation, docs/PAGE.md#HEADING",
                                    trace));
     const std::vector<std::string>* const anchors = pages_.find(page);
     if (!anchors)
-      yaml_.fail(node, fmt::format("there is no page '{}' in the folders around this file",
-                                   page.string()));
+      yaml_.fail(node,
+                 fmt::format("page '{}' not found in any folder above this file", page.string()));
     const std::string anchor = trace.substr(std::min(mark + 1, trace.size()));
     if (anchor.empty())
       yaml_.fail(node, fmt::format("'traces' = '{}' names no heading: append #HEADING, with - for "
@@ -291,7 +294,7 @@ class TestplanFile {
                                    trace));
     if (std::find(anchors->begin(), anchors->end(), anchor) == anchors->end()) {
       const std::vector<std::string> near = tb::near_matches(anchor, *anchors);
-      yaml_.fail(node, fmt::format("'{}' has no heading '#{}'{}", page.string(), anchor,
+      yaml_.fail(node, fmt::format("'{}' lacks the heading '#{}'{}", page.string(), anchor,
                                    near.empty() ? ": check that the feature is still tested, and "
                                                   "name the heading that describes it now"
                                                 : tb::did_you_mean(near)));
@@ -316,7 +319,7 @@ class TestplanFile {
     const YAML::Node checks = node["checks"];
     if (!checks) return;
     if (!checks.IsMap() || checks.size() == 0)
-      yaml_.fail(checks, fmt::format("'checks' wants a map of scoreboards to numbers, got {}",
+      yaml_.fail(checks, fmt::format("'checks' must be a map of scoreboards to numbers, got {}",
                                      YamlFile::kind(checks)));
     for (const auto& entry : checks) {
       const std::string name = entry.first.Scalar();
@@ -342,14 +345,14 @@ class TestplanFile {
                         const std::vector<std::string>& bins, std::string_view whose) const {
     std::string glob = yaml_.scalar(node, key);
     if (glob.empty() || glob.find_first_of("[]{}!\\") != std::string::npos)
-      yaml_.fail(node, fmt::format("'{}' is no glob: * stands for any text, ? for any character, "
-                                   "and [, {{, ! and \\ for nothing",
+      yaml_.fail(node, fmt::format("'{}' is not a glob: * matches any text and ? any character; [, "
+                                   "{{, ! and \\ are not supported",
                                    glob));
     if (std::none_of(bins.begin(), bins.end(),
                      [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
-      yaml_.fail(node, fmt::format("no bin of {} engines is called '{}'{} "
-                                   "(docs/reference/coverage.md)",
-                                   whose, glob, tb::did_you_mean(tb::near_matches(glob, bins))));
+      yaml_.fail(node,
+                 fmt::format("no bin of {} engines matches '{}'{} (docs/reference/coverage.md)",
+                             whose, glob, tb::did_you_mean(tb::near_matches(glob, bins))));
     return glob;
   }
 
@@ -400,17 +403,17 @@ Testplan read_testplan(const fs::path& file) {
   for (const PendingGlob& glob : globs)
     TestplanFile(*glob.yaml, common, plan.features, globs).read(glob, plan);
   if (plan.coverage.empty() && !plan.unmet.empty())
-    throw spec::ConfigError(fmt::format(
-        "{}: 'unmet' excepts bins of the plan's 'coverage' beside 'features', and there is none",
-        plan.unmet.front().where));
+    throw spec::ConfigError(
+        fmt::format("{}: 'unmet' lists bins of the plan's own 'coverage' (next to 'features'), "
+                    "which is missing",
+                    plan.unmet.front().where));
   plan.features.insert(plan.features.end(), std::make_move_iterator(common.begin()),
                        std::make_move_iterator(common.end()));
   const auto require = [&](bool has, const Feature& feature, const char* what) {
     if (!has)
       throw spec::ConfigError(
-          fmt::format("{}: the feature '{}' has no {}, and no file that the plan "
-                      "includes adds some",
-                      file.string(), feature.id, what));
+          fmt::format("{}: the feature '{}' lacks {}, and no included file adds any", file.string(),
+                      feature.id, what));
   };
   for (const Feature& feature : plan.features) {
     require(!feature.traces.empty(), feature, "traces");

@@ -116,9 +116,9 @@ std::vector<Night> read_trend(const fs::path& file) {
     ++number;
     const std::optional<Night> night = night_in(line);
     if (!night)
-      throw spec::FileError(
-          fmt::format("'{}': line {} is no night of this version: move the file away, or mend it",
-                      file.string(), number));
+      throw spec::FileError(fmt::format(
+          "'{}': line {} is not an entry of this version: move the file away, or fix the line",
+          file.string(), number));
     nights.push_back(*night);
   }
   return nights;

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -60,8 +61,9 @@ class ColoursPort {
  public:
   virtual ~ColoursPort() = default;
   virtual bool can_pop(rtl::Cycle cycle) const = 0;
-  // The engine's environment has checked it as well.
-  virtual DrawnColour take(rtl::Cycle cycle) = 0;
+  // Takes a beat and calls `each` for its colours. The engine's environment has checked them as
+  // well.
+  virtual void take(rtl::Cycle cycle, const std::function<void(const DrawnColour&)>& each) = 0;
 };
 
 class DrawingStage : public Stage {
@@ -146,7 +148,7 @@ class CompositionRole {
   // Prefixes of these names.
   virtual std::vector<std::string> prefixes() const = 0;
   virtual void apply_preset(tb::ParameterSet& set) = 0;
-  // Called after every preset: rejects settings that have no effect or are invalid.
+  // Called after every preset: rejects invalid settings and those without effect.
   virtual void resolve(tb::ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }

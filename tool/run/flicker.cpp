@@ -12,9 +12,8 @@
 
 namespace deburr::tool {
 std::vector<Shorthand> sequence_shorthands() {
-  return {
-      {"--frames", "sequence.frames", "Measures flicker over so many frames of a moving camera"},
-      {"--motion", "sequence.motion", "zoom, roll (default) or pan"}};
+  return {{"--frames", "sequence.frames", "Measure flicker over N frames of a moving camera"},
+          {"--motion", "sequence.motion", "zoom, roll (default) or pan"}};
 }
 
 int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequence,
@@ -24,7 +23,7 @@ int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequenc
     for (const char* name : {"sequence.frames", "sequence.motion"}) set.reject(name, why);
     return lists.frames();
   }
-  if (sequence.frames == 1) set.reject("sequence.motion", "sequence.frames = 1 does not move");
+  if (sequence.frames == 1) set.reject("sequence.motion", "sequence.frames = 1 has no motion");
   return sequence.frames;
 }
 
@@ -55,18 +54,18 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
   }
   add_flicker(result, after, before);
   result.terminal.push_back(
-      {"flicker",
-       fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
-                   after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})", after.worst(),
-                                                   after.worst_frame())
-                                     : "",
-                   reference ? fmt::format("against {:.2f} of what went in", before.mean())
-                             : "beyond what went in")});
-  result.figures.push_back({reference ? "Flicker over the frames" : "Flicker beyond what went in",
-                            "work.flicker", "worst pair of frames", "work.flicker_worst"});
+      {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
+                              after.worst() > 0 ? fmt::format(" (worst {:.2f}, at frame {})",
+                                                              after.worst(), after.worst_frame())
+                                                : "",
+                              reference ? fmt::format("against {:.2f} of the input", before.mean())
+                                        : "beyond that of the input")});
+  result.figures.push_back(
+      {reference ? "Flicker over the frames" : "Flicker beyond that of the input", "work.flicker",
+       "worst pair of frames", "work.flicker_worst"});
   if (reference)
     result.figures.push_back(
-        {"Flicker, against what went in", "work.flicker", "went in", "work.flicker_before"});
+        {"Flicker, compared with the input", "work.flicker", "went in", "work.flicker_before"});
 }
 
 }  // namespace deburr::tool

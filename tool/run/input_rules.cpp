@@ -14,7 +14,7 @@ namespace deburr::tool {
 namespace {
 
 constexpr const char* kLook =
-    "look at the camera (scene.eye, scene.target, scene.fov) and at the size of the mesh";
+    "check the camera (scene.eye, scene.target, scene.fov) and the size of the mesh";
 
 bool shows_something(const tb::DepthImage& depth) {
   return std::any_of(depth.pixels.begin(), depth.pixels.end(), [](float d) { return d > 0; });
@@ -25,11 +25,11 @@ bool shows_something(const tb::DepthImage& depth) {
 void reject_empty_picture(const tb::Scene& scene, int width, int height) {
   const tb::Mesh& mesh = scene.mesh;
   const tb::Bounds box = bounds(mesh);
-  throw spec::ConfigError(fmt::format(
-      "the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) to "
-      "({:g}, {:g}, {:g}), covers the centre of one of {} x {} pixels: {}",
-      scene.name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
-      box.high.z, width, height, kLook));
+  throw spec::ConfigError(
+      fmt::format("the scene '{}' draws nothing: none of its {} triangles, from ({:g}, {:g}, {:g}) "
+                  "to ({:g}, {:g}, {:g}), covers the centre of any of {} x {} pixels: {}",
+                  scene.name, mesh.triangles.size(), box.low.x, box.low.y, box.low.z, box.high.x,
+                  box.high.y, box.high.z, width, height, kLook));
 }
 
 void reject_nothing_drawn(const tb::Scene& scene, const tb::DepthImage& depth) {
@@ -39,8 +39,8 @@ void reject_nothing_drawn(const tb::Scene& scene, const tb::DepthImage& depth) {
 void reject_nothing_drawn(const tb::DepthImage& depth, std::string_view source) {
   if (shows_something(depth)) return;
   throw spec::ConfigError(
-      fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of one of "
-                  "{} x {} pixels: look at the size of the mesh",
+      fmt::format("the scene '{}' draws nothing: none of its triangles covers the centre of any of "
+                  "{} x {} pixels: check the size of the mesh",
                   source, depth.width, depth.height));
 }
 
@@ -54,8 +54,8 @@ void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
   if (slowest + memory.bank_busy >= cycles)
     throw spec::ConfigError(fmt::format(
         "{0}.{1} = {2}{3} is not below run.watchdog_cycles = {4}, after which a run without "
-        "progress counts as dead: raise that (--set run.watchdog_cycles={5}), or make the memory "
-        "faster",
+        "progress counts as a deadlock: raise it (--set run.watchdog_cycles={5}), or make the "
+        "memory faster",
         prefix, drawn ? "latency_max" : "latency", slowest,
         memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
         cycles, 2 * (slowest + memory.bank_busy)));
@@ -70,7 +70,7 @@ void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
     reject("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
   if (memory.banks == 1) reject("interleave_bytes", fmt::format("{}.banks = 1", prefix));
   if (memory.error_address < 0)
-    reject("error_bytes", fmt::format("{}.error_address names no address", prefix));
+    reject("error_bytes", fmt::format("{}.error_address is not set", prefix));
 }
 
 std::string with_changes(std::string label, const tb::ParameterSet& set, std::string_view prefix) {

@@ -25,7 +25,7 @@ void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
 // The configuration for a title: "preset gpaa", or "preset gpaa, changed: combine" with explicit
 // settings. `prefix` is that of the engine's parameters.
 std::string with_changes(std::string label, const tb::ParameterSet& set, std::string_view prefix);
-// Rejects memory parameters that have no effect with the other settings.
+// Rejects memory parameters that the other settings make ineffective.
 void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
                           const tb::MemoryParameters& memory);
 

@@ -156,7 +156,7 @@ std::string drawn(const RandomDraws& engine, const tb::Parameter& parameter, Ran
     choices.push_back(range.substr(from, to - from));
     from = to + kBetween.size();
   }
-  DEBURR_CHECK(choices.size() > 1, parameter.name + " has a range that nothing is drawn from");
+  DEBURR_CHECK(choices.size() > 1, parameter.name + " has a range that cannot be sampled");
   return std::string(choices[random.below(static_cast<std::uint32_t>(choices.size()))]);
 }
 
@@ -268,9 +268,9 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
     }
   }
   // Random draws alone always succeed, so the given settings are the cause.
-  throw spec::ConfigError(
-      fmt::format("of {} random configurations of '{}' for seed {} none goes with what is given",
-                  kTries, engine, seed));
+  throw spec::ConfigError(fmt::format(
+      "none of {} random configurations of '{}' for seed {} is valid with the given values", kTries,
+      engine, seed));
 }
 
 }  // namespace deburr::tool

@@ -25,7 +25,7 @@ void reject_no_history(const Engine& engine) {
   for (const std::unique_ptr<Engine>& other : engines())
     if (keeps_pixel_history(*other)) known.emplace_back(other->name());
   throw ConfigError(fmt::format(
-      "run.pixel: the engine {} keeps no history of a pixel: leave out --pixel; those "
+      "run.pixel: the engine {} does not record the history of a pixel: leave out --pixel; engines "
       "that do: {}",
       engine.name(), known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
@@ -55,17 +55,17 @@ void BoundEngine::resolve() {
         "cycle after the last one, give one above {}",
         run.timeline_from, run.timeline_to, run.timeline_from));
   if (run.timeline && run.timeline_to - run.timeline_from > kMostTimelineCycles)
-    throw ConfigError(fmt::format(
-        "run.timeline_from = {} and run.timeline_to = {}: {} cycles are more than a viewer opens, "
-        "at most {}: choose some of them",
-        run.timeline_from, run.timeline_to, run.timeline_to - run.timeline_from,
-        kMostTimelineCycles));
+    throw ConfigError(
+        fmt::format("run.timeline_from = {} and run.timeline_to = {}: {} cycles are more than "
+                    "trace viewers open, at most {}: choose a shorter range",
+                    run.timeline_from, run.timeline_to, run.timeline_to - run.timeline_from,
+                    kMostTimelineCycles));
   if (!run.timeline)
     for (const char* name : {"run.timeline_from", "run.timeline_to"})
-      set.reject(name, "there is no timeline without run.timeline (--timeline)");
+      set.reject(name, "it needs run.timeline (--timeline)");
   if (run.trace.empty())
     for (const char* name : {"run.trace_from", "run.trace_to"})
-      set.reject(name, "nothing is traced without run.trace (--trace)");
+      set.reject(name, "it needs run.trace (--trace)");
 }
 
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
@@ -119,7 +119,7 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
         bound.run.check == CheckMode::kGolden ? tb::Verdict::kPass : tb::Verdict::kUnchecked;
   if (result.interrupted && end.code == 0) {
     result.verdict = tb::Verdict::kUnchecked;
-    result.reason = "interrupted: the results cover what was done until then";
+    result.reason = "interrupted: the results cover only the completed part";
   }
   return end;
 }

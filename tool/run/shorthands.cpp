@@ -8,26 +8,26 @@ namespace {
 
 std::vector<Shorthand> common_shorthands() {
   return {
-      {"--seed", "run.seed", "Seed of textures made by formula"},
+      {"--seed", "run.seed", "Seed of procedural textures"},
       {"--stall-seed", "run.stall_seed", "Seed of random stalls, latency and order"},
       {"--check", "run.check", "golden (default) or none"},
       {"--trace", "run.trace", "Write waves of these units and links (glob) to trace.vcd"},
       {"--trace-from", "run.trace_from", "First cycle traced"},
       {"--trace-to", "run.trace_to", "Cycle after the last one traced"},
-      {"--windows", "run.interval_cycles", "Keep what happened in each window of so many cycles"},
-      {"--maps", "run.maps", "Leave maps of what was done for each pixel"},
-      {"--pixel", "run.pixel", "Keep everything that happens to this pixel"},
+      {"--windows", "run.interval_cycles", "Record the activity in intervals of N cycles"},
+      {"--maps", "run.maps", "Write maps of the work per pixel"},
+      {"--pixel", "run.pixel", "Record every step for this pixel"},
       {"--timeline", "run.timeline", "Write timeline.json for trace viewers such as Perfetto"},
       {"--timeline-from", "run.timeline_from", "First cycle of the timeline"},
       {"--timeline-to", "run.timeline_to", "Cycle after the last one of the timeline"},
-      {"--line-trace", "run.line_trace", "Leave every line asked of memory: text or binary"},
-      {"--max-cycles", "run.max_cycles", "End with an error after so many cycles"},
-      {"--stalls", "run.stalls", "Random stalls: probability in each cycle"},
+      {"--line-trace", "run.line_trace", "Write every line requested from memory: text or binary"},
+      {"--max-cycles", "run.max_cycles", "End with an error after N cycles"},
+      {"--stalls", "run.stalls", "Random stalls: probability per cycle"},
       {"--shuffle", "run.shuffle", "Evaluate units in random order"},
       {"--truth", "run.reference", "Compare with the scene's supersampled reference"},
-      {"--no-images", "run.images", "Leave no pictures", "", "false"},
+      {"--no-images", "run.images", "Write no pictures", "", "false"},
       {"--fault", "run.fault",
-       "Plant a fault that the checks must catch (docs/reference/tests.md)"}};
+       "Inject a fault that the checks must catch (docs/reference/tests.md)"}};
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ tb::SimulationOptions simulation_options(const RunParameters& run, const RunCont
   o.interval_cycles = static_cast<rtl::Cycle>(run.interval_cycles);
   o.maps = run.maps;
   if (run.coverage && !o.golden)
-    throw spec::ConfigError(
-        "run.coverage: what was met is known to the golden model: leave out run.check=none");
+    throw spec::ConfigError("run.coverage needs the golden model: leave out run.check=none");
   o.coverage = run.coverage;
   if (!run.pixel.empty()) o.pixel = tb::pixel_of(run.pixel);
   if (run.timeline)
@@ -62,13 +61,13 @@ void reject_empty_trace(tb::Simulation& simulation) {
   const rtl::Cycle end = simulation.clock().cycle();
   if (o.timeline && o.timeline->from >= end)
     throw spec::ConfigError(
-        fmt::format("run.timeline_from = {}: the run was over after cycle {}, so the timeline is "
-                    "empty: give a --timeline-from below it",
+        fmt::format("run.timeline_from = {}: the run ended after cycle {}, so the timeline is "
+                    "empty: give a smaller --timeline-from",
                     o.timeline->from, end));
   if (!o.trace_scope.empty() && o.trace_from >= end)
     throw spec::ConfigError(
-        fmt::format("run.trace_from = {}: the run was over after cycle {}, so nothing was traced: "
-                    "give a --trace-from below it",
+        fmt::format("run.trace_from = {}: the run ended after cycle {}, so nothing was traced: "
+                    "give a smaller --trace-from",
                     o.trace_from, end));
 }
 
@@ -121,7 +120,7 @@ void note_copies(RunContext& context) {
   constexpr std::uint64_t kLarge = 1'000'000;
   rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
     if (memory.copies() > kMany && memory.physical_bits() > kLarge)
-      context.add_note(fmt::format("{}: {} copies, one a read port, {} kbit for {} of content",
+      context.add_note(fmt::format("{}: {} copies, one per read port, {} kbit for {} of content",
                                    memory.name(), memory.copies(), memory.physical_bits() / 1000,
                                    memory.logical_bits() / 1000));
   });
@@ -151,7 +150,7 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
       try {
         part();
       } catch (const std::exception& error) {
-        context.add_note(fmt::format("of the run that failed something is missing: {}",
+        context.add_note(fmt::format("results of the failed run are missing: {}",
                                      from_repository(error.what())));
       }
     };

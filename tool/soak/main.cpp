@@ -16,16 +16,17 @@ namespace {
 int run(int argc, char** argv) {
   SoakOptions options;
   std::vector<std::string> sets;
-  CLI::App app("Random configurations of all engines against their golden models");
+  CLI::App app("Check random configurations of all engines against their golden models");
   app.add_option("--seconds", options.seconds, "How long")->capture_default_str();
-  app.add_option("--runs", options.runs, "End after so many runs; 0: when the time is over");
+  app.add_option("--runs", options.runs, "End after N runs; 0: when the time is over");
   app.add_option("--seed", options.seed, "Seed of the first configuration of each engine")
       ->capture_default_str();
-  app.add_option("--engines", options.engines, "Which, separated by commas (all)")->delimiter(',');
+  app.add_option("--engines", options.engines, "Engines, separated by commas (all)")
+      ->delimiter(',');
   app.add_option("--long-every", options.long_every,
-                 "Of so many runs the last ones, one of each engine, are long; 0: none")
+                 "Of every N runs, the last ones are long, one of each engine; 0: no long runs")
       ->capture_default_str();
-  app.add_option("--set", sets, "NAME=VALUE over what is drawn; may be repeated")
+  app.add_option("--set", sets, "NAME=VALUE replaces a random value; may be repeated")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   CLI11_PARSE(app, argc, argv);

@@ -142,7 +142,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
       if (n <= 0) open = false;
       text.append(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     } else {
-      // Sampled by CPU time: a child waiting for a processor makes no progress.
+      // Sampled by CPU time: a child waiting for a processor does not progress.
       if (const double worked = cpu_seconds(child); worked >= next_sample) {
         ended.resident.push_back(resident_bytes(child));
         next_sample = worked + kSamplePeriod * 1e-3;
@@ -160,7 +160,7 @@ Ended run_in_child(const std::string& engine, const Settings& settings, const fs
     ended.said.code = 3;
     ended.said.reason = WIFSIGNALED(status) ? fmt::format("killed by signal {} after {:.0f} s",
                                                           WTERMSIG(status), seconds_since(start))
-                                            : "the child ended without a word";
+                                            : "the child process ended without a report";
   }
   return ended;
 }
@@ -294,8 +294,8 @@ class Soak {
     const Totals t = all();
     const double seconds = seconds_since(start_);
     fmt::print(
-        "{:6.0f} s  {} runs ({:.1f} a second), {} comparisons, {} mismatches, {} failures, "
-        "{} MB resident, {} bytes on the heap\n",
+        "{:6.0f} s  {} runs ({:.1f} per second), {} comparisons, {} mismatches, {} failures, {} MB "
+        "resident, {} bytes on the heap\n",
         seconds, t.runs, static_cast<double>(t.runs) / seconds, t.comparisons, t.mismatches,
         t.failures, megabytes(resident_.back()), heap_.back());
     std::fflush(stdout);
@@ -303,8 +303,8 @@ class Soak {
 
   int verdict() const {
     fmt::print(
-        "\n| engine | runs | frames | resets in mid-run | cycles | comparisons | mismatches "
-        "| failures |\n|---|---|---|---|---|---|---|---|\n");
+        "\n| engine | runs | frames | resets during a run | cycles | comparisons | mismatches | "
+        "failures |\n|---|---|---|---|---|---|---|---|\n");
     for (const auto& [engine, t] : totals_)
       fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} |\n", engine, t.runs, t.frames, t.resets,
                  t.cycles, t.comparisons, t.mismatches, t.failures);

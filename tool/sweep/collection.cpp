@@ -76,7 +76,7 @@ Measured measured(const nlohmann::json& result, const Metric& metric) {
     const nlohmann::json* const value = value_of(result, key);
     if (!value) return {kNone, fmt::format("no key '{}' in the result", key)};
     if (value->is_null()) return {kNone, key + " is null"};
-    if (!value->is_number() && !value->is_boolean()) return {kNone, key + " is no number"};
+    if (!value->is_number() && !value->is_boolean()) return {kNone, key + " is not a number"};
     numbers[key] = value->is_boolean() ? (value->get<bool>() ? 1 : 0) : value->get<double>();
   }
   const bool infinite = std::any_of(numbers.begin(), numbers.end(),

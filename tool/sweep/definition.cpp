@@ -38,9 +38,10 @@ class Reader {
     yaml_.require_keys(root, known);
     read_engine(root);
     if (sweep_.name == "." || sweep_.name == "..")
-      throw ConfigError(fmt::format(
-          "'{}': a sweep is called by its file, and '{}' is no name of a folder: rename the file",
-          sweep_.file.string(), sweep_.name));
+      throw ConfigError(
+          fmt::format("'{}': a sweep is named after its file, and '{}' is not a valid name of a "
+                      "folder: rename the file",
+                      sweep_.file.string(), sweep_.name));
     if (!root["axes"] && !root["points"])
       fail(root, "nothing is varied: give 'axes', or list 'points'");
     if (root["title"]) sweep_.title = scalar(root["title"], "title");
@@ -71,7 +72,7 @@ class Reader {
 
   void read_engine(const YAML::Node& root) {
     if (!root["engine"])
-      fail(root, fmt::format("which engine? Say so: 'engine: {}'", engines().front()->name()));
+      fail(root, fmt::format("'engine' is missing: add 'engine: {}'", engines().front()->name()));
     sweep_.engine = scalar(root["engine"], "engine");
     try {
       engine_ = engine_named(sweep_.engine);
@@ -90,7 +91,7 @@ class Reader {
     if (const YAML::Node node = root["refused"]) {
       const std::string text = scalar(node, "refused");
       if (text != "error" && text != "skip")
-        fail(node, fmt::format("'refused' = '{}' wants error or skip", text));
+        fail(node, fmt::format("'refused' = '{}' must be error or skip", text));
       sweep_.skip_rejected = text == "skip";
     }
   }
@@ -105,7 +106,7 @@ class Reader {
 
   void read_base(const YAML::Node& base) {
     if (!base) return;
-    if (!base.IsMap()) fail(base, fmt::format("'base' wants a map, got {}", kind(base)));
+    if (!base.IsMap()) fail(base, fmt::format("'base' must be a map, got {}", kind(base)));
     walk_base(base, "", 0);
   }
 
@@ -138,7 +139,7 @@ class Reader {
     }
     if (!axes) return;
     if (!axes.IsMap() || axes.size() == 0)
-      fail(axes, fmt::format("'axes' wants a map of parameters to values, got {}", kind(axes)));
+      fail(axes, fmt::format("'axes' must be a map of parameters to values, got {}", kind(axes)));
     for (const auto& entry : axes) add_axis(entry.first.Scalar(), entry.first, entry.second);
   }
 
@@ -165,7 +166,7 @@ class Reader {
       else if (list.IsSequence())
         read_values(axis, list);
       else
-        fail(key, fmt::format("axis '{}' wants a list of values or {{from: .., to: ..}}, got {}",
+        fail(key, fmt::format("axis '{}' must be a list of values or {{from: .., to: ..}}, got {}",
                               name, kind(list)));
     }
     if (axis.choices.empty() && !axis.span)
@@ -202,9 +203,10 @@ class Reader {
     for (const auto& entry : values) {
       const std::string label = entry.first.Scalar();
       if (!entry.second.IsMap() || entry.second.size() == 0)
-        fail(entry.first, fmt::format("axis '{}': '{}' wants a map of parameters to values, as its "
-                                      "neighbours have",
-                                      axis.name, label));
+        fail(entry.first,
+             fmt::format(
+                 "axis '{}': '{}' must be a map of parameters to values, like the other entries",
+                 axis.name, label));
       std::vector<std::pair<std::string, std::string>> settings;
       for (const auto& setting : entry.second) {
         const std::string name = setting.first.Scalar();
@@ -222,7 +224,7 @@ class Reader {
       if (axis.parameters.empty()) axis.parameters = names;
       if (axis.parameters != names)
         fail(entry.first,
-             fmt::format("axis '{}': '{}' gives {}, the first one {}", axis.name, label,
+             fmt::format("axis '{}': '{}' sets {}, the first entry sets {}", axis.name, label,
                          fmt::join(names, ", "), fmt::join(axis.parameters, ", ")));
       axis.choices.push_back(std::move(choice));
     }
@@ -236,7 +238,7 @@ class Reader {
              fmt::format("axis '{}': unknown '{}' (known: from, to, step, times, when)", axis.name,
                          key));
     if (!range["from"] || !range["to"])
-      fail(range, fmt::format("axis '{}': a range wants 'from' and 'to'", axis.name));
+      fail(range, fmt::format("axis '{}': a range needs 'from' and 'to'", axis.name));
     if (range["step"] && range["times"])
       fail(range, fmt::format("axis '{}': 'step' and 'times' exclude each other", axis.name));
     const auto from = yaml_.number<double>(range["from"], "from");
@@ -258,8 +260,8 @@ class Reader {
     const auto by = adds ? yaml_.number<double>(range["step"], "step")
                          : yaml_.number<double>(range["times"], "times");
     if (adds ? by <= 0 : by <= 1 || from <= 0)
-      fail(range, fmt::format("axis '{}' never gets from {} to {}: '{}' = {}", axis.name, from, to,
-                              adds ? "step" : "times", by));
+      fail(range, fmt::format("axis '{}' never gets from {} to {} with '{}' = {}", axis.name, from,
+                              to, adds ? "step" : "times", by));
     const double slack = 1e-9 * std::max(std::fabs(from), std::fabs(to));
     for (std::size_t i = 0;; ++i) {
       const double value =
@@ -286,9 +288,9 @@ class Reader {
   void read_listed(const YAML::Node& points) {
     sweep_.sampling = SweepSampling::kListed;
     if (!points.IsSequence() || points.size() == 0)
-      fail(points, fmt::format("'points' wants a list of maps, got {}", kind(points)));
+      fail(points, fmt::format("'points' must be a list of maps, got {}", kind(points)));
     for (const auto& point : points) {
-      if (!point.IsMap()) fail(point, fmt::format("a point wants a map, got {}", kind(point)));
+      if (!point.IsMap()) fail(point, fmt::format("a point must be a map, got {}", kind(point)));
       const bool first = sweep_.axes.empty();
       for (const auto& entry : point) {
         const std::string name = entry.first.Scalar();
@@ -305,16 +307,17 @@ class Reader {
         const auto axis = std::find_if(sweep_.axes.begin(), sweep_.axes.end(),
                                        [&](const Axis& a) { return a.name == name; });
         if (axis == sweep_.axes.end())
-          fail(entry.first, fmt::format("the first point does not give '{}': every point gives the "
-                                        "same parameters",
-                                        name));
+          fail(entry.first,
+               fmt::format(
+                   "the first point does not set '{}': every point must set the same parameters",
+                   name));
         axis->choices.push_back({value, {value}});
       }
       for (const Axis& axis : sweep_.axes)
         if (axis.choices.size() != sweep_.axes.front().choices.size() ||
             point.size() != sweep_.axes.size())
-          fail(point, fmt::format("every point gives the same parameters, once; this one does not "
-                                  "({} are wanted)",
+          fail(point, fmt::format("every point must set the same parameters, each once; this one "
+                                  "does not (expected {})",
                                   sweep_.axes.size()));
     }
   }
@@ -324,16 +327,16 @@ class Reader {
   void read_sampling(const YAML::Node& sample) {
     if (!sample) return require_values();
     if (sweep_.sampling == SweepSampling::kListed)
-      fail(sample, "'sample' chooses among 'axes'; 'points' are all taken");
+      fail(sample, "'sample' is only valid with 'axes'; 'points' are all run");
     if (sample.IsScalar()) {
       if (sample.Scalar() != "cartesian")
-        fail(sample, fmt::format("'sample' = '{}' wants cartesian, {{random: N, seed: S}} or "
+        fail(sample, fmt::format("'sample' = '{}' must be cartesian, {{random: N, seed: S}} or "
                                  "{{latin: N, seed: S}}",
                                  sample.Scalar()));
       return require_values();
     }
     if (!sample.IsMap())
-      fail(sample, fmt::format("'sample' wants a name or a map, got {}", kind(sample)));
+      fail(sample, fmt::format("'sample' must be a name or a map, got {}", kind(sample)));
     for (const auto& entry : sample) {
       const std::string key = entry.first.Scalar();
       if (key == "seed") {
@@ -343,10 +346,10 @@ class Reader {
         sweep_.samples = yaml_.count(entry.second, key, 1'000'000);
       } else {
         fail(entry.first,
-             fmt::format("'sample': '{}' was not expected (random or latin, and seed)", key));
+             fmt::format("'sample': unexpected '{}' (expected random or latin, and seed)", key));
       }
     }
-    if (sweep_.samples == 0) fail(sample, "'sample' wants random or latin with a number");
+    if (sweep_.samples == 0) fail(sample, "'sample' needs random or latin with a number");
   }
 
   void require_values() {
@@ -355,10 +358,10 @@ class Reader {
       if (!axis.span) continue;
       const double size = axis.span->to - axis.span->from + 1;
       if (!axis.span->integer)
-        throw ConfigError(fmt::format(
-            "{}: axis '{}' has no end of values: give 'step' or 'times', or take a sample of it "
-            "('sample: {{random: 100}}')",
-            axis.where, axis.name));
+        throw ConfigError(
+            fmt::format("{}: axis '{}' has infinitely many values: give 'step' or 'times', or take "
+                        "a sample of it ('sample: {{random: 100}}')",
+                        axis.where, axis.name));
       if (size > static_cast<double>(kMaxValues))
         throw ConfigError(fmt::format("{}: axis '{}' has {:.0f} values: give 'step' or 'times'",
                                       axis.where, axis.name, size));
@@ -371,7 +374,7 @@ class Reader {
   void read_constraints(const YAML::Node& constraints) {
     if (!constraints) return;
     if (!constraints.IsSequence())
-      fail(constraints, fmt::format("'constraints' wants a list, got {}", kind(constraints)));
+      fail(constraints, fmt::format("'constraints' must be a list, got {}", kind(constraints)));
     for (const auto& node : constraints)
       sweep_.constraints.emplace_back(scalar(node, "constraints"), where(node), bound_->set);
   }
@@ -386,7 +389,7 @@ class Reader {
       return;
     }
     if (!metrics.IsMap() || metrics.size() == 0)
-      fail(metrics, fmt::format("'metrics' wants a map of names to keys of result.json or "
+      fail(metrics, fmt::format("'metrics' must be a map of names to keys of result.json or "
                                 "expressions of them, got {}",
                                 kind(metrics)));
     for (const auto& entry : metrics) {
@@ -401,7 +404,7 @@ class Reader {
   }
 
   Metric metric(const std::string& name, const std::string& text, const YAML::Node& node) const {
-    if (text.empty()) fail(node, fmt::format("metric '{}' wants a key of result.json", name));
+    if (text.empty()) fail(node, fmt::format("metric '{}' must be a key of result.json", name));
     Metric metric{name, text, std::nullopt, where(node)};
     if (text.starts_with('/')) return metric;
     // The engine knows the valid keys (require_known_metrics()).
@@ -414,7 +417,7 @@ class Reader {
                            },
                            [](const std::string&) { return std::vector<std::string>(); }});
     if (expression.names().empty())
-      fail(node, fmt::format("metric '{}': '{}' has no key of result.json", name, text));
+      fail(node, fmt::format("metric '{}': '{}' uses no key of result.json", name, text));
     expression.number(Trial());  // determines its type
     if (expression.names() != std::vector{text}) metric.expression = std::move(expression);
     return metric;
@@ -430,9 +433,9 @@ class Reader {
     if (!limits) return;
     if (!limits.IsSequence())
       fail(limits,
-           fmt::format("'limits' wants a list of comparisons of metrics, such as '{} <= 10', "
-                       "got {}",
-                       sweep_.metrics.front().name, kind(limits)));
+           fmt::format(
+               "'limits' must be a list of comparisons of metrics, such as '{} <= 10', got {}",
+               sweep_.metrics.front().name, kind(limits)));
     std::vector<std::string> metrics;
     for (const Metric& metric : sweep_.metrics) metrics.push_back(metric.name);
     for (const auto& node : limits) {
@@ -445,8 +448,8 @@ class Reader {
                         },
                         [&](const std::string& name) { return tb::near_matches(name, metrics); }});
       if (!limit.is_comparison() || limit.names().empty())
-        fail(node, fmt::format("limit '{}' is no comparison of a metric by < <= > >=: give several "
-                               "limits one by one",
+        fail(node, fmt::format("limit '{}' is not a comparison of a metric by < <= > >=: list "
+                               "several limits separately",
                                limit.text()));
       limit.reference(Trial());  // determines its type, and that it does not always divide by zero
       sweep_.limits.push_back(std::move(limit));
@@ -456,8 +459,8 @@ class Reader {
   void read_objectives(const YAML::Node& objectives) {
     if (!objectives) return;
     if (!objectives.IsMap())
-      fail(objectives,
-           fmt::format("'objectives' wants minimise and maximise, got {}", kind(objectives)));
+      fail(objectives, fmt::format("'objectives' must be a map of minimise and maximise, got {}",
+                                   kind(objectives)));
     std::vector<std::string> metrics, axes;
     for (const Metric& metric : sweep_.metrics) metrics.push_back(metric.name);
     for (const Axis& axis : sweep_.axes) axes.push_back(axis.name);
@@ -466,7 +469,7 @@ class Reader {
       if (key != "minimise" && key != "maximise" && key != "for_each")
         fail(entry.first,
              fmt::format("'objectives': unknown '{}' (known: minimise, maximise, for_each)", key));
-      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' wants a list", key));
+      if (!entry.second.IsSequence()) fail(entry.first, fmt::format("'{}' must be a list", key));
       for (const auto& node : entry.second) {
         if (key == "for_each") {
           sweep_.front_axes.push_back(one_of(axes, node, "axis"));

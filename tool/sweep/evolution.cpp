@@ -16,11 +16,11 @@ Evolution* load() {
   void* const module = ::dlopen(kEvolutionModule, RTLD_LAZY | RTLD_LOCAL);
   void* const symbol = module != nullptr ? ::dlsym(module, kEvolutionModuleEntry) : nullptr;
   if (symbol == nullptr)
-    throw spec::FileError(fmt::format(
-        "nothing can be searched: the module {0} cannot be loaded ({1}); install pagmo (Debian's "
-        "libpagmo-dev; in the repository: scripts/demo --complete), and put the {0} of the same "
-        "build beside the program",
-        kEvolutionModule, ::dlerror()));
+    throw spec::FileError(
+        fmt::format("a search needs the module {0}, which cannot be loaded ({1}): install pagmo "
+                    "(Debian's libpagmo-dev; in the repository: scripts/demo --complete), and put "
+                    "the {0} of the same build next to the program",
+                    kEvolutionModule, ::dlerror()));
   return reinterpret_cast<Entry>(symbol)();
 }
 

@@ -73,12 +73,12 @@ class Expression::Parser {
 
   void parse(Expression& made) {
     if (text_.size() > kMostCharacters)
-      throw spec::ConfigError(fmt::format("{}: a {} of {} characters: {} are the most",
+      throw spec::ConfigError(fmt::format("{}: a {} of {} characters, at most {} are allowed",
                                           origin_->where, origin_->kind, text_.size(),
                                           kMostCharacters));
     next();
     const Operand all = disjunction();
-    if (!token_.empty()) fail(fmt::format("'{}' was not expected", token_));
+    if (!token_.empty()) fail(fmt::format("unexpected '{}'", token_));
     made.term_ = settled(all);
     if (is_comparison_) made.violation_ = std::move(violation_);
     made.names_ = std::move(names_);
@@ -122,7 +122,7 @@ class Expression::Parser {
     return true;
   }
 
-  // A bare word has no value.
+  // A bare word is undefined.
   Term settled(const Operand& operand) const {
     if (operand.word.empty()) return operand.term;
     fail(fmt::format("'{}' is neither {} nor a number{}", operand.word, known_.name,
@@ -165,7 +165,7 @@ class Expression::Parser {
   struct Inside {
     explicit Inside(Parser& parser) : depth(parser.depth_) {
       if (++depth > kMostInside)
-        parser.fail(fmt::format("more than {} brackets and signs inside each other", kMostInside));
+        parser.fail(fmt::format("brackets and signs are nested more than {} deep", kMostInside));
     }
     ~Inside() { --depth; }
     Inside(const Inside&) = delete;
@@ -193,7 +193,7 @@ class Expression::Parser {
     }
     const bool free_text = range.find("file") != std::string::npos || range == "name";
     if (!free_text && std::find(choices.begin(), choices.end(), operand.word) == choices.end())
-      fail(fmt::format("'{}' is no value of {}: it wants {}{}", operand.word, with.name, range,
+      fail(fmt::format("'{}' is not a value of {}: expected {}{}", operand.word, with.name, range,
                        tb::did_you_mean(tb::near_matches(operand.word, choices))));
     return [word = operand.word](const Lookup&) -> Value { return word; };
   }
@@ -265,14 +265,14 @@ class Expression::Parser {
   }
 
   Operand value() {
-    if (token_.empty()) fail("it ends too early");
+    if (token_.empty()) fail("unexpected end");
     if (take("(")) {
       const Inside here(*this);
       Operand inner = disjunction();
       if (!take(")")) fail("a ')' is missing");
       return inner;
     }
-    if (!in_name(token_[0])) fail(fmt::format("'{}' was not expected", token_));
+    if (!in_name(token_[0])) fail(fmt::format("unexpected '{}'", token_));
     const std::string token = std::exchange(token_, "");
     next();
     if (const std::optional<std::string> range = known_.range(token)) {

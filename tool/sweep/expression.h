@@ -54,7 +54,7 @@ class Expression {
   double number(const Lookup& lookup) const;
   bool reference(const Lookup& lookup) const;
   // The amount by which a comparison with < <= > >= is missed, relative to the absolute value of
-  // its right side; 0: it holds. Infinite if a side has no value.
+  // its right side; 0: it holds. Infinite if a side is undefined.
   double violation(const Lookup& lookup) const;
   // Whether violation() applies.
   bool is_comparison() const { return violation_ != nullptr; }

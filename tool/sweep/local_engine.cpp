@@ -38,8 +38,7 @@ std::string ninja_value(const std::string& value) {
   std::string text;
   for (const char c : value) {
     if (c == '\n')
-      throw FileError(
-          fmt::format("'{}': a name with a line break is more than Ninja takes", value));
+      throw FileError(fmt::format("'{}': Ninja does not support names with a line break", value));
     if (c == '$' || (c == ' ' && text.empty())) text += '$';
     text += c;
   }
@@ -110,9 +109,9 @@ SweepLock::SweepLock(const fs::path& sweep) {
     throw FileError(fmt::format("cannot create '{}': {}", file.string(), std::strerror(errno)));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
   ::close(descriptor_);
-  throw FileError(
-      fmt::format("'{}' is being run by another process: wait for it, or look at it with 'status'",
-                  sweep.string()));
+  throw FileError(fmt::format(
+      "'{}' is being run by another process: wait for it, or see its progress with 'status'",
+      sweep.string()));
 }
 
 SweepLock::~SweepLock() { ::close(descriptor_); }

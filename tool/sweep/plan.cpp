@@ -124,11 +124,11 @@ class Planner {
       return take(sample);
     });
     if (plan_.points == 0)
-      throw ConfigError(fmt::format("{}: no point is left of {}: {}", plan_.file, grouped(seen_),
-                                    check_.reasons()));
+      throw ConfigError(fmt::format("{}: all {} points are excluded: {}", plan_.file,
+                                    grouped(seen_), check_.reasons()));
     check_.tell(plan_);
     if (twice_ > 0)
-      plan_.left_out.push_back(fmt::format("{} that are the same as another one", grouped(twice_)));
+      plan_.left_out.push_back(fmt::format("{} that duplicate another point", grouped(twice_)));
     if (sweep_.sampling == SweepSampling::kRandom && plan_.points < sweep_.samples)
       plan_.left_out.push_back(fmt::format("{} of {} random points that were not found in {} draws",
                                            grouped(sweep_.samples - plan_.points),
@@ -197,7 +197,7 @@ void PointNamer::tell(Plan& plan) const {
 PointChecker::PointChecker(const SweepDefinition& sweep, const Plan& plan)
     : sweep_(sweep), plan_(plan), excluded_(sweep.constraints.size(), 0) {}
 
-// Removes axes that have no effect on this point.
+// Removes axes without effect on this point.
 Sample PointChecker::without_idle_axes(const Sample& sample) const {
   Sample bare = sample, given = sample;
   for (std::size_t i = 0; i < sample.size(); ++i)
@@ -354,11 +354,10 @@ Plan read_plan(const fs::path& directory) {
   const fs::path file = plan_file(directory);
   std::error_code error;
   if (!fs::exists(file, error))
-    throw FileError(
-        fmt::format("there is no plan in '{}': run or plan it first", directory.string()));
+    throw FileError(fmt::format("no plan in '{}': run or plan it first", directory.string()));
   try {
     const Json json = tb::parse_json(tb::read_file(file, kMaxPlanBytes));
-    if (json.at("schema") != kPlanSchema) throw FileError("of another version");
+    if (json.at("schema") != kPlanSchema) throw FileError("made by another version");
     Plan plan;
     plan.engine = json.at("engine");
     plan.title = json.at("title");

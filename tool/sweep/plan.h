@@ -95,9 +95,9 @@ std::vector<std::string> changes_since(const Plan& plan, const std::filesystem::
 nlohmann::ordered_json inputs_of(const Plan& plan, std::string_view role);
 // Results of another model are not counted.
 bool is_of_this_model(const Plan& plan);
-// FileError if there is none.
+// FileError if it does not exist.
 Plan read_plan(const std::filesystem::path& directory);
-// nullopt if there is no plan of this version.
+// nullopt if no plan of this version exists.
 std::optional<Plan> find_plan(const std::filesystem::path& directory);
 
 // Names points, and numbers their shared inputs.

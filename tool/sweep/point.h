@@ -3,7 +3,7 @@
 // every sweep with the same point finds it.
 //
 //   OUT/points/3f/3f09.../   result.json, manifest.json, report.html: as written by every run
-//                            failure.json: why there is no valid result
+//                            failure.json: why the result is missing or invalid
 //
 // A point is done if result.json and manifest.json are present, which a run moves into place when
 // they are complete; the scheduler's state is not used. A failed result without failure.json is
@@ -51,7 +51,7 @@ bool has_result(const std::filesystem::path& directory);
 // Whether a failed result and its reason are present.
 bool has_failed_result(const std::filesystem::path& directory);
 
-// Why a point has no valid result. `again`: a retry may succeed (it was killed).
+// Why a point lacks a valid result. `again`: a retry may succeed (it was killed).
 struct Failure {
   std::string kind, reason;
   bool again = false;

@@ -34,14 +34,14 @@ constexpr double kBeyond = 1e20;
 void reject_what_cannot_be_searched(const SweepDefinition& sweep) {
   const std::string file = sweep.file.string();
   if (sweep.sampling == SweepSampling::kListed)
-    throw ConfigError(file + ": a search chooses among 'axes'; 'points' are all taken");
+    throw ConfigError(file + ": a search needs 'axes'; 'points' are all run");
   if (sweep.sampling != SweepSampling::kCartesian)
     throw ConfigError(file + ": a search chooses its points itself: leave out 'sample'");
   if (sweep.objectives.size() < 2)
-    throw ConfigError(fmt::format(
-        "{}: a search wants two objectives at least ({} given): name what to minimise and maximise "
-        "in 'objectives'",
-        file, sweep.objectives.size()));
+    throw ConfigError(
+        fmt::format("{}: a search needs at least two objectives ({} given): name metrics to "
+                    "minimise and maximise in 'objectives'",
+                    file, sweep.objectives.size()));
 }
 
 struct Missing {};
@@ -71,15 +71,14 @@ class SweepSearch {
     const std::vector<Sample> fronts = circumstances();
     const std::uint64_t share = settings_.runs / fronts.size();
     if (share < settings_.population)
-      throw ConfigError(fmt::format(
-          "{}: --runs {} leave {} for each of {} front{}, less than the population of {}: give "
-          "more runs, or a smaller --population",
-          sweep_.file.string(), tb::grouped(settings_.runs), tb::grouped(share), fronts.size(),
-          fronts.size() == 1 ? "" : "s", settings_.population));
+      throw ConfigError(
+          fmt::format("{}: --runs {} leaves {} for each of {} front{}, less than the population of "
+                      "{}: give more runs, or a smaller --population",
+                      sweep_.file.string(), tb::grouped(settings_.runs), tb::grouped(share),
+                      fronts.size(), fronts.size() == 1 ? "" : "s", settings_.population));
     if (searched_.empty())
       throw ConfigError(sweep_.file.string() +
-                        ": every axis is one of 'for_each': nothing is left "
-                        "to search");
+                        ": every axis is listed in 'for_each': no axis is left to search");
     evolution();  // reports a missing module before anything is run
     write();      // the old file is from another search
     SearchEnd end;

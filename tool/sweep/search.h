@@ -22,7 +22,7 @@ namespace deburr::tool {
 
 SweepPlace search_place_of(const std::filesystem::path& out, const std::string& name);
 
-// Runs the points of a generation that have no result yet, and waits: 0, or kInterruptedExit.
+// Runs the points of a generation without a result, and waits: 0, or kInterruptedExit.
 using RunGeneration = std::function<int(const Plan&, const std::vector<PlannedPoint>&)>;
 // Receives the number of known points, for a progress bar.
 using WatchSearch = std::function<void(std::uint64_t)>;

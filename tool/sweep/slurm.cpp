@@ -106,7 +106,7 @@ void require_slurm(const std::string& conf) {
   std::error_code error;
   if (!fs::is_regular_file(file, error))
     throw FileError(fmt::format(
-        "there is no Slurm configuration '{}': name it with 'conf' in the profile, or with "
+        "Slurm configuration '{}' not found: name it with 'conf' in the profile, or with "
         "SLURM_CONF",
         file));
   const Answer ping = ask({"scontrol", "ping"}, conf);
@@ -140,7 +140,7 @@ SlurmProfile read_profile(const fs::path& file) {
   const auto line = [&](const YAML::Node& node, const char* key) {
     std::string text = yaml.scalar(node, key);
     if (text.find('\n') != std::string::npos)
-      yaml.fail(node, fmt::format("'{}' wants a single line", key));
+      yaml.fail(node, fmt::format("'{}' must be a single line", key));
     return text;
   };
   SlurmProfile profile;
@@ -152,7 +152,7 @@ SlurmProfile read_profile(const fs::path& file) {
     if (!list) return;
     if (!list.IsSequence())
       yaml.fail(list,
-                fmt::format("'{}' wants a list of lines, got {}", key, tb::YamlFile::kind(list)));
+                fmt::format("'{}' must be a list of lines, got {}", key, tb::YamlFile::kind(list)));
     for (const auto& entry : list) lines.push_back(line(entry, key));
   };
   const auto read_count = [&](const char* key, std::uint64_t& count, std::uint64_t most) {
@@ -258,9 +258,9 @@ void reject_while_submitted(const SweepPlace& place) {
   if (!job) return;
   const SlurmStatus slurm = ask_slurm(*job);
   if (slurm.queued + slurm.running > 0)
-    throw FileError(
-        fmt::format("job {0} still has {1} tasks of it: wait for it, or end it with 'scancel {0}'",
-                    job->id, tb::grouped(slurm.queued + slurm.running)));
+    throw FileError(fmt::format(
+        "job {0} still has {1} tasks of this sweep: wait for it, or end it with 'scancel {0}'",
+        job->id, tb::grouped(slurm.queued + slurm.running)));
   forget_job(place);
 }
 

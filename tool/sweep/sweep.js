@@ -20,11 +20,11 @@
       reason: (p) => noValue(p, i) ?? '',
     })),
   ];
-  // JSON has no infinity: identical pictures are flagged next to their values.
+  // JSON cannot represent infinity: identical pictures are flagged next to their values.
   function valueOf(p, i) {
     return p.identical?.includes(data.metrics[i].name) ? Infinity : p.values[i];
   }
-  // Why a finished point has no value of a metric.
+  // Why a finished point lacks a metric.
   const noValue = (p, i) => p.no_value?.[data.metrics[i].name];
   const columnOf = (name) => columns.find((c) => c.name === name);
   const titled = (c) => c.unit ? `${c.name} (${c.unit})` : c.name;
@@ -80,7 +80,7 @@
   fill(byId('up'), columns, goals[1] ?? (metrics[1] ?? metrics[0]).name);
   fill(byId('colour'), columns.filter((c) => c.axis !== undefined), columns[0].name);
   byId('objectives').textContent = data.objectives.length === 0 ? '' : 'Objectives: ' +
-    data.objectives.map((o) => `${o.maximise ? 'most' : 'least'} ${o.metric}`).join(', ') +
+    data.objectives.map((o) => `${o.maximise ? 'maximise' : 'minimise'} ${o.metric}`).join(', ') +
     (data.for_each.length > 0 ? `, a front for each ${data.for_each.join(', ')}` : '') +
     (limits.length > 0 ? `; limits: ${limits.join(', ')}` : '');
   // One front for each combination of the for_each axes, named by what distinguishes them.
@@ -157,7 +157,7 @@
     const all = effects.flatMap((e) => e.means.map((m) => m[1]));
     const low = Math.min(...all), high = Math.max(...all), margin = (high - low) * 0.08 || 1;
     if (effects.length === 0)
-      element('p', 'None: there are no two values of an axis with points that have a value of this metric.',
+      element('p', 'None: no axis has two values with points that have this metric.',
               byId('effects'), 'muted');
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));

@@ -20,7 +20,7 @@ struct WorkerOptions {
   PointLines lines;              // lines of that file
 };
 
-// Runs every point of the chunk that has no result yet. A failed point writes failure.json and does
+// Runs every point of the chunk without a result. A failed point writes failure.json and does
 // not stop the others. ConfigError if an input differs from the plan; FileError if results cannot
 // be written. Returns the exit code: 0, or kInterruptedExit.
 int run_chunk(const WorkerOptions& options);

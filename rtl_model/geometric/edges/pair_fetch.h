@@ -42,9 +42,9 @@ class PairFetch final : public Unit {
   void reset() override;
 
   Counter lookups{"lookups", "edges", "edges whose pair was looked up"};
-  Counter boundary_lookups{"boundary_lookups", "edges", "of these, boundaries"};
+  Counter boundary_lookups{"boundary_lookups", "edges", "boundary edges whose pair was looked up"};
   Counter lines_read{"lines_read", "lines", "lines of pairs read"};
-  Counter boundary_lines{"boundary_lines", "lines", "of these, lines of boundaries"};
+  Counter boundary_lines{"boundary_lines", "lines", "lines of boundary pairs read"};
   Counter invalid_edges{"invalid_edges", "edges", "edges with a vertex out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
 

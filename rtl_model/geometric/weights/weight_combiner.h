@@ -123,8 +123,8 @@ class WeightCombiner final : public Unit {
   EdgeLatency& latency_;  // measuring instrument
   const WeightPlaces places_;
   Memory<TouchedWord> touched_;
-  ReadPort<TouchedWord> touched_port_{touched_, "look-up"};
-  WritePort<TouchedWord> touched_write_{touched_, "look-up"};
+  ReadPort<TouchedWord> touched_port_{touched_, "lookup"};
+  WritePort<TouchedWord> touched_write_{touched_, "lookup"};
   LineCache<BlockWeights> cache_;
   MemoryBase spill_;                     // by entry: valid and tag, stored in spilled_
   std::unique_ptr<WriteBuffer> buffer_;  // with write_buffer > 0

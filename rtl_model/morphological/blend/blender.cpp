@@ -105,8 +105,8 @@ void Blender::choose(Cycle cycle, const FrameConfiguration& configuration, const
 }
 
 // By the pixel's own mark, or with bypass = beside also those of its neighbours in the frame.
-bool Blender::is_left(const FrameConfiguration& configuration, const Slot& slot,
-                      const PixelToken& around, std::size_t lane, std::size_t count) const {
+bool Blender::is_bypassed(const FrameConfiguration& configuration, const Slot& slot,
+                          const PixelToken& around, std::size_t lane, std::size_t count) const {
   if (is_marked(around.centre[lane])) return true;
   if (configuration.bypass != Bypass::kBeside) return false;
   const bool first_row = slot.row == first_row_, last_row = slot.row + 1u == configuration.rows,
@@ -131,7 +131,7 @@ void Blender::choose_axes(Cycle cycle, const WeightToken& token, const PixelToke
     const int vertical_sum = s.up + s.down, horizontal_sum = s.left + s.right;
     if (vertical_sum + horizontal_sum == 0) continue;
     if (leaves && ((guarded >> i & 1) != 0 ||
-                   (by_marks && is_left(configuration, token.slot, around, i, count)))) {
+                   (by_marks && is_bypassed(configuration, token.slot, around, i, count)))) {
       beat.left = static_cast<std::uint8_t>(beat.left | 1u << i);
       continue;
     }

@@ -81,8 +81,8 @@ class Blender final : public Unit {
   inline void choose(Cycle cycle, const FrameConfiguration& configuration,
                      const WeightToken& weights, const PixelToken& around, Beat& beat);
   inline void deliver(Cycle cycle, const FrameConfiguration& configuration, const Beat& beat);
-  bool is_left(const FrameConfiguration& configuration, const Slot& slot, const PixelToken& around,
-               std::size_t lane, std::size_t count) const;
+  bool is_bypassed(const FrameConfiguration& configuration, const Slot& slot,
+                   const PixelToken& around, std::size_t lane, std::size_t count) const;
   void choose_axes(Cycle cycle, const WeightToken& weights, const PixelToken& around,
                    std::uint32_t guarded, Beat& beat);
   void blend(Cycle cycle);

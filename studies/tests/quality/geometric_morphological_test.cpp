@@ -224,7 +224,7 @@ void check_ways(const Table& t, bool lines_are_apart) {
   if (!lines_are_apart) return;
   EXPECT_GT(gain("as built", "msaa4").silhouettes, 0);
   EXPECT_GT(gain("as built", "morphological").silhouettes, 1);
-  // Runs of edges carry less information than distances, regardless of who found the edges.
+  // Runs of edges carry less information than distances, regardless of the source of the edges.
   EXPECT_LT(gain("channels as edges", "as built").silhouettes, -0.5);
   EXPECT_LT(gain("luma edges at channels", "as built").silhouettes, -0.4);
 }

@@ -158,7 +158,7 @@ TEST(Goals, TrackMeetsItsGoals) {
 
 // ---- the purpose of each option -----------------------------------------------------------------
 
-// Injected faults: removing an option costs what the page says.
+// Injected faults: removing an option has the cost stated on the page.
 TEST(Configuration, RemovingAnOptionCostsQuality) {
   struct Case {
     const char* scene;

@@ -118,7 +118,7 @@ std::set<tb::Rgba8> colours(const Image& image) {
   return {image.pixels.begin(), image.pixels.end()};
 }
 
-TEST(HarmFrames, OnlySmoothedTextHasMoreThanTwoColours) {
+TEST(HarmFrames, UnsmoothedTextHasTwoColours) {
   for (const Text kind : {Text::kAliased, Text::kLightOnDark, Text::kBitmapFont})
     EXPECT_EQ(colours(text_page(kind, 160, 120)).size(), 2u) << static_cast<int>(kind);
   const Image smoothed = text_page(Text::kSmoothed, 160, 120);

@@ -246,7 +246,9 @@ class RenderedFrames : public testing::TestWithParam<Rendered> {
 };
 
 class DeburrIsBest : public RenderedFrames {};
-TEST_P(DeburrIsBest, OnEdgesAndSilhouettes) { expect_deburr_best(*check_, GetParam().margin); }
+TEST_P(DeburrIsBest, BeatsOthersOnEdgesAndSilhouettes) {
+  expect_deburr_best(*check_, GetParam().margin);
+}
 
 std::string name_of(const testing::TestParamInfo<Rendered>& info) {
   std::string name = std::filesystem::path(info.param.source).stem().string();

@@ -94,7 +94,7 @@ FanRow rule_row(std::string_view name) {
   return {};
 }
 
-// An extension that a bend refutes must not cost what it gained on straight lines.
+// An extension that a bend refutes must not cost more than it gained on straight lines.
 TEST(MorphologicalQuality, FitDoesNotHarmCurves) {
   using tb::stimuli::DiscFigures;
   std::map<std::string, DiscFigures, std::less<>> figures;

@@ -80,7 +80,7 @@ class TextureDirection : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     if (!photos().contains(GetParam()))
-      GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data beside the repository";
+      GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data next to the repository";
   }
   const std::string name = GetParam();
 };

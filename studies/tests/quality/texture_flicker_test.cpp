@@ -119,7 +119,7 @@ std::vector<tb::Flicker> flicker(const std::string& texture, Motion motion, int 
   return result;
 }
 
-TEST(TextureFlicker, IsBelowThePapersInEveryMotion) {
+TEST(TextureFlicker, StaysBelowThePapersInEveryMotion) {
   const auto roll = flicker("stones", Motion::kRoll, 16),
              zoom = flicker("stones", Motion::kZoom, 8), pan = flicker("stones", Motion::kPan, 8);
   for (const std::size_t ours : {kFourCeil, kFourAny, kEightAny, kEightCeil}) {
@@ -147,7 +147,7 @@ class TextureFlickerOnPhotographs : public testing::TestWithParam<const char*> {
 
 TEST_P(TextureFlickerOnPhotographs, RollIsWithinTenPercentOfTheEllipse) {
   if (photo().empty())
-    GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data beside the repository";
+    GTEST_SKIP() << "no data folder: DEBURR_DATA, or ../shared/data next to the repository";
   const auto roll = flicker(photo(), Motion::kRoll, 16);
   const auto within = [&](Which ours, Which ellipse) {
     EXPECT_LE(roll[ours].mean, 1.1 * roll[ellipse].mean) << rows()[ours].name;
@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Photographs, TextureFlickerOnPhotographs,
                          testing::Values("brick", "grass", "gravel", "road_512"),
                          [](const auto& photo) { return std::string(photo.param); });
 
-TEST(TextureFlicker, IsZeroIfPictureFollowsItsReference) {
+TEST(TextureFlicker, VanishesIfPictureFollowsItsReference) {
   tb::SceneParameters scene;
   scene.source = "plane";
   scene.texture = "gradient";

@@ -40,7 +40,7 @@ class Trains(Base):
     def test_textured_frame_gains_on_kept_back_half(self):
         frame, reference = self.rendered("tunnel", "--scene", "tunnel", size="384x288")
         done = self.train(0, frame, reference, "--batches", "200",
-                          says=["kept back: ", "right half: edges ", "RESULT: PASS train: +"])
+                          says=["validation: ", "right half: edges ", "RESULT: PASS train: +"])
         with open(self.path("title.weights")) as file:
             self.assertEqual(file.readline(), "deburr-weights 1\n")
         said = json.loads(self.run_command("train", "--in", frame, "--truth", reference, "--out", self.path("again"),
@@ -69,7 +69,7 @@ class Trains(Base):
         given = (self.path("plain/*.png"), self.path("smooth/*.png"))
         done = self.train(0, *given, *self.QUICK)
         for i, kept in enumerate((False, True, False, True)):
-            self.assertEqual(f"kept back: {self.path('plain')}/f{i}.png" in done.stdout.replace("\n", " "), kept)
+            self.assertEqual(f"validation: {self.path('plain')}/f{i}.png" in done.stdout.replace("\n", " "), kept)
         with open(self.path("title.weights")) as file:
             text = file.read()
         for i, trained_on in enumerate((True, False, True, False)):
@@ -123,7 +123,7 @@ class Trains(Base):
             wait /= 2
         self.assertEqual(process.returncode, 130, out + err)
         self.assertIn("RESULT: INTERRUPTED train: no weights were written", out)
-        self.assertNotIn("kept back: ", out)
+        self.assertNotIn("validation: ", out)
         self.nothing_written()
 
     def wait_until_caught(self, process):
@@ -160,22 +160,22 @@ class Rejects(Base):
         self.train(2, f"{self.frame};{self.frame}", self.reference, says=["names 2 frames and --truth 1"])
         self.train(2, self.frame, self.write("small.png", png(48, 40)), says=["96 x 64", "48 x 40"])
         self.train(2, self.write("tiny.png", png(31, 31)), self.write("tiny2.png", png(31, 31)), says="at least 64")
-        self.train(2, self.frame, self.frame, says="is its reference within 2 codes")
+        self.train(2, self.frame, self.frame, says="equals its reference within 2 codes")
         self.nothing_written()
 
     def test_rejects_invalid_output(self):
-        self.train(2, self.frame, self.reference, out="tunnel/before.png", says="is read, too")
+        self.train(2, self.frame, self.reference, out="tunnel/before.png", says="is also an input")
         self.write("mine.txt", "a letter\n")
-        self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "holds no weights"])
+        self.train(2, self.frame, self.reference, out="mine.txt", says=["mine.txt", "is not a file of weights"])
         with open(self.path("mine.txt")) as file:
             self.assertEqual(file.read(), "a letter\n")
-        self.train(5, self.frame, self.reference, out="nowhere/x", says="there is no folder")
+        self.train(5, self.frame, self.reference, out="nowhere/x", says="does not exist")
         self.train(5, self.frame, self.reference, out="tunnel", says="it is a folder")
 
     def test_unwritable_output_fails_before_training(self):
         done = self.expect(5, "train", "--in", self.frame, "--truth", self.reference, "--out", "/proc/title.weights",
                            says="cannot create a file in the folder of '/proc/title.weights'")
-        self.assertNotIn("kept back: ", done.stdout)
+        self.assertNotIn("validation: ", done.stdout)
 
     def test_full_disk_keeps_the_old_file(self):
         self.rendered("gains", "--scene", "tunnel", size="384x288")
@@ -186,7 +186,7 @@ class Rejects(Base):
             done = self.expect(5, "train", "--in", self.frame, "--truth", self.reference, "--out", self.path("title.weights"),
                                says="File too large",
                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
-            self.assertNotIn("kept back: ", done.stdout)
+            self.assertNotIn("validation: ", done.stdout)
             with open(self.path("title.weights")) as file:
                 self.assertEqual(file.read(), before)
         self.assertEqual([name for name in os.listdir(self.directory) if name.endswith(".tmp")], [])

@@ -114,10 +114,10 @@ TEST(TitleWeights, RejectUnusablePairs) {
   EXPECT_THAT(complaint({shapes(2), wide}),
               HasSubstr("'shapes1' has 96 x 96 pixels, its reference 97"));
   EXPECT_THAT(complaint({shapes(1, 31), shapes(2)}), HasSubstr("expected at least 32 x 32"));
-  EXPECT_THAT(complaint({shapes(1, 63)}), HasSubstr("has at least 64"));
+  EXPECT_THAT(complaint({shapes(1, 63)}), HasSubstr("needs at least 64"));
   TitlePair same = shapes(1);
   same.reference = same.frame;
-  EXPECT_THAT(complaint({shapes(2), same}), HasSubstr("'shapes1' is its reference"));
+  EXPECT_THAT(complaint({shapes(2), same}), HasSubstr("'shapes1' equals its reference"));
   TitlePair flat{"flat", tb::Image(96, 96, {9, 9, 9, 255}), tb::Image(96, 96, {90, 9, 9, 255})};
   EXPECT_THAT(complaint({flat, shapes(1)}), HasSubstr("'flat' has no edge"));
 }

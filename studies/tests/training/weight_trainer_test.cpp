@@ -50,7 +50,7 @@ bool same(const WeightTables& a, const WeightTables& b) {
   return a.of_codes == b.of_codes && a.of_near == b.of_near && a.of_far == b.of_far;
 }
 
-TEST(WeightTrainer, IsDeterministic) {
+TEST(WeightTrainer, RepeatedTrainingGivesTheSameTables) {
   const auto samples = small_set(2);
   const WeightTables tables = train(samples, small_recipe());
   EXPECT_TRUE(same(tables, train(samples, small_recipe())));

@@ -40,8 +40,8 @@ constexpr std::array kGroups = {
                   "Coarse depth test of the golden model (coarse_lines): candidates dropped by "
                   "direction, candidates just not dropped, and which of two tiles hides less."},
     CoverageGroup{"geometric/screen", "The same for the hardware."},
-    CoverageGroup{"geometric/look-up", "Lookups of the hardware, by cache and outcome."},
-    CoverageGroup{"geometric/pair-look-up",
+    CoverageGroup{"geometric/lookup", "Lookups of the hardware, by cache and outcome."},
+    CoverageGroup{"geometric/pair-lookup",
                   "Pair lookups of the hardware, by array and outcome (records = split). Only in "
                   "tests: a vertex out of range, and a number beyond the array."},
     CoverageGroup{"geometric/block", "Weight blocks by the state of their cache entry."},
@@ -106,8 +106,8 @@ void cover_screen(Coverage& coverage, const rtl::geometric::GeometricEngine& e) 
 void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   if (!e.pair_fetch) return;
   const auto looked = [&](const char* array, std::uint64_t lookups, std::uint64_t lines) {
-    coverage.hit(fmt::format("geometric/pair-look-up/{}/hit", array), lookups - lines);
-    coverage.hit(fmt::format("geometric/pair-look-up/{}/miss", array), lines);
+    coverage.hit(fmt::format("geometric/pair-lookup/{}/hit", array), lookups - lines);
+    coverage.hit(fmt::format("geometric/pair-lookup/{}/miss", array), lines);
   };
   const auto& pairs = *e.pair_fetch;
   const std::uint64_t boundaries = pairs.boundary_lookups.value(),
@@ -117,7 +117,7 @@ void cover_pairs(Coverage& coverage, const rtl::geometric::GeometricEngine& e) {
   const std::array counts = {pairs.invalid_edges.value(), e.edge_classifier.unpaired_edges.value()};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
-    const std::string bin = fmt::format("geometric/pair-look-up/{}", kPairsOutOfRange[i]);
+    const std::string bin = fmt::format("geometric/pair-lookup/{}", kPairsOutOfRange[i]);
     coverage.declare(bin);
     coverage.hit(bin, counts[i]);
   }
@@ -159,10 +159,10 @@ Coverage declared_geometric_coverage() {
     coverage.declare(fmt::format("geometric/group-lines/tiled/{}", lines));
   for (const char* const cache : {"vertex", "depth", "weight"})
     for (const char* const outcome : {"hit", "miss"})
-      coverage.declare(fmt::format("geometric/look-up/{}/{}", cache, outcome));
+      coverage.declare(fmt::format("geometric/lookup/{}/{}", cache, outcome));
   for (const char* const array : {"boundary", "other"})
     for (const char* const outcome : {"hit", "miss"})
-      coverage.declare(fmt::format("geometric/pair-look-up/{}/{}", array, outcome));
+      coverage.declare(fmt::format("geometric/pair-lookup/{}/{}", array, outcome));
   for (const std::string_view what : kDroppedSides)
     coverage.declare(fmt::format("geometric/screen/{}", what));
   for (const std::string_view what : kLesserTiles)
@@ -184,7 +184,7 @@ void declare_directed_geometric_coverage(Coverage& coverage) {
   for (const auto& bin : golden::geometric::EdgeCoverage().bins())
     if (is_directed(bin.name)) coverage.declare("geometric/" + bin.name);
   for (const std::string_view what : kPairsOutOfRange)
-    coverage.declare(fmt::format("geometric/pair-look-up/{}", what));
+    coverage.declare(fmt::format("geometric/pair-lookup/{}", what));
   for (const std::string_view region : spec::geometric::kRegionNames)
     coverage.declare(fmt::format("geometric/error/{}", region));
   for (std::size_t i = 1; i < spec::geometric::kRejectionNames.size(); ++i)
@@ -207,8 +207,8 @@ Coverage geometric_coverage(const rtl::geometric::GeometricEngine& e,
                    bin.count);
   const auto looked = [&](const char* cache, const rtl::Counter& lookups,
                           const rtl::Counter& misses) {
-    coverage.hit(fmt::format("geometric/look-up/{}/hit", cache), lookups.value() - misses.value());
-    coverage.hit(fmt::format("geometric/look-up/{}/miss", cache), misses.value());
+    coverage.hit(fmt::format("geometric/lookup/{}/hit", cache), lookups.value() - misses.value());
+    coverage.hit(fmt::format("geometric/lookup/{}/miss", cache), misses.value());
   };
   const auto& weights = e.weight_combiner;
   looked("vertex", e.vertex_fetch.lookups, e.vertex_fetch.misses);

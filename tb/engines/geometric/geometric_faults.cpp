@@ -38,7 +38,7 @@ void flip_rom(rtl::geometric::GeometricEngine& engine, std::string_view name) {
 }  // namespace
 
 // Returns a face of the first edge with two faces; the class of that edge depends on it.
-std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
+std::optional<std::uint32_t> GeometricFaults::face_for_facing_fault() const {
   if (setup_.geometric.select != spec::geometric::Select::kEdges || frames_.empty())
     return std::nullopt;
   const ScreenEdges& screen = frames_.front().screen;
@@ -50,7 +50,7 @@ std::optional<std::uint32_t> GeometricFaults::face_of_a_fault() const {
 // Returns the index of a block with a pixel that blends with a blended pixel of the block above and
 // would change if it used that pixel's final colour. The block above must be far enough ahead:
 // lines are prefetched, and a line read before the write is not stale.
-std::optional<std::size_t> GeometricFaults::block_that_takes_from_above() const {
+std::optional<std::size_t> GeometricFaults::block_blending_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolver
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;
   const rtl::MemoryCycles memory = memory_cycles(setup_);
@@ -93,11 +93,12 @@ std::vector<InjectedFault> GeometricFaults::list() const {
       unless(p.records == spec::geometric::RecordsLayout::kSplit, "geometric.records = split");
   std::string stale_neighbour;
   if (injected("stale-neighbour"))
-    if (const auto block = block_that_takes_from_above())
+    if (const auto block = block_blending_from_above())
       stale_neighbour = fmt::format("flip:geometric.touched_blocks:{}:above", *block);
   std::vector<InjectedFault> list = {
       {"wrong-facing", "Flips the facing bit of a face.", "",
-       unless(face_of_a_fault().has_value(), "geometric.select = edges, an edge of two faces")},
+       unless(face_for_facing_fault().has_value(),
+              "geometric.select = edges, an edge of two faces")},
       {"wrong-slope", "Flips the lowest bit of every reciprocal in the table.", "",
        unless(p.reciprocal_table > 0, "geometric.reciprocal_table of at least 1")},
       {"wrong-cull", "Edges between faces turned away are culled where they are to stay, or stay.",
@@ -177,7 +178,7 @@ void GeometricFaults::inject(rtl::geometric::GeometricEngine& engine) const {
 std::vector<std::uint8_t> GeometricFaults::facing(const geometric::Frame& frame) const {
   std::vector<std::uint8_t> bits = frame.screen.facing;
   if (injected("wrong-facing"))
-    if (const auto face = face_of_a_fault(); face && *face / 8 < bits.size())
+    if (const auto face = face_for_facing_fault(); face && *face / 8 < bits.size())
       bits[*face / 8] = static_cast<std::uint8_t>(bits[*face / 8] ^ 1u << (*face % 8));
   return bits;
 }

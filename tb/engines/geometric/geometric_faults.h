@@ -33,8 +33,8 @@ class GeometricFaults : public EngineFaults {
   std::vector<std::uint8_t> facing(const geometric::Frame& frame) const;
 
  private:
-  std::optional<std::uint32_t> face_of_a_fault() const;
-  std::optional<std::size_t> block_that_takes_from_above() const;
+  std::optional<std::uint32_t> face_for_facing_fault() const;
+  std::optional<std::size_t> block_blending_from_above() const;
 
   std::span<const geometric::Frame> frames_;
   const GeometricSetup& setup_;

@@ -17,7 +17,7 @@ using spec::geometric::Candidate;
 using spec::geometric::LineRecord;
 
 // A line can blend pixels on both sides of its crossing in a column.
-constexpr double kBeside = 1.5;  // pixels, from the centre
+constexpr double kLineDistance = 1.5;  // pixels, from the centre
 
 double minor_at(const LineRecord& line, int column) {
   const auto steps = static_cast<double>(column - line.first);
@@ -52,7 +52,7 @@ bool GeometricHistory::passes(const LineRecord& line) const {
   const bool horizontal = line.axis == spec::geometric::Axis::kHorizontal;
   const int column = horizontal ? pixel_.x : pixel_.y, row = horizontal ? pixel_.y : pixel_.x;
   return column >= line.first && column < line.first + line.count &&
-         std::abs(minor_at(line, column) - (row + 0.5)) <= kBeside;
+         std::abs(minor_at(line, column) - (row + 0.5)) <= kLineDistance;
 }
 
 void GeometricHistory::see(const LineRecord& line, rtl::Cycle cycle) {

@@ -265,8 +265,8 @@ std::optional<Bottleneck> GeometricMeter::bottleneck(const Result& result) const
   const std::uint64_t requests = e.memory_port.reads.value() + e.memory_port.writes.value();
   if (result.cycles > 0 && ratio(requests, result.cycles) >= kPortBound)
     return Bottleneck{figure("memory_port"), "busy",
-                      "The port takes a request in nearly every clock.", requests};
-  return find_bottleneck(pipe, figure("resolver"));
+                      "The port takes a request in nearly every cycle.", requests};
+  return find_bottleneck(pipe, figure(e.resolver.basename()));
 }
 
 }  // namespace deburr::tb

@@ -118,8 +118,9 @@ void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std:
   // Select the pixel to report: the first one that the row lacks, or the last one, after which the
   // row should have ended. A row that ends in its first half counts as a repeated start of the row.
   const auto width = static_cast<std::size_t>(frame_->image.width);
-  const bool lacks = beat.end_of_row && beat.count < left && left - beat.count <= width / 2;
-  const std::size_t wrong = lacks                      ? position + beat.count
+  const bool missing_pixels =
+      beat.end_of_row && beat.count < left && left - beat.count <= width / 2;
+  const std::size_t wrong = missing_pixels             ? position + beat.count
                             : last && !beat.end_of_row ? position + left - 1
                                                        : position;
   pixels.complain(
@@ -129,7 +130,7 @@ void MorphologicalChecks::got_frame(rtl::Cycle cycle, std::size_t position, std:
                   beat.end_of_row));
 }
 
-void MorphologicalChecks::go_on_at(std::size_t position) {
+void MorphologicalChecks::resynchronise_at(std::size_t position) {
   pixels.go_on_at(position);
   probes.go_on_at(position);
 }

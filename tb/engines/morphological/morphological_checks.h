@@ -43,7 +43,7 @@ class MorphologicalChecks {
     probes.got(probe, cycle);
   }
   // Resynchronises at this pixel after a framing error.
-  void go_on_at(std::size_t position);
+  void resynchronise_at(std::size_t position);
   // Only with MorphologicalSetup::descriptors: collected here, compared at the end of the frame.
   void got(const spec::morphological::RunDescriptor& run) { runs_.push_back(run); }
   void got(const spec::morphological::LineDescriptor& line) { lines_.push_back(line); }

@@ -37,9 +37,10 @@ constexpr std::array kGroups = {
     CoverageGroup{"morphological/diagonal-beyond",
                   "Diagonals that follow repeated edges outside the frame, by direction."},
     CoverageGroup{"morphological/threshold", "Edges by the term that sets their threshold."},
-    CoverageGroup{"morphological/left", "Pixels bypassed by their marks (rule leave)."},
-    CoverageGroup{"morphological/leave-border",
-                  "Pixels on the frame's border, with leave = beside."},
+    CoverageGroup{"morphological/bypass",
+                  "Pixels bypassed by their marks (`morphological.bypass`)."},
+    CoverageGroup{"morphological/bypass-border",
+                  "Pixels on the frame's border, with bypass = beside."},
     CoverageGroup{"morphological/half", "Blend weights halved by a mark."},
     CoverageGroup{"morphological/class",
                   "Lines with learned weights, by axis, end and class of its surroundings."},
@@ -68,8 +69,9 @@ Coverage morphological_coverage(const golden::morphological::MorphologicalGolden
   add(golden.coverage().bins(), same);
   add(golden.smaa_coverage().bins(), same);
   // Prefixed, because runs also have bins called border.
-  add(golden.bypass_coverage().bins(),
-      [](const std::string& name) { return name.starts_with("border/") ? "leave-" + name : name; });
+  add(golden.bypass_coverage().bins(), [](const std::string& name) {
+    return name.starts_with("border/") ? "bypass-" + name : name;
+  });
   add(golden.guard_coverage().bins(), same);
   add(golden.learned_coverage().bins(),
       [](const std::string& name) { return name.starts_with("class/") ? name : std::string(); });

@@ -257,7 +257,7 @@ void MorphologicalEnvironment::check_output(rtl::Cycle cycle,
   // Resynchronise at the nearest row, so that a row of the wrong length does not affect later ones.
   if (beat.end_of_row && position_ % width != 0) {
     position_ = (position_ + width / 2) / width * width;
-    checks_.go_on_at(position_);
+    checks_.resynchronise_at(position_);
   }
 }
 

@@ -205,8 +205,8 @@ void MorphologicalFaults::inject(rtl::morphological::MorphologicalEngine& engine
        {std::pair{"wrong-near", "weights_b"}, std::pair{"wrong-far", "weights_c"}})
     if (injected(fault))
       in_rom(name, kEntry, [](auto& rom) {
-        constexpr std::uint64_t kGoesOn = 4, kWords = 32;  // class 2 of code 1
-        for (std::uint64_t i = kGoesOn * kWords; i < (kGoesOn + 1) * kWords; ++i)
+        constexpr std::uint64_t kContinues = 4, kWords = 32;  // class 2 of code 1
+        for (std::uint64_t i = kContinues * kWords; i < (kContinues + 1) * kWords; ++i)
           rom.backdoor(i) = static_cast<std::int8_t>(rom.backdoor(i) ^ 1 << 4);
       });
   if (injected("wrong-sum"))

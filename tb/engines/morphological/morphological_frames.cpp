@@ -92,7 +92,7 @@ bool is_rendered(const FrameParameters& parameters) { return is_scene(parameters
 bool looks_like_a_picture(const DepthImage& depth) {
   // Values; fewer, as from a few flat walls, are not conclusive.
   constexpr std::size_t kEnough = 64;
-  constexpr double kAlike = 0.5;  // correlation of the differences of two channels
+  constexpr double kMinCorrelation = 0.5;  // correlation of the differences of two channels
   const std::vector<std::uint32_t> codes = depth_codes(depth);
   std::array<double, 3> squares{}, products{};  // of differences in R, G, B; products of RG, GB, BR
   std::set<std::uint32_t> values;
@@ -114,7 +114,7 @@ bool looks_like_a_picture(const DepthImage& depth) {
   }
   if (values.size() < kEnough) return false;
   for (std::size_t c = 0; c < 3; ++c)
-    if (products[c] > kAlike * std::sqrt(squares[c] * squares[(c + 1) % 3])) return true;
+    if (products[c] > kMinCorrelation * std::sqrt(squares[c] * squares[(c + 1) % 3])) return true;
   return false;
 }
 

@@ -44,7 +44,7 @@ void describe(FrameParameters& p, Visitor& v) {
          "Reference image: the anti-aliased picture that an image is compared with.");
   v.text("mask", p.mask, "file or list",
          "Mask: pixels with red of 128 or more are bypassed. Bit 0 of their alpha becomes 0, of "
-         "all other pixels 1, and the rule leave becomes masked.");
+         "all other pixels 1, and `morphological.bypass` becomes masked.");
   v.text("weights", p.weights, "file",
          "Learned weights, as written by `deburr train`, that replace the built-in ones; they are "
          "loaded through the registers.");

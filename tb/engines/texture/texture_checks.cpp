@@ -86,9 +86,9 @@ void TextureChecks::expect(const traces::TracedQuad& quad, std::uint64_t number,
     return;
   }
   const TextureExpectation& all = *setup_.expectation;
-  const TextureExpectation::Behind from = number > 0 ? all.behind[number - 1]
-                                                     : TextureExpectation::Behind(),
-                                   to = all.behind[number];
+  const TextureExpectation::Totals from = number > 0 ? all.totals[number - 1]
+                                                     : TextureExpectation::Totals(),
+                                   to = all.totals[number];
   for (std::size_t i = from.fills; i < to.fills; ++i) expect_line(all.fills[i]);
   for (std::size_t i = from.colours; i < to.colours; ++i) expect_colour(all.colours[i]);
 }

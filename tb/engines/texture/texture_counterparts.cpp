@@ -24,11 +24,12 @@ struct CounterpartUnit {
 const std::array<CounterpartUnit, 3>& known_units() {
   static const std::array<CounterpartUnit, 3> all = {
       {{"address",
-        {"axes", "footprint", "log2", "count", "count_cap", "kernel", "spread", "axis_cycles"}},
+        {"width", "fragments", "axes", "footprint", "log2", "count", "count_cap", "kernel",
+         "spread", "axis_cycles", "derivatives", "blend"}},
        {"cache",
-        {"cache.bytes", "cache.line_bytes", "cache.ways", "cache.replacement", "cache.outstanding",
-         "cache.fifo_depth"}},
-       {"filter", {"count", "kernel", "srgb_output"}}}};
+        {"width", "cache.bytes", "cache.line_bytes", "cache.ways", "cache.replacement",
+         "cache.outstanding", "cache.fifo_depth"}},
+       {"filter", {"width", "count", "kernel", "srgb_output", "blend"}}}};
   return all;
 }
 
@@ -124,7 +125,7 @@ StandIns texture_counterparts(const std::vector<std::string>& units,
   return makers(std::move(chosen), seed);
 }
 
-StandIns texture_counterparts_there_are(const spec::texture::Parameters& as_built,
+StandIns available_texture_counterparts(const spec::texture::Parameters& as_built,
                                         std::uint64_t seed) {
   std::vector<const TextureCounterpart*> chosen;
   for (const CounterpartUnit& unit : known_units())

@@ -53,7 +53,7 @@ rtl::texture::TextureUnit::StandIns texture_counterparts(const std::vector<std::
                                                          const spec::texture::Parameters& as_built,
                                                          std::uint64_t seed);
 // All available models, for suites that run with many configurations.
-rtl::texture::TextureUnit::StandIns texture_counterparts_there_are(
+rtl::texture::TextureUnit::StandIns available_texture_counterparts(
     const spec::texture::Parameters& as_built, std::uint64_t seed);
 // Units whose links have not moved a beat since reset.
 std::vector<std::string> idle_counterparts(const rtl::texture::TextureUnit& unit);

@@ -21,6 +21,7 @@ constexpr std::size_t kLineBytes = 64;  // size of the line that is read twice
 TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScene& scene,
                                        const TextureSetup& setup, std::string name)
     : Environment(simulation, std::move(name)),
+      colours("colours", 2, rtl::texture::colours_shape(setup.texture)),
       scene_(scene),
       setup_(setup),
       faults_(simulation.faults(), this->name(), setup_),
@@ -33,7 +34,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       host_("texture_host"),
       driver_(host_, memory_),
       meter_(this->name(), unit_, memory_, scene.memory()),
-      stranger_("stranger"),
+      extra_initiator_("stranger"),
       checks_(scene_, setup_, sent_, golden()) {
   know(TextureFaults::list());
   let_blind(
@@ -56,13 +57,13 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
   else
     unit_.memory()->bind(memory_.ports);
   host_.bus.bind(unit_.registers);
-  stranger_.memory.bind(memory_.ports);
+  extra_initiator_.memory.bind(memory_.ports);
   if (this->name().empty()) {
-    sink_ = std::make_unique<Sink<spec::texture::Colour>>("sink", simulation.clock());
+    sink_ = std::make_unique<Sink<spec::texture::ColourGroup>>("sink", simulation.clock());
     sink_->beats_in(colours);
     sink_->keep(false);
-    sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-      check_output(cycle, colour);
+    sink_->on_beat = [this](rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+      check_output(cycle, group);
     };
   }
   if (simulation.options().coverage) coverage_.emplace(setup.texture);
@@ -119,7 +120,7 @@ void TextureEnvironment::clear_outputs() {
   if (maps_) maps_->clear();
   if (history_) history_->clear();
   if (coverage_) coverage_->clear();
-  came_.assign(frame_.pixels.size(), 0);
+  received_.assign(frame_.pixels.size(), 0);
 }
 
 // ---- simulation ---------------------------------------------------------------------------------
@@ -168,7 +169,11 @@ Amount TextureEnvironment::amount() const {
 
 // ---- checking -----------------------------------------------------------------------------------
 
-void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Colour& colour) {
+void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+  for (const spec::texture::Colour& colour : group) check_colour(cycle, colour);
+}
+
+void TextureEnvironment::check_colour(rtl::Cycle cycle, const spec::texture::Colour& colour) {
   ++delivered_;
   hash_.add(colour.tag);
   hash_.add(static_cast<std::uint64_t>(colour.lane) << 1 | (colour.last ? 1 : 0));
@@ -179,7 +184,7 @@ void TextureEnvironment::check_output(rtl::Cycle cycle, const spec::texture::Col
   const traces::TracedQuad* quad = sent_.take(colour, trusted);
   if (!quad || !quad->shows(colour.lane)) return;
   tb::show(*quad, colour, frame_);
-  came_[frame_.index(quad->x(colour.lane), quad->y(colour.lane))] = 1;
+  received_[frame_.index(quad->x(colour.lane), quad->y(colour.lane))] = 1;
 }
 
 void TextureEnvironment::fetch_again() {
@@ -192,7 +197,7 @@ void TextureEnvironment::fetch_again() {
   payload.set_data_length(static_cast<unsigned>(data.size()));
   payload.set_streaming_width(static_cast<unsigned>(data.size()));
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  stranger_.memory->b_transport(payload, delay);
+  extra_initiator_.memory->b_transport(payload, delay);
 }
 
 // ---- results ------------------------------------------------------------------------------------

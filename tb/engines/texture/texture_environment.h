@@ -80,13 +80,13 @@ class TextureEnvironment final : public Environment {
   Coverage coverage() const override;
   void collect_headline(Result& result) const override { meter_.collect_headline(result); }
 
-  rtl::Link<spec::texture::Colour> colours{"colours"};
-  void check_output(rtl::Cycle cycle, const spec::texture::Colour& colour);
+  rtl::Link<spec::texture::ColourGroup> colours;
+  void check_output(rtl::Cycle cycle, const spec::texture::ColourGroup& group);
   bool sent() const { return quad_driver_.done(); }  // all quads
 
   const Image& frame() const { return frame_; }
   // Per pixel, whether a colour has been received.
-  const std::vector<std::uint8_t>& came() const { return came_; }
+  const std::vector<std::uint8_t>& received() const { return received_; }
   // The golden model's picture of the same fragments; empty if SimulationOptions::golden is false.
   const Image& golden_frame() const { return checks_.golden_frame(); }
   const golden::texture::TextureWork& golden_work() const { return checks_.work(); }
@@ -100,14 +100,15 @@ class TextureEnvironment final : public Environment {
 
  private:
   // Additional initiator for the fault of an unrequested fetch.
-  struct Stranger : sc_core::sc_module {
-    explicit Stranger(const sc_core::sc_module_name& name) : sc_module(name) {}
-    tlm_utils::simple_initiator_socket<Stranger> memory{"memory"};
+  struct ExtraInitiator : sc_core::sc_module {
+    explicit ExtraInitiator(const sc_core::sc_module_name& name) : sc_module(name) {}
+    tlm_utils::simple_initiator_socket<ExtraInitiator> memory{"memory"};
   };
 
   traces::QuadSource open() const;
   std::uint64_t fragments() const;
   void clear_outputs();
+  void check_colour(rtl::Cycle cycle, const spec::texture::Colour& colour);
   void fetch_again();
 
   const TextureScene& scene_;
@@ -116,19 +117,19 @@ class TextureEnvironment final : public Environment {
   rtl::Link<spec::texture::Quad> quads_{"quads"};
   Driver<spec::texture::Quad> quad_driver_;
   rtl::texture::TextureUnit unit_;
-  std::unique_ptr<Sink<spec::texture::Colour>> sink_;  // null in a composition
+  std::unique_ptr<Sink<spec::texture::ColourGroup>> sink_;  // null in a composition
   platform::MemoryModel memory_;
   platform::RegisterHost host_;
   platform::TextureDriver driver_;
   TextureMeter meter_;
-  Stranger stranger_;
+  ExtraInitiator extra_initiator_;
 
   traces::QuadSource source_;
   traces::TracedQuad quad_;  // currently sent
   SentQuads sent_;
   TextureChecks checks_;
   Image frame_;
-  std::vector<std::uint8_t> came_;
+  std::vector<std::uint8_t> received_;
   std::unique_ptr<TextureMaps> maps_;
   std::unique_ptr<TextureHistory> history_;
   bool ended_ = false;     // the frame is done

@@ -9,12 +9,12 @@ TextureExpectation expected_of(const TextureScene& scene,
   golden::texture::TextureGolden golden =
       make_golden(scene, parameters, golden::texture::TextureGolden::Traffic::kPredict);
   golden.record_fills(true);
-  all.behind.reserve(scene.stream().quads.size());
+  all.totals.reserve(scene.stream().quads.size());
   all.colours.reserve(scene.stream().counts.fragments);
   for (const spec::texture::Quad& quad : scene.stream().quads) {
     golden.process(quad,
                    [&](const spec::texture::Colour& colour) { all.colours.push_back(colour); });
-    all.behind.push_back({all.colours.size(), golden.fills().size()});
+    all.totals.push_back({all.colours.size(), golden.fills().size()});
   }
   all.fills = golden.fills();
   all.work = golden.work();

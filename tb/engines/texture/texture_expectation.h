@@ -15,10 +15,10 @@
 namespace deburr::tb {
 
 struct TextureExpectation {
-  struct Behind {  // number of colours and fills after a quad
+  struct Totals {  // number of colours and fills after a quad
     std::size_t colours = 0, fills = 0;
   };
-  std::vector<Behind> behind;
+  std::vector<Totals> totals;  // per quad
   std::vector<spec::texture::Colour> colours;
   std::vector<std::uint32_t> fills;  // line numbers
   golden::texture::TextureWork work;

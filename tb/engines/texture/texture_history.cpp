@@ -47,7 +47,7 @@ std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_
 
 TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                                const rtl::Link<spec::texture::Quad>& quads,
-                               const rtl::Link<spec::texture::Colour>& colours,
+                               const rtl::Link<spec::texture::ColourGroup>& colours,
                                const PixelAddress& pixel)
     : pixel_(pixel),
       line_bytes_(static_cast<std::uint32_t>(unit.parameters().cache_line_bytes)),
@@ -81,11 +81,12 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
       }));
   see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
   // Colours are recorded when taken, to include changes while they wait.
-  monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
-      clock, colours, Monitor<spec::texture::Colour>::Callback(),
-      [this](rtl::Cycle cycle, const spec::texture::Colour& colour) {
-        if (Fragment* fragment = find(colour.tag, colour.lane))
-          fragment->delivered.emplace_back(colour, cycle);
+  monitors_.push_back(std::make_unique<Monitor<spec::texture::ColourGroup>>(
+      clock, colours, Monitor<spec::texture::ColourGroup>::Callback(),
+      [this](rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
+        for (const spec::texture::Colour& colour : group)
+          if (Fragment* fragment = find(colour.tag, colour.lane))
+            fragment->delivered.emplace_back(colour, cycle);
       }));
 }
 
@@ -202,8 +203,8 @@ class TextureHistory::Writer {
             .detail = detail};
   }
   // Adds a step that only one side can have.
-  void tell(std::string step, std::string item, std::string golden, std::string hardware,
-            Clock at = std::nullopt, bool detail = false) {
+  void add_one_sided(std::string step, std::string item, std::string golden, std::string hardware,
+                     Clock at = std::nullopt, bool detail = false) {
     history_.compare(
         row(std::move(step), std::move(item), std::move(golden), std::move(hardware), at, detail));
   }
@@ -217,10 +218,11 @@ class TextureHistory::Writer {
   void quad() {
     const spec::texture::Quad& q = f_.quad.quad;
     const std::string sent = fmt::format("{}, {}, {}", q.tag, f_.lane, q.texture);
-    tell("quad", "tag, lane, texture", sent, "", f_.taken);
-    if (!f_.quad.shows(f_.lane)) tell("quad", "seen", "no: another fragment of the pixel is", "");
+    add_one_sided("quad", "tag, lane, texture", sent, "", f_.taken);
+    if (!f_.quad.shows(f_.lane))
+      add_one_sided("quad", "seen", "no: another fragment of the pixel is", "");
     if (f_.golden && !f_.analysis.valid)
-      tell("quad", "descriptor", "invalid: the colour is zero", "");
+      add_one_sided("quad", "descriptor", "invalid: the colour is zero", "");
   }
 
   void derivative() {
@@ -285,8 +287,9 @@ class TextureHistory::Writer {
         text(texels, [](const auto& t) { return words_text(t.address); }), clock(texels), true);
     lines(i, step, golden);
     if (data)
-      tell(step, "texels as stored", "",
-           text(data, [](const auto& t) { return words_text(t.texel); }), clock(data), true);
+      add_one_sided(step, "texels as stored", "",
+                    text(data, [](const auto& t) { return words_text(t.texel); }), clock(data),
+                    true);
   }
 
   // The golden model is untimed: it counts a line whose fill is outstanding as a hit.

@@ -25,7 +25,7 @@ class TextureHistory {
   // `quads` and `colours`: the unit's input and output links. All arguments must outlive it.
   TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                  const rtl::Link<spec::texture::Quad>& quads,
-                 const rtl::Link<spec::texture::Colour>& colours, const PixelAddress& pixel);
+                 const rtl::Link<spec::texture::ColourGroup>& colours, const PixelAddress& pixel);
   TextureHistory(const TextureHistory&) = delete;
   TextureHistory& operator=(const TextureHistory&) = delete;
 

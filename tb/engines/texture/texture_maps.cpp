@@ -13,8 +13,8 @@
 namespace deburr::tb {
 TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
                          const rtl::Link<spec::texture::Quad>& quads,
-                         const rtl::Link<spec::texture::Colour>& colours, const SentQuads& sent,
-                         int width, int height)
+                         const rtl::Link<spec::texture::ColourGroup>& colours,
+                         const SentQuads& sent, int width, int height)
     : unit_(unit),
       sent_(sent),
       samples_("samples", "Samples", "samples",
@@ -60,11 +60,12 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
       [this](rtl::Cycle cycle, const spec::texture::Quad& quad) {
         taken_[quad.tag % kKept] = cycle;
       }));
-  monitors_.push_back(std::make_unique<Monitor<spec::texture::Colour>>(
-      clock, colours, [this, add](rtl::Cycle cycle, const spec::texture::Colour& colour) {
+  monitors_.push_back(std::make_unique<Monitor<spec::texture::ColourGroup>>(
+      clock, colours, [this, add](rtl::Cycle cycle, const spec::texture::ColourGroup& group) {
         // The colour can be taken from the next cycle on.
-        add(colour.tag, colour.lane, latency_,
-            static_cast<double>(cycle + 1 - taken_[colour.tag % kKept]), &unplaced_.latency);
+        for (const spec::texture::Colour& colour : group)
+          add(colour.tag, colour.lane, latency_,
+              static_cast<double>(cycle + 1 - taken_[colour.tag % kKept]), &unplaced_.latency);
       }));
 }
 

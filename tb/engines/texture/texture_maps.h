@@ -21,8 +21,8 @@ class TextureMaps {
   // in the picture of `width` x `height` pixels. All arguments must outlive it.
   TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& unit,
               const rtl::Link<spec::texture::Quad>& quads,
-              const rtl::Link<spec::texture::Colour>& colours, const SentQuads& sent, int width,
-              int height);
+              const rtl::Link<spec::texture::ColourGroup>& colours, const SentQuads& sent,
+              int width, int height);
   void clear();
   // Checked against the unit's own counts.
   std::vector<PictureMap> maps() const;

@@ -38,7 +38,7 @@ void TextureMeter::collect(Result& result) const {
 }
 
 void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
-  const rtl::texture::TagStage& tags = unit_.cache.tag_stage;
+  const rtl::texture::TagUnit& tags = unit_.cache.tag_stage;
   const std::uint64_t lookups = tags.hits.value() + tags.merged.value() + tags.misses.value();
   const auto of_lookups = [&](const rtl::Counter& count) {
     return 100 * ratio(count.value(), lookups);
@@ -80,7 +80,7 @@ void TextureMeter::collect_headline(Result& result) const {
   }
   result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
   if (!unit_.address.derivative.replaced() && looks_up() && !unit_.filter.replaced())
-    result.bottleneck = find_bottleneck(result.units, figure("filter"));
+    result.bottleneck = find_bottleneck(result.units, figure(unit_.filter.basename()));
 }
 
 }  // namespace deburr::tb

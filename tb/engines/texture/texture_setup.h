@@ -40,10 +40,11 @@ struct TextureSetup {
 inline rtl::MemoryCycles memory_cycles(const TextureSetup& setup) {
   return memory_cycles(setup.memory, setup.texture.cache_line_bytes);
 }
-// Parameters with the FIFO depth that is built.
+// Parameters with the FIFO depth and the outstanding lines that are built.
 inline spec::texture::Parameters as_built(spec::texture::Parameters parameters,
                                           const rtl::MemoryCycles& memory) {
   parameters.cache_fifo_depth = rtl::texture::LatencyFifo::depth(parameters, memory);
+  parameters.cache_outstanding = rtl::texture::MissQueue::entries(parameters, memory);
   return parameters;
 }
 

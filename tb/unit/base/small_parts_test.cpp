@@ -102,7 +102,8 @@ TEST(ApplySettings, SetsByNameAndRejectsTheRest) {
   apply_settings(all, "");
   for (const char* const bad : {"width=10", "width=-3", "width=", "width=1x", "width", "wide=1",
                                 "way=nearer", "round=yes", "height=1 width=x", "=", "height=-1"})
-    EXPECT_THAT(error_of([&] { apply_settings(all, bad); }), HasSubstr("sets no parameter")) << bad;
+    EXPECT_THAT(error_of([&] { apply_settings(all, bad); }), HasSubstr("is not a known setting"))
+        << bad;
 }
 
 TEST(NearMatches, ListBestThree) {
@@ -199,11 +200,12 @@ TEST_F(Files, WrittenCompletelyOrNotAtAll) {
   write_files_atomically({{folder_ / "a", "two"}, {folder_ / "b", ""}});
   EXPECT_EQ(read_file(folder_ / "a", 10), "two");
   EXPECT_EQ(read_file(folder_ / "b", 10), "");
-  EXPECT_EQ(error_of([&] {
-              write_files_atomically({{folder_ / "a", "three"}, {folder_ / "none" / "b", "x"}});
-            }),
-            "cannot create a file in the folder of '" + (folder_ / "none" / "b").string() +
-                "': No such file or directory; no part of it was left: choose another folder");
+  EXPECT_EQ(
+      error_of([&] {
+        write_files_atomically({{folder_ / "a", "three"}, {folder_ / "none" / "b", "x"}});
+      }),
+      "cannot create a file in the folder of '" + (folder_ / "none" / "b").string() +
+          "': No such file or directory; the partial file was removed: choose another folder");
   EXPECT_EQ(read_file(folder_ / "a", 10), "two") << "all of them or none";
   EXPECT_EQ(error_of([&] { write_file_atomically(folder_ / "sub", "x"); }),
             "cannot write '" + (folder_ / "sub").string() +
@@ -245,13 +247,13 @@ TEST_F(Files, YamlNodesReturnTypedValues) {
            {[&] { yaml.count(root["zero"], "z", 9); }, "f.yaml:8: 'z' = '0' is outside 1..9"},
            {[&] { yaml.count(root["list"][1], "n", 9); }, "f.yaml:2: 'n' = '-2' is outside 1..9"},
            {[&] { yaml.number<std::int64_t>(root["list"][2], "n"); },
-            "f.yaml:2: 'n' = '1e3' wants a number"},
+            "f.yaml:2: 'n' = '1e3' must be a number"},
            {[&] { yaml.number<double>(root["list"][3], "n"); },
-            "f.yaml:2: 'n' = 'x' wants a number"},
+            "f.yaml:2: 'n' = 'x' must be a number"},
            {[&] { yaml.boolean(root["map"]["c"], "c"); },
-            "f.yaml:3: 'c' = 'False' wants true or false"},
+            "f.yaml:3: 'c' = 'False' must be true or false"},
            {[&] { yaml.scalar(root["map"], "m"); },
-            "f.yaml:3: 'm' wants a single value, got a map"},
+            "f.yaml:3: 'm' must be a single value, got a map"},
            {[&] { yaml.require_keys(root["list"], keys); }, "f.yaml:2: expected a map, got a list"},
            {[&] {
               yaml.require_keys(root["map"], {"b", "d"});
@@ -259,8 +261,8 @@ TEST_F(Files, YamlNodesReturnTypedValues) {
             "f.yaml:3: unknown key 'c': did you mean 'b' or 'd'? (known: b, d)"},
            {[&] { yaml.require_keys(root["twice"], {"b"}); }, "f.yaml:7: 'b' is given twice"},
            {[&] { YamlFile("g.yaml", std::string("a: 1\n---\nb: 2\n")); },
-            "g.yaml: holds more than one YAML document, or begins with what belongs to none, such "
-            "as ','; one is expected"},
+            "g.yaml: expected one YAML document, got several, or text before the first, such as "
+            "','"},
            {[&] { YamlFile("g.yaml", std::string("a: [1")); },
             "g.yaml:1:1: not valid YAML: end of sequence flow not found"},
            {[&] { YamlFile(put("long.yaml", "a: 123"), 5); },

@@ -75,7 +75,7 @@ TEST_F(YamlFileTest, AcceptsUtf8AndNamesInvalidLine) {
   for (const std::string bad : {"Gr\xfc\xdf\x65", "\xc0\x80", "\xe0\x80\x80", "\xed\xa0\x80",
                                 "\xf5\x80\x80\x80", "\xf4\x90\x80\x80", "\x80", "\xc3"})
     EXPECT_THAT(rejection("a: 1\nb: \"" + bad + "\"\n"),
-                EndsWith(":2: it is not UTF-8: save the file as that"))
+                EndsWith(":2: not valid UTF-8: save the file as UTF-8"))
         << bad;
 }
 
@@ -87,21 +87,22 @@ TEST_F(YamlFileTest, AcceptsAliasesOfAliases) {
 
 TEST_F(YamlFileTest, RejectsAliasesThatExpandTooMuch) {
   EXPECT_THAT(rejection(lists_of_lists(8)),
-              HasSubstr(".yaml:7:45: aliases stand for more than 1000000 values up to here"));
-  EXPECT_THAT(rejection(lists_of_lists(100)), HasSubstr("aliases stand for more than"));
+              HasSubstr(".yaml:7:45: aliases expand to more than 1000000 values"));
+  EXPECT_THAT(rejection(lists_of_lists(100)), HasSubstr("aliases expand to more than"));
   // Maps count as lists do, keys as values.
   std::string maps = "m0: &m0 {x: y}\n";
   for (int level = 1; level <= 30; ++level) {
     const std::string before = std::to_string(level - 1), name = std::to_string(level);
     maps += "m" + name + ": &m" + name + " {a: *m" + before + ", b: *m" + before + "}\n";
   }
-  EXPECT_THAT(rejection(maps), HasSubstr("aliases stand for more than"));
+  EXPECT_THAT(rejection(maps), HasSubstr("aliases expand to more than"));
 }
 
 TEST_F(YamlFileTest, RejectsListThatContainsItself) {
   EXPECT_THAT(rejection("a: 1\nb: &b [2, *b]\n"),
-              EndsWith(".yaml:2:11: an alias of what it is a part of"));
-  EXPECT_THAT(rejection("a: &a {b: {c: *a}}\n"), HasSubstr("an alias of what it is a part of"));
+              EndsWith(".yaml:2:11: an alias refers to a node that contains it"));
+  EXPECT_THAT(rejection("a: &a {b: {c: *a}}\n"),
+              HasSubstr("an alias refers to a node that contains it"));
 }
 
 // Where the library gives up, the error also names a line, and nothing crashes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of a run by their keys in result.json ("/work/edge_cycles"), and what runs of several
-// frames must make of those of their frames.
+// Figures of a run by their keys in result.json ("/work/edge_cycles"), and how a run of several
+// frames must combine the figures of its frames.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace deburr::tb {
 
 using Json = nlohmann::ordered_json;
 
-// Everything that does not hang on the host.
+// The result without the parts that depend on the host.
 inline Json json_of(const Simulation& simulation) {
   Result result;
   simulation.collect(result);
@@ -33,7 +33,7 @@ inline Json json_of(const Simulation& simulation) {
   return json;
 }
 
-// Maps of the run: values, and what they were to come to.
+// Maps of the run: their values, and whether their sums agree with the counters.
 inline Json json_of(const std::vector<PictureMap>& maps) {
   Json all = Json::object();
   for (const PictureMap& map : maps) {
@@ -58,7 +58,7 @@ inline double number_at(const Json& run, const std::string& key) {
 inline double work(const Json& run, const std::string& name) {
   return number_at(run, "/work/" + name);
 }
-// Hits of a bin of coverage; of a group that ends in '/', of all its bins.
+// Hits of a coverage bin, or of all bins of a group whose name ends in '/'.
 inline double hits(const Json& run, const std::string& name) {
   double all = 0;
   bool any = false;
@@ -76,11 +76,11 @@ inline double sum_of(const std::vector<Json>& runs, const std::string& key) {
   return sum;
 }
 
-// What a run of several frames counted against what each of them counts alone, the last one last.
-// Cycles of a frame may differ by `cycles`.
+// Compares a run of several frames with runs of each frame on its own, in order. Cycles of a frame
+// may differ by `cycles`.
 struct SeveralFrames {
-  std::set<std::string> of_the_last{}, largest{};  // figures of `work`; all other counts are sums
-  std::set<std::string> by_formula{};              // ratios, which the test works out itself
+  std::set<std::string> from_last{}, largest{};  // figures of `work`; all other counts are sums
+  std::set<std::string> by_formula{};            // ratios, which the test computes itself
 };
 inline void expect_sums(const Json& run, const std::vector<Json>& alone,
                         const SeveralFrames& figures, double cycles = 0) {
@@ -91,12 +91,12 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
     EXPECT_EQ(number_at(run, key), sum_of(alone, key)) << key;
   EXPECT_EQ(number_at(run, "/checks/mismatches"), 0);
   for (const auto& [name, board] : run["scoreboards"].items()) {
-    if (name == "status registers" || name == "figures") continue;  // at the end alone
+    if (name == "status registers" || name == "figures") continue;  // only at the end
     EXPECT_EQ(board["comparisons"], sum_of(alone, "/scoreboards/" + name + "/comparisons")) << name;
   }
   for (const auto& [name, value] : run["work"].items()) {
     const std::string key = "/work/" + name;
-    if (figures.of_the_last.contains(name)) {
+    if (figures.from_last.contains(name)) {
       EXPECT_NEAR(value.get<double>(), number_at(alone.back(), key), cycles) << name;
     } else if (figures.largest.contains(name)) {
       double most = 0;
@@ -115,7 +115,8 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
                   2 * in_all)
           << name << cause;
   }
-  // A merge of runs is a sum; bins of stalls are cycles. A run names what it met of bins of tests.
+  // Hits of merged runs add up; stall bins count cycles. A run lists only the test bins that it
+  // hit.
   std::set<std::string> bins;
   for (const Json& one : alone)
     for (const auto& [bin, hits] : one["coverage"]["bins"].items()) bins.insert(bin);
@@ -133,13 +134,14 @@ inline void expect_sums(const Json& run, const std::vector<Json>& alone,
   EXPECT_EQ(count, 0) << "latencies";
 }
 
-// The history of a pixel, whatever came before its frame.
+// The history of a pixel, independent of earlier frames.
 inline Json without_cycles(Json pixel) {
   for (Json& step : pixel["steps"]) step.erase("clock");
   return pixel;
 }
 
-// Maps of a run of several frames show the last; those of one frame must come to what was counted.
+// Maps of a run of several frames show the last frame; those of one frame must add up to its
+// counters.
 inline void expect_maps_of_the_last(const Json& run, const Json& alone, int width, int height) {
   for (const auto& [name, map] : alone["maps"].items()) {
     const Json& same = run["maps"][name];

@@ -52,7 +52,7 @@ TEST(Latency, ListsPercentiles) {
 TEST(Latency, BinsHaveEqualWidth) {
   EXPECT_EQ(bins(latency({7, 9, 9, 8})), (Bins{{7, 1}, {8, 1}, {9, 2}}));
   EXPECT_EQ(bins(latency({3, 5})), (Bins{{3, 1}, {4, 0}, {5, 1}}));
-  EXPECT_EQ(latency({10, 57}).histogram.size(), 48u) << "a clock each";
+  EXPECT_EQ(latency({10, 57}).histogram.size(), 48u) << "one cycle each";
   const Latency wide = latency({10, 11, 12, 58});
   EXPECT_EQ(wide.histogram.size(), 25u);
   EXPECT_EQ(wide.histogram[0].from, 10u);
@@ -145,7 +145,7 @@ TEST(MemoryParameters, EveryParameterReachesItsModelField) {
   p.latency_max = 0;  // fixed
   m = memory_model_parameters(p, 63, 1);
   EXPECT_EQ(m.latency_max, 11u);
-  EXPECT_EQ(m.bytes, 64u) << "a line at least";
+  EXPECT_EQ(m.bytes, 64u) << "at least one line";
 }
 
 TEST(MemoryParameters, LineTakesLatencyAndItsTransfer) {
@@ -161,7 +161,7 @@ TEST(MemoryParameters, LineTakesLatencyAndItsTransfer) {
   EXPECT_EQ(cycles(30, 0, 64, 64), std::pair(30, 1));
   EXPECT_EQ(cycles(30, 40, 16, 64), std::pair(40, 4));
   EXPECT_EQ(cycles(30, 20, 16, 128), std::pair(30, 8));
-  EXPECT_EQ(cycles(30, 0, 128, 64), std::pair(30, 1)) << "no less than a clock";
+  EXPECT_EQ(cycles(30, 0, 128, 64), std::pair(30, 1)) << "at least one cycle";
   EXPECT_EQ(cycles(30, 0, 0, 64), std::pair(30, 1)) << "no limit";
 }
 

@@ -49,7 +49,7 @@ TEST(FaultPlan, EmptyPlanInjectsNothing) {
 TEST(FaultPlan, ErrorListsAvailableFaults) {
   FaultPlan plan({"gremlin"});
   plan.know("texture", faults("colours"));
-  EXPECT_THAT(complaint(plan), HasSubstr("no fault 'gremlin': known are texture.flip-bit"));
+  EXPECT_THAT(complaint(plan), HasSubstr("unknown fault 'gremlin'; known: texture.flip-bit"));
 }
 
 TEST(FaultPlan, ErrorListsRequirementsOfFault) {

@@ -74,7 +74,7 @@ TEST_F(Raster, RemembersLossOfPreviousFrame) {
   board_.expect(other_, 3);
   come(other_);
   EXPECT_EQ(board_.leftovers(), 1U);
-  EXPECT_THAT(complaint(), HasSubstr("pixels of a frame before"));
+  EXPECT_THAT(complaint(), HasSubstr("pixels of an earlier frame"));
 }
 
 TEST_F(Raster, RestartsAfterReset) {

@@ -173,7 +173,7 @@ TEST(ClockDomain, DisablingShuffleRestoresOrderOfAddition) {
   EXPECT_EQ(all, (std::vector<int>{0, 1, 2, 3, 4, 5}));
 }
 
-// Records what an observer reads at its time: in both modes, everything up to the last edge.
+// Records the values that an observer reads: in both modes, the results of all edges so far.
 struct Observer : sc_core::sc_module {
   Pipeline& pipeline;
   std::string seen;

@@ -61,12 +61,12 @@ TEST(Datasheets, CyclesExplainedByTextMayDiffer) {
 TEST(Datasheets, PageHasSummaryTableThenUnitStages) {
   Datasheet fast = halver("fast", 2);
   fast.megahertz = 300;
-  fast.interval = {1, "a token a clock"};
+  fast.interval = {1, "one token per cycle"};
   EXPECT_EQ(rtl::datasheets_markdown(std::vector{halver("slow", 3), fast}), R"(
 | unit | latency | initiation interval |
 |---|---|---|
 | Halver, slow | 3 | 1 |
-| Halver, fast | 2 | a token a clock |
+| Halver, fast | 2 | one token per cycle |
 
 ### Halver
 
@@ -83,7 +83,7 @@ Latency: 3; initiation interval: 1.
 
 **fast**
 
-Latency: 2; initiation interval: a token a clock. For 300 MHz.
+Latency: 2; initiation interval: one token per cycle. For 300 MHz.
 
 | stage | work | longest path |
 |---|---|---|

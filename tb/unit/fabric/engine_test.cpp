@@ -423,7 +423,7 @@ TEST(LatencyProbe, SingleItemsHaveTheirLatency) {
     probe.enters(c += 3);
     ASSERT_EQ(probe.leaves(c += stay), stay);
   }
-  // Two items with two latencies in flight; then three, of which the middle one leaves first.
+  // Two items in flight with different latencies; then three, and the middle one leaves first.
   for (Cycle gap = 1; gap < 20; ++gap) {
     probe.enters(c);
     probe.enters(c + gap);

@@ -256,7 +256,7 @@ TEST(MemoryPort, PayloadArrivesWithoutOldExtensions) {
   EXPECT_EQ(target.marked, "--------");
 }
 
-// What interconnects and memories may change in a payload, or forget to set.
+// Changes that interconnects and memories may make to a payload, or values they may fail to set.
 struct OddTarget : sc_core::sc_module {
   enum class What { kMovesAddress, kLeavesIncomplete, kRejectsEnables };
   tlm_utils::simple_target_socket<OddTarget> socket{"socket"};

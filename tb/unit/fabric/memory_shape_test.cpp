@@ -113,7 +113,7 @@ TEST_P(MemoryLatency, AcceptsOneAccessPerCycle) {
 
 INSTANTIATE_TEST_SUITE_P(Cycles, MemoryLatency, testing::Values(1, 2, 3, 7));
 
-// A unit requests a word in the cycle in which it needs it: one cycle too late for the memory.
+// The unit issues the read in the cycle in which it needs the word: one cycle too late.
 TEST(Memory, ReadIssuedTooLateIsRejected) {
   Ported p(2);
   p.read.read(9, 7);  // needed in cycle 10
@@ -524,7 +524,7 @@ TEST(Memory, AdjacentWordsLieInDifferentBanks) {
   }
 }
 
-// 41 words in 4 banks of 11, the last of which holds 8.
+// 41 words in 4 banks of 11; the last bank holds 8.
 TEST(Memory, BlockSizeIsRoundedUp) {
   Memory<int> memory("memory", {.words = 41,
                                 .word_bits = 4,
@@ -558,9 +558,9 @@ TEST(Memory, EveryWordOfAccessUsesItsBank) {
     for (std::uint64_t a = 0; a < 8; ++a) {
       first.read(++cycle, 16, count);
       if (a % 4 < count)
-        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " beside " << count;
+        EXPECT_THROW(second.read(cycle, a), spec::CheckFailed) << a << " next to " << count;
       else
-        EXPECT_NO_THROW(second.read(cycle, a)) << a << " beside " << count;
+        EXPECT_NO_THROW(second.read(cycle, a)) << a << " next to " << count;
     }
   }
 }
@@ -771,14 +771,14 @@ class Holder final : public rtl::Unit {
 TEST(Memory, DomainResetsMemory) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
   Holder holder("holder", clock);
-  Ported beside(1);
+  Ported outside(1);
   clock.run(5);
-  beside.read.read(clock.cycle(), 3);
+  outside.read.read(clock.cycle(), 3);
   EXPECT_EQ(holder.inside.memory.reads(), 5U);
-  EXPECT_EQ(beside.memory.reads(), 1U);
+  EXPECT_EQ(outside.memory.reads(), 1U);
   clock.set_reset_n(false);
   clock.run(1);
-  for (Ported* p : {&holder.inside, &beside}) {
+  for (Ported* p : {&holder.inside, &outside}) {
     EXPECT_EQ(p->memory.reads(), 0U);
     EXPECT_THROW(p->read.word(clock.cycle() + 1), spec::CheckFailed);
     EXPECT_EQ(p->memory.backdoor(7), 107);

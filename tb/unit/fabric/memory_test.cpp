@@ -571,10 +571,10 @@ TEST(MemoryModel, WriteIsNotVisibleBeforeItsResponse) {
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0, 0}));
   first.release();
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0}));
-  EXPECT_EQ(first.get_ref_count(), 0) << "the memory keeps what it has written";
+  EXPECT_EQ(first.get_ref_count(), 0) << "the memory keeps the written bytes";
   second.release();
   EXPECT_EQ(memory.dump(1, 2), (std::vector<std::uint8_t>{0xEE, 0xEE}));
-  EXPECT_EQ(second.get_ref_count(), 0) << "the memory keeps what it has written";
+  EXPECT_EQ(second.get_ref_count(), 0) << "the memory keeps the written bytes";
 }
 
 // A request arrives with the last byte of one write, a picosecond before that of the next.

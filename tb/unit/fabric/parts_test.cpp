@@ -56,7 +56,7 @@ TEST(Fifo, HighWaterIgnoresPushPopOrder) {
   EXPECT_EQ(pop_first.high_water(), 4U);
   pop_first.pop(4);
   pop_first.push(5, 0);
-  EXPECT_EQ(pop_first.high_water(), 4U) << "a pop of an earlier clock has left its word free";
+  EXPECT_EQ(pop_first.high_water(), 4U) << "a pop in an earlier cycle has freed its entry";
 }
 
 // A unit that fills a FIFO and never empties it.

@@ -87,6 +87,16 @@ TEST(Payload, WidthIsSumOfBuiltFields) {
   EXPECT_EQ(Payload::of<Place>({.lanes = 5}).bits(), 27U);  // no field per lane
 }
 
+// The fields of the only element stand in the container, without the array's name.
+TEST(Payload, SingleElementHasNoIndex) {
+  const Payload payload = Payload::of<Beat>({.single = "corner"});
+  EXPECT_EQ(payload.bits(), 262U - 27);
+  EXPECT_NE(payload.find("column"), nullptr);
+  EXPECT_EQ(payload.find("corner.0.column"), nullptr);
+  for (const char* const no_array : {"corners", "slope", "edges", "place", "corner.0"})
+    EXPECT_THROW(Payload::of<Beat>({.single = no_array}), spec::CheckFailed) << no_array;
+}
+
 // Width 0: the engine is built without the field. It has no bit, no wave, no fault and no entry in
 // the types, and its value in the model is ignored.
 TEST(Payload, FieldOfWidthZeroIsNotBuilt) {
@@ -95,8 +105,7 @@ TEST(Payload, FieldOfWidthZeroIsNotBuilt) {
   EXPECT_EQ(payload.bits(), 262U - 13 - 14 - 4);
   for (const char* const gone : {"slope", "place.row", "edges"}) {
     EXPECT_EQ(payload.find(gone), nullptr) << gone;
-    EXPECT_THAT(text_of<spec::ConfigError>([&] { payload.bit(gone); }),
-                HasSubstr("no field is named"));
+    EXPECT_THAT(text_of<spec::ConfigError>([&] { payload.bit(gone); }), HasSubstr("unknown field"));
   }
   // The fields after it move up.
   EXPECT_EQ(payload.find("place.column")->first_bit, 0U);
@@ -412,7 +421,7 @@ TEST(Payload, EveryBitIsFlippedByNumberAndName) {
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.0.r.8"); }),
               HasSubstr("no bit 8 of pixel.0.r: the field has 8"));
   EXPECT_THAT(text_of<spec::ConfigError>([&] { bit("pixel.9.r"); }),
-              AllOf(HasSubstr("no field is named pixel.9.r"), HasSubstr("\n  slope (13 bits)")));
+              AllOf(HasSubstr("unknown field pixel.9.r"), HasSubstr("\n  slope (13 bits)")));
 }
 
 TEST(Payload, DifferenceNamesTheFields) {

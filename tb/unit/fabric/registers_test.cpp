@@ -412,7 +412,7 @@ TEST(RegisterFields, ExtractAndInsertAtTheirPosition) {
   EXPECT_EQ(fields::kCount.of(0xFFFF15FF), 0x15u);
   EXPECT_EQ(fields::kTop.of(0x7FFFFFFF), 0u);
   EXPECT_EQ(fields::kCount.in(0x15), 0x1500u);
-  EXPECT_EQ(fields::kCount.in(0xFFFFFFFF), 0x1F00u) << "what does not fit is dropped";
+  EXPECT_EQ(fields::kCount.in(0xFFFFFFFF), 0x1F00u) << "bits that do not fit are dropped";
   EXPECT_EQ(fields::kTable[0].mask(), 0xFFFFFFFFu) << "one number";
   EXPECT_EQ(fields::kTable[1].mask(), 0x80001F03u);
 }

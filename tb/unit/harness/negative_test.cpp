@@ -75,7 +75,7 @@ TEST(Negative, ScoreboardDetectsDroppedBeat) {
 TEST(Negative, LinkCheckerDetectsDroppedBeat) {
   const std::string text = text_of([] { run({"drop:link_2:100"}, true); }, ExitCode::kSimulation);
   EXPECT_THAT(text, AllOf(HasSubstr("link_2"), HasSubstr("vanished"), HasSubstr("adder_1"),
-                          HasSubstr("101 beats have gone in, 102 were pushed")));
+                          HasSubstr("101 beats entered, but 102 were pushed")));
 }
 TEST(Negative, ScoreboardDetectsDuplicatedBeat) {
   const std::string text = text_of([] { run({"duplicate:link_0:7"}, false); }, ExitCode::kMismatch);
@@ -319,12 +319,12 @@ TEST(LinkChecker, DetectsPopInCycleOfPush) {
 }
 TEST(LinkChecker, DetectsPushIntoFullLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }),
-              HasSubstr("rogue: cycle 2: a push into a link that was full"));
+              HasSubstr("rogue: cycle 2: a push into a full link"));
 }
-// The same for a link whose beats have no checker of their own: this one also checks widths.
+// The same with the general checker, which also checks widths.
 TEST(LinkChecker, DetectsPushIntoFullLinkWithWidths) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) { link.push(cycle, {}); }, true),
-              HasSubstr("rogue: cycle 2: a push into a link that was full"));
+              HasSubstr("rogue: cycle 2: a push into a full link"));
 }
 TEST(LinkChecker, CountsBeatsBeforeReset) {
   rtl::ClockDomain clock("clock", sc_core::sc_time(10, sc_core::SC_NS));
@@ -346,14 +346,14 @@ TEST(LinkChecker, DetectsBeatThatAppearsOnIdleLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 5) link.push(4, {});
               }),
-              HasSubstr("rogue: cycle 5: 1 beats have gone in, 0 were pushed"));
+              HasSubstr("rogue: cycle 5: 1 beats entered, but 0 were pushed"));
 }
 TEST(LinkChecker, DetectsBeatThatVanishesFromIdleLink) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
                 if (cycle == 3) link.push(3, {});
                 if (cycle == 5) link.pop(4);
               }),
-              HasSubstr("rogue: cycle 5: 1 beats have gone out, 0 were popped"));
+              HasSubstr("rogue: cycle 5: 1 beats left, but 0 were popped"));
 }
 TEST(LinkChecker, DetectsTwoPopsInOneCycle) {
   EXPECT_THAT(rogue([](Rogue& link, Cycle cycle) {
@@ -362,7 +362,7 @@ TEST(LinkChecker, DetectsTwoPopsInOneCycle) {
                 link.pop(cycle);
                 link.pop(cycle);
               }),
-              HasSubstr("rogue: cycle 4: 2 beats have gone out, 1 were popped"));
+              HasSubstr("rogue: cycle 4: 2 beats left, but 1 were popped"));
 }
 
 // A pop counts as progress as well.
@@ -469,7 +469,7 @@ TEST_F(OutOfStep, LostItemsCountOnceEach) {
   EXPECT_EQ(board_.mismatches(), 3u);
   EXPECT_EQ(board_.leftovers(), 0u);
   EXPECT_THAT(text_of([&] { board_.check(); }, ExitCode::kMismatch),
-              HasSubstr("item 100: expected 100, got nothing, or it later: next came 103"));
+              HasSubstr("item 100: expected 100, got nothing so far; next came 103"));
 }
 TEST_F(OutOfStep, DuplicatedItemCountsOnce) {
   std::vector<int> come = counted();

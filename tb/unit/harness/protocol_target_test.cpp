@@ -162,12 +162,13 @@ TEST(ProtocolTarget, DetectsEachViolation) {
   expect({.spoil = [](Payload& p) { p.set_mm(nullptr); }}, "without memory manager");
   expect({.spoil = [](Payload& p) { p.release(); }}, "the initiator holds no reference");
   expect({.disturb = [](Payload& p) { p.set_address(128); }}, "attributes changed");
-  expect({.disturb = [](Payload& p) { p.release(); }}, "gave its reference up");
+  expect({.disturb = [](Payload& p) { p.release(); }}, "released its reference");
   // Ends.
-  expect({.answer = tlm::TLM_ACCEPTED, .end_calls = 2}, "END_RESP of a transaction that is over");
+  expect({.answer = tlm::TLM_ACCEPTED, .end_calls = 2}, "END_RESP of a transaction that has ended");
   expect({.answer = tlm::TLM_UPDATED, .answer_phase = tlm::END_RESP, .end_calls = 1},
-         "END_RESP of a transaction that is over");
-  expect({.answer = tlm::TLM_COMPLETED, .end_calls = 1}, "END_RESP of a transaction that is over");
+         "END_RESP of a transaction that has ended");
+  expect({.answer = tlm::TLM_COMPLETED, .end_calls = 1},
+         "END_RESP of a transaction that has ended");
   expect({.early_end = true}, "END_RESP before BEGIN_RESP");
   expect({.end_calls = 1, .past_end = true}, "END_RESP earlier than BEGIN_RESP",
          {.answer = Answer::kBeginResponse});

@@ -23,7 +23,7 @@ SOMETIMES = {"tb/unit/scene/leaks.cpp", "tb/fuzz/fuzzer.cpp", "tb/fuzz/write_see
              "tb/oracle/mesa_context.cpp", "tb/oracle/mesa_device.cpp", "tb/oracle/mesa_test.cpp",
              "tb/oracle/smaa_shader.cpp", "tb/oracle/smaa_shader_test.cpp",
              *(path.relative_to(SOURCE).as_posix() for path in (SOURCE / "tb/hdl").glob("*.cpp"))}
-# The generated source and s5.cpp have settings of their own, so each is a batch of one file.
+# The generated source and s5.cpp have their own compile settings, so each is a batch of one file.
 TINY = """cmake_minimum_required(VERSION 3.25)
 project(tiny LANGUAGES CXX)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)

@@ -84,7 +84,7 @@ class DiscoverTests(unittest.TestCase):
         for sources, tests, complaint in (
                 ([source("a"), source("b")], [one, ("Suite", "One", two[2])], "2 tests are called Suite.One"),
                 ([source("a"), source("b")], [one], "tb/unit/rtl/b_test.cpp has no tests"),
-                ([source("a")], [one, two], "Suite.Two stands in no source of the list"),
+                ([source("a")], [one, two], "Suite.Two is in no source of the list"),
                 ([source("a")], [("Suite", "DISABLED_One", one[2])], "Suite.DISABLED_One would not run"),
                 ([source("a", timing=["Suite.Tow"])], [one], "no test 'Suite.Tow' for the label timing"),
                 ([source("a"), source("b", long=["Suite.One"])], [one, two],

@@ -33,59 +33,59 @@ MADE = {
     "tool/tests/command/stable.txt": "tool/tests/command/stable_test.py --update",
 }
 
-# engine -> reason -> files that name it. A CMake list may name what the sources in its folder name.
+# engine -> reason -> files that name it. A CMake list may name an engine if the sources in its folder do.
 NAMED = {
     "geometric": {
-        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
-        "the rule `leave` is about what it has marked": [
+        "each pair of engines is tested in separate clock domains": ["tb/unit/platform/engine_domains_test.cpp"],
+        "the parameter `bypass` uses its marks": [
             "golden/morphological/configuration.cpp", "golden/morphological/configuration.h",
             "golden/morphological/bypass.h", "rtl_model/morphological/blend/blender.cpp",
             "spec/morphological/parameters.h", "tool/engines/morphological/morphological_role.cpp",
             "tb/unit/golden/morphological/frames_test.cpp"],
-        "methods are compared there, each by its name": ["studies/quality/comparison.cpp"],
-        "the paper whose method it is": ["studies/papers/papers_002.cpp"],
-        "tests call its functions of the C interface, and what is built from installed files does": [
+        "methods are compared by name": ["studies/quality/comparison.cpp"],
+        "the paper that describes its method": ["studies/papers/papers_002.cpp"],
+        "tests, and examples built from installed files, call its C functions": [
             "examples/installed_test.py", "examples/systemverilog/testbench.sv", "tb/fuzz/c_calls.cpp",
             "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "Python has its equations in real numbers, and tests call its functions of the module": [
+        "Python provides its equations in real numbers, and tests call its Python functions": [
             "python/bindings/ideal_python.cpp"],
-        "tables of pages are measured, its own among them": ["scripts/reports/results.py"],
-        "an example of files, in what a script says of itself": ["scripts/mutate"],
+        "generates the tables of its pages": ["scripts/reports/results.py"],
+        "an example in the help of a script": ["scripts/mutate"],
     },
     "morphological": {
-        "each pair of engines is tested in clock domains of its own": ["tb/unit/platform/engine_domains_test.cpp"],
-        "it blends in the same light, by the same tables": [
+        "each pair of engines is tested in separate clock domains": ["tb/unit/platform/engine_domains_test.cpp"],
+        "shares its tables for linear light": [
             "golden/geometric/geometric_golden.cpp", "golden/geometric/geometric_golden.h",
             "golden/geometric/resolve.cpp", "golden/geometric/resolve.h", "spec/geometric/tables.h",
             "tb/unit/golden/geometric/line_test.cpp"],
-        "the field's word for such methods, or what they are compared with": [
+        "the field's word for such methods, or a comparison with them": [
             "golden/ideal/cmaa2.h", "golden/ideal/coverage.h", "golden/ideal/smaa.h", "studies/quality/comparison.cpp",
             "studies/quality/harm.cpp", "tb/oracle/smaa_frames.h",
             "tb/oracle/smaa_published_test.cpp", "tb/oracle/smaa_shader_test.cpp", "tb/oracle/smaa_test.cpp",
             "tb/scene/reference.h"],
-        "papers whose methods it has": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
-        "lines and discs that its shares are measured and learned by": [
-            "scripts/train-shares", "tb/stimuli/line_fans.cpp",
+        "papers that describe its methods": ["studies/papers/papers_000.cpp", "studies/papers/papers_003.cpp"],
+        "images that measure and train its blend weights": [
+            "scripts/train-weights", "tb/stimuli/line_fans.cpp",
             "tb/stimuli/line_fans.h", "studies/training/recipe.cpp", "studies/training/recipe.h", "tb/stimuli/weight_file.cpp",
             "tb/stimuli/weight_file.h", "studies/training/weight_samples.cpp", "studies/training/weight_samples.h",
             "studies/training/weight_trainer.cpp", "studies/training/weight_trainer.h", "studies/training/title_weights.cpp",
             "studies/training/title_weights.h", "studies/training/train_weights.cpp", "tb/unit/stimuli/weight_file_test.cpp"],
-        "values of its tables that its contract takes from doubles": ["tb/unit/house/layers_test.py"],
-        "an example of an engine, in tests of what every engine has": [
+        "its contract defines some table values by doubles": ["tb/unit/house/layers_test.py"],
+        "an example engine in a test of common functions": [
             "tb/unit/env/injected_faults_test.cpp"],
-        "an example of an engine, in what is built from installed files": [
+        "an example engine, built from installed files": [
             "examples/c/draw.c", "examples/installed_test.py", "examples/platform/expected.cpp",
             "examples/platform/expected.h", "examples/platform/main.cpp", "examples/platform/painter.cpp",
             "examples/platform/painter.h", "examples/platform/software.cpp", "examples/systemverilog/edge_detector.sv",
             "examples/systemverilog/testbench.sv"],
-        "frames from Python are views and depths as it has them, and tests call its functions of the module": [
+        "frames from Python use its views and depths, and tests call its Python functions": [
             "python/bindings/frames.cpp", "python/bindings/frames.h", "python/bindings/ideal_python.cpp",
             "tb/bench/python_frames.cpp", "tb/bench/python_golden.py"],
-        "tests call its functions of the C interface": [
+        "tests call its C functions": [
             "tb/fuzz/c_calls.cpp", "tb/unit/golden/c/calls_test.cpp", "tb/unit/golden/c/frames_test.cpp",
             "tb/unit/golden/c/threads_test.cpp"],
-        "tables of pages are measured, its own among them": [
+        "generates the tables of its pages": [
             "scripts/report", "scripts/reports/guides.py", "scripts/reports/results.py"],
     },
 }
@@ -148,11 +148,11 @@ def not_made(root, made):
     for name, command in made.items():
         script = root / command.split()[0]
         if not script.exists() or name.rpartition("/")[2] not in script.read_text(encoding="utf-8"):
-            yield f"{name} is not made by {command}"
+            yield f"{name} is not generated by {command}"
         elif command.split()[1] not in script.read_text(encoding="utf-8"):
-            yield f"{command.split()[0]} has no {command.split()[1]}"
+            yield f"{command.split()[0]} lacks {command.split()[1]}"
         if not (root / name).exists():
-            yield f"MADE names {name}, which is not there"
+            yield f"MADE names {name}, which does not exist"
 
 
 def complaints(root, named):
@@ -160,10 +160,10 @@ def complaints(root, named):
     texts = list(files(root))
     for name, text in texts:
         if ADDED in (name + text).lower():
-            yield f"{name} names {ADDED}, which is added without an edit"
+            yield f"{name} names {ADDED}, which tests add to the list"
     for engine in engines(root):
         for found in sorted(general_naming(engine, texts)):
-            yield f"{engine} is named where no engine is: {found}"
+            yield f"a general folder names {engine}: {found}"
         if engine not in named:
             continue
         reasons = {name for names in named[engine].values() for name in names}
@@ -171,11 +171,11 @@ def complaints(root, named):
         found = {name for name in naming(engine, texts) if (engine == "frame" or not COMPOSITION.search(name)) and
                  not (build_list(name) and name.rpartition("/")[0] in folders and not GENERAL.match(name))}
         for name in sorted(found - reasons):
-            yield f"{name} names {engine}: let {engine} declare what it is for (docs/howto/add_an_engine.md)"
+            yield f"{name} names {engine}: move this into a declaration of {engine} (docs/howto/add_an_engine.md)"
         for name in sorted(reasons & MADE.keys()):
-            yield f"{name} is made: take it off the list"
+            yield f"{name} is generated: remove it from the list"
         for name in sorted(reasons - found):
-            yield f"{name} does not name {engine} any more: take it off the list"
+            yield f"{name} does not name {engine} any more: remove it from the list"
 
 
 def injected_faults_are_caught():

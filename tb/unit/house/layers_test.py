@@ -52,7 +52,7 @@ FLOATING = re.compile(r"\b(float|double)\b")
 THREADS = re.compile(r"\bSC_C?THREAD\b")
 ASSERT = re.compile(r"(?<![\w_])assert\s*\(")
 NAMESPACE = re.compile(r"^\s*using\s+namespace\b")
-# Namespaces follow folders: the tool and studies define names in their own and may declare names of others.
+# Namespaces follow folders: tool and studies define names in their own namespaces and may declare names of others.
 OPENED = re.compile(r"^namespace deburr::(tb|tool|studies)\b")
 DECLARED = re.compile(r"^((class|struct) \w+;|)$")
 ADDED_ENGINE = "tool/tests/system/added_engine/"
@@ -132,7 +132,7 @@ def violations_of_hdl(root):
         lines = path.read_text(encoding="utf-8").splitlines()
         where = path.relative_to(root)
         if path.suffix == ".svh":
-            yield f"{where}:1: a header beside those that the build prints"
+            yield f"{where}:1: only the build may generate headers here"
         if "SPDX-License-Identifier: MIT" not in "\n".join(lines[:3]):
             yield f"{where}:1: no SPDX licence line"
         for number, line in enumerate(lines, 1):
@@ -158,7 +158,7 @@ def violations(root):
             way = (way_to_systemc(root, str(where), set())
                    if "/".join(where.parts[:2]) in WITHOUT_SYSTEMC else None)
             if way:
-                yield f"{where}:1: SystemC beside the simulation: " + " -> ".join(way)
+                yield f"{where}:1: SystemC in a folder outside the simulation: " + " -> ".join(way)
             ideal = where.parts[:2] == ("golden", "ideal")
             foreign = False
             of_tests = layer in RINGS and where.parts[1] in TESTS_ALONE
@@ -187,7 +187,7 @@ def violations(root):
                         if room != "platform" and wanted == "platform":
                             yield f"{where}:{number}: hardware includes rtl_model/platform"
                     if layer == first and layer in RINGS and not in_order(where.parts, name.split("/")):
-                        yield f"{where}:{number}: {layer}/{where.parts[1]} includes {name}, which does not stand below it"
+                        yield f"{where}:{number}: {layer}/{where.parts[1]} includes {name}, which is not a lower folder"
                     if layer in {"tb", "tool"} and not of_tests and first in RINGS and name.split("/")[1] in TESTS_ALONE:
                         yield f"{where}:{number}: test support in the command"
                 if (layer in {"golden", "rtl_model"} and not ideal and where.as_posix() not in DOUBLES
@@ -196,7 +196,7 @@ def violations(root):
                 if ASSERT.search(line) and "static_assert" not in line:
                     yield f"{where}:{number}: assert instead of DEBURR_CHECK"
                 if RANDOM.search(line):
-                    yield f"{where}:{number}: a generator besides tb/base/random.h"
+                    yield f"{where}:{number}: a random generator other than tb/base/random.h"
                 if ("/".join(where.parts[:2]) in EXACT and path.name not in MEASURES
                         and OF_THE_C_LIBRARY.search(line)):
                     yield f"{where}:{number}: a function of the C library where tb/scene/exact_math.h has one"

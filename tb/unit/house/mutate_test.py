@@ -19,7 +19,7 @@ enable_testing()
 add_executable(tiny_test tiny_test.cpp)
 add_test(NAME tiny_test.all COMMAND tiny_test)
 """,
-    "rtl_model/tiny/tiny.h": """// a < b and 1 + 1 are no code here
+    "rtl_model/tiny/tiny.h": """// a < b and 1 + 1 are not code here
 inline bool tested(int a) { return a < 7; }
 inline bool far_from_its_limit(int a) { return a < 9; }
 inline bool unmet(int a) { return a < 9; }
@@ -41,7 +41,7 @@ class Mutate(unittest.TestCase):
 
         survivors, text = mutate("--all", "--work", work / "first")
         self.assertIn("| `all` | 9 | 3 | 3 | 0 | 50.0 (50.0 to 50.0) |", text)
-        self.assertIn("3 mutants have no switch, or no test meets them", text)
+        self.assertIn("3 mutants without a switch or without a test that reaches them", text)
         results = (work / "first/results.jsonl").read_text(encoding="utf-8")
         self.assertEqual(mutate("--all", "--work", work / "first"), (survivors, text))
         self.assertEqual((work / "first/results.jsonl").read_text(encoding="utf-8").strip(), results.strip(), "resumed")

@@ -98,12 +98,12 @@ def misnamed(listed, source):
     for name, file, program in listed:
         path = pathlib.PurePosixPath(file)
         if name != "_".join([*prefix(path.parent.parts), path.stem]):
-            yield f"{file} is called {name}"
+            yield f"{file}: the test is named {name}"
         if pathlib.PurePosixPath(program).parent != path.parent:
             yield f"{file} is in {program}"
         if not re.search(rf"^namespace deburr[\w:]*::{path.stem} {{$",
                          (source / file).read_text(encoding="utf-8"), re.M):
-            yield f"{file} has no namespace of its own, ...::{path.stem}"
+            yield f"{file} must use the namespace ...::{path.stem}"
 
 
 def mislabelled(tests, known):

@@ -129,9 +129,9 @@ def not_shared(root):
             lines = COMMENT.sub("", path.read_text(encoding="utf-8")).split("\n")
             held.update(match[1] for match in map(REFERENCE.search, lines) if match)
     for name in sorted(SHARED.keys() - held):
-        yield f"SHARED names {name}, which nothing holds: drop it"
+        yield f"SHARED names {name}, which no module holds: remove it"
     for name in sorted(set(PARTS.values()) - held):
-        yield f"PARTS names {name}, which nothing holds: drop it"
+        yield f"PARTS names {name}, which no module holds: remove it"
 
 
 def injected_faults_are_caught():
@@ -146,8 +146,8 @@ def injected_faults_are_caught():
         "a shared part": "class A final : public Unit {\n  std::shared_ptr<Store> store_;\n};",
         "in a struct inside": "class A final : public Unit {\n  struct Side {\n    Other const& other;\n  };\n};",
         "a module's reference": "class A final : public sc_core::sc_module {\n  Other& other_;\n};",
-        "a module that is no unit": "class A final : public Unit {\n  const Store& store_;\n};",
-        "what is not shared": "class A final : public Unit {\n  struct Side {\n    const Table<Word>& table;\n  };\n};",
+        "a module that is not a unit": "class A final : public Unit {\n  const Store& store_;\n};",
+        "a reference that is not listed": "class A final : public Unit {\n  struct Side {\n    const Table<Word>& table;\n  };\n};",
         "a pointer from outside": "class A final : public Unit {\n public:\n  Latency* latency = nullptr;  // or none\n};",
         "a pointer without a value": "class A final : public Unit {\n public:\n  const Probe<int>* probe;\n};",
         "a part's reference": "class Loader {\n  Rom& rom_;\n};",

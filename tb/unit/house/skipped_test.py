@@ -39,7 +39,7 @@ class Skipped(unittest.TestCase):
     def test_lists_counts_and_reasons(self):
         self.assertEqual(said(RECORD).stdout.splitlines(), [
             "3 tests ran, 3 of 6 were skipped",
-            "  2: no data folder: DEBURR_DATA, or ../shared/data beside the repository (d.Data, e.Data)",
+            "  2: no data folder: DEBURR_DATA, or ../shared/data next to the repository (d.Data, e.Data)",
             "  1: Mesa is absent: no libEGL (f.Mesa)",
             "  1 parts of tests: no user namespaces here"])
 

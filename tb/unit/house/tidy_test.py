@@ -49,7 +49,7 @@ class Tidy(unittest.TestCase):
         self.assertEqual(self.tidy()[:2], (0, 2))
         code, _, text = self.tidy()
         self.assertEqual(code, 0)
-        self.assertIn("0 of 2 files looked at", text)
+        self.assertIn("0 of 2 files checked", text)
         self.header(INJECTED)
         code, clean, text = self.tidy()
         self.assertEqual((code, clean), (1, 2))
@@ -69,7 +69,7 @@ class Tidy(unittest.TestCase):
         self.header(INJECTED)
         code, clean, text = self.tidy(self.root / "golden/a.cpp")
         self.assertEqual((code, clean, text.count("[modernize-use-nullptr")), (1, 2, 1))
-        self.assertIn("1 of 1 files looked at", text)
+        self.assertIn("1 of 1 files checked", text)
 
     def test_file_that_does_not_compile_is_not_clean(self):
         (self.root / "golden/a.cpp").write_text('#include "golden/nowhere.h"\n', encoding="utf-8")
@@ -88,12 +88,12 @@ class Tidy(unittest.TestCase):
         self.git("commit", "-q", "-m", "first")
         self.git("branch", "upstream")
         self.git("branch", "-q", "--set-upstream-to=upstream")
-        self.assertIn("0 of 0 files looked at", self.tidy("--changed")[2])
+        self.assertIn("0 of 0 files checked", self.tidy("--changed")[2])
         self.header(INJECTED)
         self.git("commit", "-q", "-a", "-m", "second")
         code, _, text = self.tidy("--changed")
         self.assertEqual((code, text.count("[modernize-use-nullptr")), (1, 1))
-        self.assertIn("1 of 1 files looked at", text, "the file that includes it")
+        self.assertIn("1 of 1 files checked", text, "the file that includes it")
 
 
 if __name__ == "__main__":

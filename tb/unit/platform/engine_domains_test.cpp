@@ -27,7 +27,7 @@ using rtl::Cycle;
 // Periods without a common divisor, so that every phase of one clock meets every phase of another.
 sc_core::sc_time ps(std::uint64_t n) { return sc_core::sc_time::from_value(n); }
 const std::vector<std::uint64_t> kPeriods = {7001, 9973, 11003};
-// Counted from each engine's start; its job is done by then.
+// Cycles from each engine's start; long enough for its job.
 constexpr Cycle kCycles = 6000;
 
 // An engine with its own clock and its kit's environment in one module, so that its parts have the
@@ -302,7 +302,7 @@ TEST(DomainFaults, RejectsLinkOfOtherDomain) {
   disturbance.bench.faults = {"drop:watched.quads:3"};
   EXPECT_THAT(([&] { place(kMorphological, "faulty", disturbance); }),
               testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(
-                  "no link of faulty.clock is named watched.quads; there are:\n  faulty.in")));
+                  "faulty.clock has no link named watched.quads; known:\n  faulty.in")));
 }
 
 void watch(IntervalRecorder& recorder, const Placed& placed) {
@@ -314,7 +314,7 @@ void watch(IntervalRecorder& recorder, const Placed& placed) {
   }
 }
 
-TEST(DomainWindows, CountCyclesOfTheirOwnClock) {
+TEST(DomainIntervals, CountCyclesOfTheirOwnClock) {
   const auto windows = [](bool together) {
     return in_child([&] {
       const auto placed = place(kGeometric, "watched", at_period(kPeriods[0]));
@@ -334,7 +334,7 @@ TEST(DomainWindows, CountCyclesOfTheirOwnClock) {
   EXPECT_EQ(windows(true), expected);
 }
 
-TEST(DomainWindows, RejectsUnitOfOtherDomain) {
+TEST(DomainIntervals, RejectsUnitOfOtherDomain) {
   const auto one = place(kTexture, "one", at_period(kPeriods[0]));
   const auto two = place(kTexture, "two", at_period(kPeriods[1]));
   IntervalRecorder recorder(one->clock(), {.cycles = 500, .lose = {}});

@@ -60,8 +60,8 @@ TEST(EngineDriver, RequiresRowsCommonToAllEngines) {
     return error_of<spec::ConfigError>([&] { platform::DriverLayout("sample engine", rows); });
   };
   EXPECT_EQ(said(kRows), "");
-  EXPECT_THAT(said(Rows(kRows).first(3)), HasSubstr("sample engine: there is no register ID"));
-  EXPECT_THAT(said(Rows(kRows).last(2)), HasSubstr("there is no register STATUS"));
+  EXPECT_THAT(said(Rows(kRows).first(3)), HasSubstr("sample engine: unknown register ID"));
+  EXPECT_THAT(said(Rows(kRows).last(2)), HasSubstr("unknown register STATUS"));
   auto fewer = kRows;
   fewer[1].fields = {};
   EXPECT_THAT(said(fewer), HasSubstr("STATUS has no field idle"));

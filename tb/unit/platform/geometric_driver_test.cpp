@@ -197,13 +197,13 @@ TEST(GeometricRegions, LowTrafficRegionsComeLast) {
   EXPECT_EQ(needed[8], 2u * 64);
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[7], 64u);
   EXPECT_EQ(GeometricRegions::needed({61, 45, 300, 200, 49, 41}, p)[7], (5u + 26) * 64)
-      << "of each array whole lines";
+      << "each array takes whole lines";
   EXPECT_EQ(GeometricRegions::needed(frames[1], p)[8], 460u * 64);
   for (const auto& [faces, bytes] :
        {std::pair{0u, 0u}, {1u, 64u}, {7u, 64u}, {512u, 64u}, {513u, 128u}})
     EXPECT_EQ(GeometricRegions::needed({61, 45, 300, 200, faces}, p)[0], bytes) << faces;
   const GeometricRegions all = GeometricRegions::allocate(frames, p);
-  EXPECT_EQ(all.base(Region::kCopy), all.base(Region::kPairs)) << "there is no copy";
+  EXPECT_EQ(all.base(Region::kCopy), all.base(Region::kPairs)) << "without a frame copy";
   EXPECT_EQ(all.region_of(all.base(Region::kPairs)), 7u);
   EXPECT_EQ(all.base(Region::kCoarse), all.base(Region::kPairs) + 4096);
   EXPECT_EQ(all.bytes(), all.base(Region::kCoarse) + 32768u);
@@ -279,7 +279,7 @@ TEST(GeometricDriver, MissingFrameDataLeavesMemoryUnchanged) {
   frame.facing = b.facing;
   frame.faces = 14;
   b.driver.load(frame);
-  EXPECT_THAT(b.memory.read(0x1000, 3), ElementsAre(1, 2, 0xEE)) << "there is no face 16";
+  EXPECT_THAT(b.memory.read(0x1000, 3), ElementsAre(1, 2, 0xEE)) << "face 16 does not exist";
 }
 
 TEST(GeometricDriver, ProgramsSizesAndBasesThenStarts) {

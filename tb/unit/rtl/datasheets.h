@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What simulated hardware takes against what its datasheet says, and which units have one.
+// Compares the cycles of simulated units with their datasheets, and lists the units that have one.
 #pragma once
 
 #include <cxxabi.h>
@@ -21,8 +21,8 @@
 
 namespace deburr::tb {
 
-// `seen`: the cycles in which tokens can be popped behind a unit that may take one after the other
-// and has popped the first of them in `taken`.
+// `seen`: cycles in which tokens can be popped from the output of a unit that is never short of
+// input and popped the first token in `taken`.
 inline void expect_cycles(const rtl::Datasheet& sheet, const std::vector<rtl::Cycle>& seen,
                           rtl::Cycle taken) {
   ASSERT_FALSE(seen.empty());
@@ -38,7 +38,7 @@ inline void expect_interval(const rtl::Datasheet& sheet, rtl::Cycle measured) {
   EXPECT_EQ(measured, sheet.interval.cycles) << "by the datasheet of " << title(sheet);
 }
 
-// A injected fault: with a datasheet that is a clock off in either direction the check must fail.
+// Injected fault: the check must fail with a datasheet that is one cycle off in either direction.
 template <class Check>
 void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Cycles rtl::Datasheet::*which,
                             const Check& check) {
@@ -50,7 +50,7 @@ void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Cycles rtl::Datash
   EXPECT_NONFATAL_FAILURE(check(more), "by the datasheet of");
 }
 
-// Without its namespaces.
+// Class name without namespaces.
 inline std::string class_of(const sc_core::sc_object& unit) {
   const std::unique_ptr<char, decltype(&std::free)> name(
       abi::__cxa_demangle(typeid(unit).name(), nullptr, nullptr, nullptr), &std::free);
@@ -58,7 +58,7 @@ inline std::string class_of(const sc_core::sc_object& unit) {
   return whole.substr(whole.rfind(':') + 1);
 }
 
-// Each unit of this engine has one; the memory port's is the fabric's.
+// Each unit of the engine has a datasheet; that of the memory port belongs to the fabric.
 inline void expect_datasheets(const rtl::Engine& engine,
                               const std::vector<rtl::Datasheet>& sheets) {
   for (const rtl::Unit* unit : engine.units()) {
@@ -69,17 +69,18 @@ inline void expect_datasheets(const rtl::Engine& engine,
   }
 }
 
-// The contract's numbers, by hand: neither a datasheet nor hardware may move without them.
+// The numbers of the contract, written by hand, so that datasheet and hardware cannot change
+// together.
 struct Contract {
   std::string title;
   rtl::Cycle latency, interval;
 };
-// "4", "5-17", "18, 19", "4 = 0'", which is 4: a stage begins behind the first clock of the one
-// before, and not later than the clock behind its last one.
+// Cycles of a stage: "4", "5-17", "18, 19", or "4 = 0'", which is 4. A stage begins after the first
+// cycle of its predecessor, and at the latest in the cycle after its last one.
 inline void expect_stages_in_order(const rtl::Datasheet& sheet) {
   int first = -1, last = 0;
   for (const rtl::Stage& stage : sheet.stages) {
-    // "-", "from 3", "last": of no fixed clock, and so is what comes behind it.
+    // "-", "from 3", "last": no fixed cycle, nor have the stages after it.
     if (!std::isdigit(static_cast<unsigned char>(stage.clock.front()))) return;
     const int begin = std::stoi(stage.clock);
     EXPECT_GT(begin, first) << title(sheet) << ", stage " << stage.clock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The suites that an engine has by its Kit (tb/harness/engine_kit.h):
+// Registers the suites that an engine gets from its Kit (tb/harness/engine_kit.h):
 //
 //   const bool kRegistered = register_suites<Kit>();  // in NAME/kit_test.cpp
 #pragma once
@@ -28,7 +28,7 @@ class RegisteredTest : public testing::Test {
   std::function<void()> body_;
 };
 
-// The tests stand where this is called.
+// The tests are reported at the place of this call.
 template <class Kit>
 bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   const auto add = [&](const char* suite, const std::string& name, const char* value,
@@ -36,8 +36,8 @@ bool register_suites(const char* file = __builtin_FILE(), int line = __builtin_L
     testing::RegisterTest(suite, name.c_str(), nullptr, value, file, line,
                           [body]() -> RegisteredTest* { return new RegisteredTest(body); });
   };
-  // Of each build. With sanitizers, which look for other faults and are ten times slower, a third
-  // of them, another one for each test: every build has its tests.
+  // Tests of each build. Sanitizers are ten times slower and find other faults: with them a third
+  // of the builds, chosen differently for each test, so that every build is tested.
   constexpr std::size_t kApart = kSanitized ? 3 : 1;
   static_assert(Kit::kBuilds.size() >= kApart);
   std::size_t begin = 0;

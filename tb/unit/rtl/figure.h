@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Is the module tree of an engine its block diagram? Figures stand in the header of a module (the
-// lines of its first comment that are set in by two blanks or more) and as the first block of a
-// page. In them a capitalised word (AreaUnit) is the name of a class, all else is free.
+// Compares the block diagram of an engine with its module tree. A figure is in the header of a
+// module (the lines of its first comment that are indented by two or more blanks) or the first
+// block of a page. A capitalised word (AreaUnit) is the name of a class; all other text is free.
 #pragma once
 
 #include <cxxabi.h>
@@ -49,17 +49,16 @@ class Figure {
   }
   Figure(std::string where, std::string text) : where_(std::move(where)), text_(std::move(text)) {}
 
-  // The same without this word, or with it behind.
+  // A copy without this word, or with it appended.
   Figure without(const std::string& word) const {
     return {where_, std::regex_replace(text_, std::regex("\\b" + word + "\\b"), "")};
   }
   Figure with(const std::string& word) const { return {where_, text_ + " " + word}; }
 
-  // What is built and not drawn, and what is drawn and not built. Built are the modules right below
-  // `module`, a block of registers by its own name (registers), its wires by theirs, and what else
-  // its header declares as a public member (memories and registers that are no modules). Private
-  // members, modules further below and members of the headers `below` may be drawn. Empty: the
-  // figure is the tree.
+  // Lists names that are built and not drawn, or drawn and not built; empty if the figure matches.
+  // Built: the direct child modules of `module`, its register block (registers), its wires, and the
+  // other public members of its header (memories and registers that are not modules). Private
+  // members, deeper modules and members of the headers `below` may be drawn.
   std::vector<std::string> differences(const sc_core::sc_module& module, const std::string& header,
                                        const std::vector<std::string>& below = {}) const {
     const Members members = members_of(header);
@@ -129,7 +128,7 @@ class Figure {
   std::string where_, text_;
 };
 
-// The figure holds; a unit that it leaves out and a name too many would be noticed.
+// Expects a figure that matches, and that a missing unit and an additional name are reported.
 inline void expect_figure(const Figure& figure, const sc_core::sc_module& module,
                           const std::string& header, const std::string& one_of_its_units,
                           const std::vector<std::string>& below = {}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does each field of a token have the bits that its number format says?
+// Compares the bits of each field of a token with its number format.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 namespace deburr::tb {
 
-// Bits of "U15.16", "S7.24" (its sign is a bit more), "U8", "S13" (sign and all); 0: no number
-// format.
+// Bits of "U15.16", "S7.24" (plus one for the sign), "U8", "S13" (including the sign); 0: not a
+// number format.
 inline std::uint32_t bits_of_format(const std::string& format) {
   if (format.size() < 2 || (format[0] != 'U' && format[0] != 'S')) return 0;
   char* end = nullptr;
@@ -22,7 +22,7 @@ inline std::uint32_t bits_of_format(const std::string& format) {
   return *end == '\0' ? static_cast<std::uint32_t>(bits) : 0;
 }
 
-// Every field that has a number format has its width; the number of such fields.
+// Expects the width of every field with a number format, and returns the number of such fields.
 template <class... Tokens>
 int expect_widths_of_formats() {
   int checked = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the links, wires and memories of an engine those of the tables in its page?
+// Compares links, wires and memories of an engine with the tables of its page.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ class EnginePage : public PageTable {
  public:
   using PageTable::PageTable;
 
-  // A row a link, or several (*, ?): its places, and in the column `build` the bits of a beat; "-"
-  // there: no such link.
+  // One row per link, or for several (*, ?): its entries, and in the column `build` the bits of a
+  // beat, or "-" if the link is not built.
   void expect_links(const std::string& build, const rtl::Engine& engine) const {
     const std::size_t places = column("entries"), bits = column(build);
     std::vector<bool> met(rows().size());
@@ -45,8 +45,7 @@ class EnginePage : public PageTable {
       EXPECT_TRUE(met[i] || rows()[i][bits] == "-") << build << " has no link " << rows()[i][0];
   }
 
-  // A row a wire: its bits, the unit that drives it, those that read it in the order of their
-  // binding.
+  // One row per wire: its bits, the unit that drives it, and its readers in the order of binding.
   void expect_wires(rtl::Engine& engine) const {
     const auto below = [&](const std::string& name) {
       return name.substr(std::string(engine.name()).size() + 1);
@@ -74,8 +73,7 @@ class EnginePage : public PageTable {
     EXPECT_EQ(built, written);
   }
 
-  // A row a memory, its name before anything else; those of the memory port have a page of their
-  // own.
+  // One row per memory, with its name first; the memory port has another page.
   void expect_memories(const rtl::Engine& engine) const {
     std::vector<bool> met(rows().size());
     for (const rtl::MemoryBase* memory : engine.memories()) {

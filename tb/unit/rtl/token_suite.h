@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What links, wires and memories of an engine are, by number format and by the tables of its pages,
-// and whether its figures are its module tree.
+// Compares links, wires and memories of an engine with number formats and with the tables of its
+// pages, and its figures with its module tree.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ struct TokenList {
 // A build that a page shows.
 template <class Parameters>
 struct Drawn {
-  std::string column;  // of the table of links; empty: not there
+  std::string column;  // of the table of links; empty: none
   Parameters parameters;
-  bool wires = false, memories = false;  // it is the build of these tables
-  std::vector<std::string> units = {};   // that a figure must not leave out; none: no figure
+  bool wires = false, memories = false;  // these tables show this build
+  std::vector<std::string> units = {};   // that a figure must show; empty: no figure
 };
 
 template <class Kit>

@@ -45,11 +45,11 @@ TEST(Intervals, DetectsLostCycle) {
   Json wrong = intervals();
   wrong["series"]["units"]["filter_pipeline"]["idle"][1] = 1;
   EXPECT_THAT(complaint(wrong, result()),
-              HasSubstr("units.filter_pipeline accounts for 11 of the 10 cycles of window 1"));
+              HasSubstr("units.filter_pipeline accounts for 11 of the 10 cycles of interval 1"));
   Json last = intervals();
   last["cycles"][2] = 6;
   EXPECT_THAT(complaint(last, result()),
-              HasSubstr("units.filter_pipeline accounts for 5 of the 6 cycles of window 2"));
+              HasSubstr("units.filter_pipeline accounts for 5 of the 6 cycles of interval 2"));
 }
 
 TEST(Intervals, DetectsSumThatDiffersFromRun) {
@@ -57,13 +57,13 @@ TEST(Intervals, DetectsSumThatDiffersFromRun) {
                           "/series/links/texels/occupancy/1"}) {
     Json wrong = intervals();
     wrong[Json::json_pointer(key)] = 100;
-    EXPECT_THAT(complaint(wrong, result()), HasSubstr("over all windows, but the run counted"));
+    EXPECT_THAT(complaint(wrong, result()), HasSubstr("over all intervals, but the run counted"));
   }
   // Moved from one cause to another: each interval still adds up.
   Json wrong = intervals();
   wrong["series"]["units"]["filter_pipeline"]["busy"] = {4, 10, 5};
   wrong["series"]["units"]["filter_pipeline"]["stalls"]["full"] = {0, 0, 0};
-  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy sums up to 19"));
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("units.filter_pipeline.busy adds up to 19"));
 }
 
 // In whichever series, interval and unit: every value counts, except values that only intervals
@@ -96,20 +96,20 @@ TEST(Intervals, EveryValueOfEverySeriesCounts) {
     Json wrong = run;
     Json& total = wrong[Json::json_pointer(key)];
     total = total.get<int>() + 1;
-    EXPECT_THAT(complaint(two, wrong), HasSubstr("over all windows, but the run counted")) << key;
+    EXPECT_THAT(complaint(two, wrong), HasSubstr("over all intervals, but the run counted")) << key;
   }
 }
 
 TEST(Intervals, DetectsMissingInterval) {
   Json wrong = intervals();
   wrong["series"]["work"]["misses"] = {1, 5};
-  EXPECT_THAT(complaint(wrong, result()), HasSubstr("work.misses has 2 of 3 windows"));
+  EXPECT_THAT(complaint(wrong, result()), HasSubstr("work.misses has 2 values for 3 intervals"));
 }
 
 TEST(Intervals, DetectsEntriesMissingInResult) {
   Json without = result();
   without["work"].erase("misses");
-  EXPECT_THAT(complaint(intervals(), without), HasSubstr("result.json has no work.misses"));
+  EXPECT_THAT(complaint(intervals(), without), HasSubstr("work.misses is missing in result.json"));
 }
 
 }  // namespace

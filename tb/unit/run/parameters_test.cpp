@@ -106,13 +106,13 @@ TEST_F(Parameters, ErrorNamesOriginValueAndRange) {
   };
   for (const Case& c : {Case{"unit.cache.ways", "17", "is outside 1..16"},
                         Case{"unit.cache.ways", "0", "is outside 1..16"},
-                        Case{"unit.cache.ways", "4.5", "wants an integer"},
-                        Case{"unit.cache.ways", "", "wants an integer"},
-                        Case{"unit.cache.ways", "99999999999999999999", "wants an integer"},
+                        Case{"unit.cache.ways", "4.5", "must be an integer"},
+                        Case{"unit.cache.ways", "", "must be an integer"},
+                        Case{"unit.cache.ways", "99999999999999999999", "must be an integer"},
                         Case{"unit.colour", "gren", "did you mean 'green'?"},
-                        Case{"unit.shuffle", "maybe", "wants true or false"},
+                        Case{"unit.shuffle", "maybe", "must be true or false"},
                         Case{"unit.stalls", "1", "is outside 0..0.9"},
-                        Case{"unit.stalls", "nan", "wants a number"}}) {
+                        Case{"unit.stalls", "nan", "must be a number"}}) {
     const std::string text = complaint([&] { set_.set(c.name, c.value, "--set"); });
     EXPECT_THAT(text, StartsWith("--set: "));
     EXPECT_THAT(text, HasSubstr(c.name));
@@ -131,7 +131,7 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
   for (const char* value :
        {"0x", "0x-1", "-0x1", "0X10", "0x1g", "1f", "0x 1", "0xffffffffffffffffff"})
     EXPECT_THAT(complaint([&] { set_.set("unit.cycles", value, "--set"); }),
-                HasSubstr("wants an integer"))
+                HasSubstr("must be an integer"))
         << value;
   EXPECT_THAT(complaint([&] { set_.set("unit.cache.ways", "0x11", "--set"); }),
               HasSubstr("is outside 1..16"));
@@ -139,7 +139,7 @@ TEST_F(Parameters, IntegersMayBeHexadecimal) {
 
 TEST_F(Parameters, AcceptsSynonymsOfValues) {
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "scarlet", "test"); }),
-              HasSubstr("wants one of"));
+              HasSubstr("must be one of"));
   set_.alias("unit.colour", "scarlet", "red");
   set_.set("unit.colour", "scarlet", "test");
   EXPECT_EQ(values_.colour, Colour::kRed);
@@ -147,7 +147,7 @@ TEST_F(Parameters, AcceptsSynonymsOfValues) {
   set_.set("unit.colour", "green", "test");
   EXPECT_EQ(values_.colour, Colour::kGreen);
   EXPECT_THAT(complaint([&] { set_.set("unit.colour", "carlet", "test"); }),
-              testing::AllOf(HasSubstr("wants one of"), EndsWith("; scarlet is red")));
+              testing::AllOf(HasSubstr("must be one of"), EndsWith("; scarlet is red")));
 }
 
 TEST_F(Parameters, UnknownNamesShowNearMatches) {
@@ -240,11 +240,12 @@ TEST_F(Parameters, IneffectiveParameterIsRejectedAtItsOrigin) {
   EXPECT_THAT(complaint(),
               HasSubstr(".yaml:2: 'unit.cache.ways' = '4' has no effect: there is no"));
   set_.imply("unit.cache.ways", "4", "preset small");
-  EXPECT_EQ(complaint(), "") << "a file may hold what the preset makes";
+  EXPECT_EQ(complaint(), "") << "a file may hold the preset's value";
   set_.set("unit.cache.ways", "2", "--ways");
   EXPECT_THAT(complaint(), StartsWith("--ways: "));
   set_.set("unit.cache.ways", "4", "--ways");
-  EXPECT_THAT(complaint(), StartsWith("--ways: ")) << "on the command line nothing is in vain";
+  EXPECT_THAT(complaint(), StartsWith("--ways: "))
+      << "the command line rejects every ineffective value";
 }
 
 TEST_F(Parameters, EveryTextureDefaultIsWithinItsRange) {
@@ -272,7 +273,7 @@ TEST_F(Parameters, SwitchHasThreeWordsPerPosition) {
   }
   for (const char* word : {"True", "1", "0", "", "yes "})
     EXPECT_THAT(complaint([&] { set_.set("unit.shuffle", word, "test"); }),
-                HasSubstr("wants true or false"));
+                HasSubstr("must be true or false"));
 }
 
 // The whole resolved configuration of a run, as text and typed.
@@ -336,16 +337,16 @@ TEST_F(Parameters, ManifestRestoresParametersOfItsRun) {
                          {"name": "unit.source", "from": "given"}]})";
   set_.load("manifest.json", manifest, "unit");
   EXPECT_EQ(values_.ways, 8);
-  EXPECT_EQ(values_.cycles, 7) << "the default was another one";
-  EXPECT_EQ(values_.colour, Colour::kGreen) << "a preset makes it again, if it is chosen again";
-  EXPECT_EQ(values_.stalls, 0.5) << "nothing is said about it";
+  EXPECT_EQ(values_.cycles, 7) << "the default has changed";
+  EXPECT_EQ(values_.colour, Colour::kGreen) << "derived again from the preset";
+  EXPECT_EQ(values_.stalls, 0.5) << "the manifest does not list it";
   EXPECT_EQ(values_.source, "/elsewhere/in/x.png");
   EXPECT_TRUE(set_.given("unit.cache.ways"));
   EXPECT_TRUE(set_.given("unit.cycles"));
   EXPECT_FALSE(set_.given("unit.colour"));
   EXPECT_FALSE(set_.given("unit.shuffle")) << "as it is by default";
   EXPECT_THAT(complaint([&] { set_.load("manifest.json", manifest, "frame"); }),
-              HasSubstr("this manifest is of a run of 'unit', and not of 'frame'"));
+              HasSubstr("this manifest belongs to a run of 'unit', not of 'frame'"));
 }
 
 struct Misnamed : Sample {};

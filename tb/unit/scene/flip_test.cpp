@@ -85,7 +85,7 @@ TEST(Flip, SymmetricAndIndependentOfDirection) {
   EXPECT_NEAR(flip(stimuli::transposed(a), stimuli::transposed(b)), ab, 1e-6);
 }
 
-// An image of several bands of rows, and each band alone.
+// An image of several bands of rows, compared with each band by itself.
 TEST(Flip, BandsGiveTheValuesOfWholeImage) {
   const int height = 2 * kBandRows + 7;
   const Image a = stimuli::rendered_like(64, height, 9), b = stimuli::mirrored_y(a);

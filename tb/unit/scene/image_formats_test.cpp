@@ -33,8 +33,8 @@ using Pixels = std::vector<Rgba8>;
 // Nearly transparent, opaque, transparent with a colour, half transparent.
 const Pixels kStraight = {
     {204, 199, 230, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {255, 128, 1, 128}};
-// The same with colours multiplied by alpha and rounded, and the result of the division: 8 * 255 /
-// 10 = 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. With alpha 0
+// The same with colours premultiplied by alpha and rounded, and the result of the division: 8 * 255
+// / 10 = 204, 9 * 255 / 10 = 229.5, 64 * 255 / 128 = 127.5, 1 * 255 / 128 = 1.99. With alpha 0
 // colours are not divided.
 const Pixels kMultiplied = {{8, 8, 9, 10}, {204, 199, 230, 255}, {9, 8, 7, 0}, {128, 64, 1, 128}};
 const Pixels kDivided = {
@@ -177,7 +177,7 @@ std::string dx10_dds(unsigned mode) {
          little(mode, 4) + block;
 }
 
-// Written by Pillow, lossless, with a box that declares the alpha: 1 opacity, 2 premultiplied.
+// Lossless file written by Pillow, with a box that declares the alpha: 1 opacity, 2 premultiplied.
 std::string jpeg2000(unsigned opacity) {
   std::string file = of_hex(
       "0000000c6a5020200d0a870a00000014667479706a703220000000006a7032200000002d6a7032680000001669"
@@ -274,7 +274,7 @@ TEST(ImageFormats, ColoursAreStraightInEveryFormatWithAlpha) {
     for (std::size_t c = 0; c < 4; ++c)
       EXPECT_NEAR(image.pixels[100][c], colour[c], 4) << extension;
   }
-  // EXR: linear light multiplied by alpha; 0.5 is 188 on the sRGB curve.
+  // EXR: linear light premultiplied by alpha; 0.5 is 188 on the sRGB curve.
   EXPECT_EQ(
       read_image(write(folder / "of.exr", {},
                        std::vector<float>{0.02f, 0.01f, 0.04f, 0.04f, 0.5f, 0, 1, 1, 0.5f, 0, 2, 0,
@@ -319,11 +319,11 @@ TEST(ImageFormats, PremultipliedColoursAreDividedByAlpha) {
 
   ReadReport report;
   read_image(folder / "associated.tif", &report);
-  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("divided by it")));
+  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("divided by alpha")));
   read_image(folder / "unassociated.tif", &report);
   EXPECT_THAT(report.conversions, ElementsAre());
   read_image(folder / "unspecified.tif", &report);
-  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("does not say what channel 4 is")));
+  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("does not declare the type of channel 4")));
 }
 
 TEST(ImageFormats, FormatsWithoutAlphaKeepTheirColours) {
@@ -381,7 +381,8 @@ TEST(ImageFormats, ExrChannelsAreSelectedByName) {
   EXPECT_EQ(pixel({"a.Y", "b.R", "b.G"}, {0.5f, 0, 1}), (Rgba8{188, 188, 188, 255}));
   ReadReport report;
   read_image(path, &report);
-  EXPECT_THAT(report.conversions, Contains("the first layer; 2 channels of others left out"));
+  EXPECT_THAT(report.conversions,
+              Contains("only the first layer is read; 2 channels of other layers ignored"));
   EXPECT_EQ(pixel({"A", "B", "G", "R", "Z"}, {0.5f, 0, 0.25f, 0.5f, 7}), (Rgba8{255, 188, 0, 128}));
   EXPECT_EQ(pixel({"Blue", "Green", "Red"}, {0, 0.5f, 1}), (Rgba8{255, 188, 0, 255}));
   EXPECT_EQ(pixel({"R", "G", "B", "N"}, {0.5f, 0, 1, 1}), (Rgba8{188, 0, 255, 255}));
@@ -396,12 +397,12 @@ TEST(ImageFormats, ErrorNamesExrChannelsThatAreNotColours) {
     return file_error([&] { read_image(path); });
   };
   EXPECT_THAT(error({"Y", "RY", "BY"}),
-              HasSubstr("it has Y, BY, RY where a picture has R, G and B, or Y"));
+              HasSubstr("it has the channels Y, BY, RY; an image needs R, G and B, or only Y"));
   EXPECT_THAT(error({"u", "v", "w"}), HasSubstr("it has u, v, w where"));
-  EXPECT_THAT(error({"R", "AR", "AG", "AB"}), HasSubstr("it has R, AR, AG where"));
-  EXPECT_THAT(error({"R", "G", "A"}), HasSubstr("it has R, G where"));
+  EXPECT_THAT(error({"R", "AR", "AG", "AB"}), HasSubstr("it has the channels R, AR, AG;"));
+  EXPECT_THAT(error({"R", "G", "A"}), HasSubstr("it has the channels R, G;"));
   for (const char* const name : {"A", "Z", "depth.Z", "mask"})
-    EXPECT_THAT(error({name}), HasSubstr(fmt::format("it has {} where", name)));
+    EXPECT_THAT(error({name}), HasSubstr(fmt::format("it has the channels {};", name)));
 }
 
 TEST(ImageFormats, PaletteAndAnimationsGiveStraightColours) {
@@ -418,7 +419,7 @@ TEST(ImageFormats, PaletteAndAnimationsGiveStraightColours) {
   ReadReport report;
   EXPECT_EQ(read_image(folder.write("film.webp", animated_webp(8)), &report).pixels,
             Pixels(64, Rgba8{255, 0, 0, 255}));
-  EXPECT_THAT(report.conversions, Contains("the first of several pictures"));
+  EXPECT_THAT(report.conversions, Contains("only the first of several images is read"));
   EXPECT_THAT(file_error([&] { read_image(folder.write("part.webp", animated_webp(9))); }),
               HasSubstr("the first frame of the animation does not fill the picture"));
   EXPECT_EQ(read_image_memory("inside", webp()).pixels, kStraight);
@@ -434,12 +435,12 @@ TEST(ImageFormats, ErrorNamesColourModelsOtherThanRgb) {
   // (255 - 10) (255 - 40) / 255 = 206.6, 198.1, 189.7
   EXPECT_EQ(read_image(folder.write("cmyk.tif", cmyk), &report).pixels,
             (Pixels{{207, 198, 190, 255}}));
-  EXPECT_THAT(report.conversions, Contains(HasSubstr("CMYK made RGB")));
+  EXPECT_THAT(report.conversions, Contains(HasSubstr("CMYK converted to RGB")));
   EXPECT_THAT(file_error([&] { read_depth(folder / "cmyk.tif"); }), HasSubstr("changed by"));
   EXPECT_THAT(file_error([&] {
                 read_image(folder.write("lab.tif", tiff(-1, 3, 8, {50, 9, 9}, 8)));
               }),
-              HasSubstr("its colours are of the kind 'CIELAB'"));
+              HasSubstr("its colour type 'CIELAB' is not supported"));
 }
 
 TEST(ImageFormats, ErrorNamesTruncatedFiles) {
@@ -467,7 +468,7 @@ TEST(ImageFormats, RejectsWritingWhatFormatCannotStore) {
   EXPECT_EQ(read_image(folder / "of.tif"), image);
   for (const char* const extension : {"webp", "jpg", "exr"})
     EXPECT_THAT(file_error([&] { write_image(folder / (std::string("of.") + extension), image); }),
-                HasSubstr("does not keep these pixels"));
+                HasSubstr("cannot store these pixels"));
 }
 
 // ---- Part images -------------------------------------------------------------------------------
@@ -497,7 +498,7 @@ TEST(ImageFormats, PartImageLiesAtItsPosition) {
   EXPECT_EQ(image.pixels[0], (Rgba8{0, 0, 0, 0}));
   EXPECT_EQ(image.pixels[5], (Rgba8{255, 0, 0, 255}));
   EXPECT_THAT(report.conversions,
-              Contains(HasSubstr("2 x 1 stored pixels placed at (1, 1) of a picture of 4 x 3")));
+              Contains(HasSubstr("2 x 1 stored pixels placed at (1, 1) in an image of 4 x 3")));
   // Overscan is cropped; origins may be negative.
   EXPECT_EQ(reds(read_image(write(folder / "over.exr", {2, 1, 4, -1, 0, 1, 1}, light))),
             (std::vector<int>{188}));
@@ -525,7 +526,7 @@ TEST(ImageFormats, PartImageLiesAtItsPosition) {
     EXPECT_THAT(file_error([&] {
                   read_image(write(folder / name, {2, 1, 4, 1, 1, 4, 3}, numbered(2)));
                 }),
-                HasSubstr("a part of a picture, which OpenImageIO misplaces"))
+                HasSubstr("a part of an image, which OpenImageIO misplaces"))
         << name;
   EXPECT_THAT(file_error([&] {
                 read_image(write(folder / "large.exr", {2, 1, 4, 0, 0, 9000, 2}, light));
@@ -540,7 +541,7 @@ TEST(ImageFormats, DepthIsInfiniteOutsidePartImage) {
       write(folder / "depth.exr", {2, 1, 1, 1, 0, 4, 1}, std::vector<float>{0.5f, 0.75f}), &report);
   EXPECT_EQ(depth.width, 4);
   EXPECT_EQ(depth.pixels, (std::vector<float>{0, 0.5f, 0.75f, 0}));
-  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("infinitely far where there are none")));
+  EXPECT_THAT(report.conversions, ElementsAre(HasSubstr("the rest is infinitely far")));
   // A cropped NaN is not an error.
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(
@@ -577,7 +578,7 @@ TEST(ImageFormats, ErrorNamesImagesThatAreNotDepth) {
   const TemporaryFolder folder;
   const auto error = [&](const fs::path& path) { return file_error([&] { read_depth(path); }); };
   EXPECT_THAT(error(write(folder / "grey.png", {1, 1, 1}, Bytes{9})),
-              AllOf(HasSubstr("16 bits of grey"), HasSubstr("this one has 1 channel of uint8")));
+              AllOf(HasSubstr("16-bit grey"), HasSubstr("this one has 1 channel of uint8")));
   EXPECT_THAT(error(write(folder / "colour.png", {1, 1, 3}, std::vector<std::uint16_t>{1, 2, 3})),
               HasSubstr("this one has 3 channels of uint16"));
   EXPECT_THAT(error(write(folder / "colour.tif", {1, 1, 3}, std::vector<float>{0, 0, 0})),
@@ -585,7 +586,7 @@ TEST(ImageFormats, ErrorNamesImagesThatAreNotDepth) {
   EXPECT_THAT(error(write(folder / "grey_alpha.png", {1, 1, 2}, std::vector<std::uint16_t>{1, 2})),
               HasSubstr("this one has 2 channels of uint16"));
   EXPECT_THAT(error(folder.write("multiplied.tif", tiff(1, kMultiplied))),
-              HasSubstr("4 channels of uint8, multiplied by alpha"));
+              HasSubstr("4 channels of uint8, premultiplied by alpha"));
   EXPECT_THAT(error(write(folder / "lossy.jpg", {1, 1, 3}, Bytes{1, 2, 3})),
               HasSubstr("3 channels of uint8, changed by compression or conversion"));
   EXPECT_THAT(error(write(folder / "of.gif", {1, 1, 3}, Bytes{1, 2, 3})), HasSubstr("changed by"));
@@ -621,7 +622,7 @@ TEST(ImageFormats, ExrDepthChannelIsSelectedByName) {
     return read_depth(made(names), &report).pixels;
   };
   EXPECT_THAT(depth({"AO.V", "Depth.Z"}), ElementsAre(0.25f));
-  EXPECT_THAT(report.conversions, ElementsAre("channel Depth.Z of 2 taken as depth"));
+  EXPECT_THAT(report.conversions, ElementsAre("channel Depth.Z of 2 read as depth"));
   EXPECT_THAT(depth({"R", "G", "B", "Z"}), ElementsAre(0.5f));
   EXPECT_EQ(report.channels, 1);  // not 24 bits in R, G and B
   EXPECT_THAT(depth({"R", "G", "B", "depth"}), ElementsAre(0.5f));
@@ -630,7 +631,8 @@ TEST(ImageFormats, ExrDepthChannelIsSelectedByName) {
   EXPECT_THAT(depth({"V"}), ElementsAre(0.125f));
   EXPECT_THAT(report.conversions, ElementsAre());
   const std::vector<std::pair<std::vector<std::string>, std::string>> rejected = {
-      {{"AO.V", "Depth.V"}, "it has the channels AO.V, Depth.V, of which not one alone is named"},
+      {{"AO.V", "Depth.V"},
+       "it has the channels AO.V, Depth.V, but needs exactly one channel named as depth"},
       {{"a.Z", "b.Z"}, "channels a.Z, b.Z,"},
       {{"R", "G", "B"}, "channels R, G, B,"},
       {{"normal.X", "normal.Y", "normal.Z"}, "channels normal.X, normal.Y, normal.Z,"}};
@@ -658,9 +660,9 @@ TEST(ImageFormats, MultipartExrDepthMustBeFirstPart) {
     return read_depth(path, &report).pixels;
   };
   EXPECT_THAT(depth("Z", "V"), ElementsAre(0.25f));
-  EXPECT_THAT(report.conversions, ElementsAre("the first of several pictures"));
+  EXPECT_THAT(report.conversions, ElementsAre("only the first of several images is read"));
   EXPECT_THAT(file_error([&] { depth("V", "Z"); }),
-              HasSubstr("it has several pictures, the first with V, of which not one alone"));
+              HasSubstr("it has several images, the first with V, but needs exactly one channel"));
 }
 
 TEST(ImageFormats, WhiteIsZeroGreyIsInvertedOrNamed) {
@@ -685,7 +687,7 @@ TEST(ImageFormats, ReportCountsChangedValuesAndFirstPosition) {
              &report);
   EXPECT_THAT(report.conversions,
               AllOf(Contains("1 of 6 values clamped to [0, 1], the first at (1, 2)"),
-                    Contains("1 of 6 values NaN made 0, the first at (1, 2)")));
+                    Contains("1 of 6 values NaN replaced by 0, the first at (1, 2)")));
 }
 
 }  // namespace

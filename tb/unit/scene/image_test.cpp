@@ -122,7 +122,7 @@ TEST(ImageIo, ConversionsAreReported) {
   EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("sRGB curve")));
   EXPECT_THAT(report.conversions,
               ::testing::IsSupersetOf({"2 of 12 values clamped to [0, 1], the first at (2, 0)",
-                                       "1 of 12 values NaN made 0, the first at (3, 0)"}));
+                                       "1 of 12 values NaN replaced by 0, the first at (3, 0)"}));
 
   // HDR declares linear values too; a float TIFF declares nothing, so it holds codes. Alpha is a
   // fraction in both.
@@ -135,7 +135,7 @@ TEST(ImageIo, ConversionsAreReported) {
   write_with_oiio<float>(folder / "codes.tif", 2, 1, 4, {0.5f, 0.25f, nan, 0.5f, 7, -1, 1, 1});
   EXPECT_EQ(read_image(folder / "codes.tif", &report).pixels,
             (std::vector<Rgba8>{{128, 64, 0, 128}, {255, 0, 255, 255}}));
-  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("taken as encoded")));
+  EXPECT_THAT(report.conversions, ::testing::Contains(HasSubstr("read as sRGB-encoded")));
   // Integers are codes even if the file declares otherwise.
   write_with_oiio<std::uint16_t>(folder / "linear.png", 1, 1, 1, {32768}, "Linear");
   EXPECT_EQ(read_image(folder / "linear.png").pixels[0][0], 128);
@@ -186,7 +186,7 @@ TEST(ImageIo, ErrorNamesInvalidFile) {
   EXPECT_THAT(error_of(folder.path()), HasSubstr("not a regular file"));
   EXPECT_THAT(error_of(folder.write("empty.png", "")), HasSubstr("empty (0 bytes)"));
   EXPECT_THAT(error_of(folder.write("text.png", "hello, I am no picture")),
-              HasSubstr("not an image that OpenImageIO understands"));
+              HasSubstr("OpenImageIO cannot read it"));
   for (const std::size_t size : {std::size_t{20}, good.size() / 2, good.size() - 30})
     EXPECT_NE(error_of(folder.write("cut.png", good.substr(0, size))), "") << size;
   std::string corrupt = good;

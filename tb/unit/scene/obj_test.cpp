@@ -282,7 +282,7 @@ TEST(ObjPolygon, SelfIntersectingFaceIsFilledAndNamed) {
       "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nvt 0 0\nvt 1 1\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 1 0 0\n"
       "f 1/1/1 2/2/2 3/3/1 4/4/2\nf 1/1/1 3/3/1 2/2/1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n"));
   EXPECT_THAT(bow.notes,
-              ElementsAre("faces that cross themselves were filled: 2, the first in line 11"));
+              ElementsAre("self-intersecting faces were filled: 2, the first in line 11"));
   ASSERT_EQ(bow.triangles.size(), 5u);
   EXPECT_EQ(std::abs(doubled_area(bow, bow.triangles[0]).z), 2.0);
   EXPECT_EQ(std::abs(doubled_area(bow, bow.triangles[1]).z), 2.0);
@@ -311,12 +311,12 @@ TEST(ObjPolygon, FacesWithoutAreaAreNamedOthersDrawn) {
   for (const std::string face : {"1 2 3", "1 2 3 4", "1 2 1 5", "1 1 1 1", "1 2 3 4 3 2"}) {
     const Mesh mesh =
         import_mesh(folder.write("a.obj", vertices + "f 1 2 5\nf " + face + "\nf 2 3 5\n"));
-    EXPECT_THAT(mesh.notes, Contains("faces without an area are not seen: 1, the first in line 7"))
+    EXPECT_THAT(mesh.notes, Contains("faces of zero area are invisible: 1, the first in line 7"))
         << face;
     EXPECT_EQ(doubled_area(mesh).z, 2.0) << face;
   }
   EXPECT_THAT(file_error([&] { import_mesh(folder.write("a.obj", vertices + "f 1 2 3 4\n")); }),
-              HasSubstr("line 6: a face has no area, and no other face has one"));
+              HasSubstr("line 6: this face and all others have zero area"));
   // A repeated corner changes nothing.
   for (const std::string face : {"1 2 5 5", "1 2 2 5 5", "1 1 2 2 5"}) {
     const Mesh mesh = import_mesh(folder.write("a.obj", vertices + "f " + face + "\n"));
@@ -393,7 +393,7 @@ TEST(ObjPolygon, RejectsFaceWithTooManyCrossings) {
       outline.push_back({random.between(0, 9999), random.between(0, 9999)});
     return outline;
   };
-  EXPECT_THAT(import_outline(tangle(128)).notes, Contains(HasSubstr("cross themselves")));
+  EXPECT_THAT(import_outline(tangle(128)).notes, Contains(HasSubstr("self-intersecting")));
   for (const int corners : {300, 1024})
     EXPECT_THAT(file_error([&] { import_outline(tangle(corners)); }),
                 HasSubstr("line " + std::to_string(corners + 1) +
@@ -576,11 +576,10 @@ TEST(ObjText, UnsupportedStatementsAreNamedWithLine) {
   EXPECT_THAT(notes("v 1 1 1 0.5 0.25 0 1\n"), Contains("vertex colours were left out"));
   EXPECT_EQ(notes("v 1 1 1 1\n").size(), usual) << "a weight";
   EXPECT_THAT(notes("vp 0\nvp 1\ncstype bezier\ndeg 3\ncurv 0 1 1 2 3\nend\n"),
-              Contains("statements that were left out: 'vp' (line 5, 2 in all), 'cstype' (line 7), "
+              Contains("statements were left out: 'vp' (line 5, 2 in all), 'cstype' (line 7), "
                        "'deg' (line 8), 'curv' (line 9), 'end' (line 10)"));
-  EXPECT_THAT(
-      notes("1 2 3\n\x01\n"),
-      Contains("statements that were left out: '1' (line 5), what is no statement (line 6)"));
+  EXPECT_THAT(notes("1 2 3\n\x01\n"),
+              Contains("statements were left out: '1' (line 5), an unreadable keyword (line 6)"));
   EXPECT_EQ(notes("# c\n\n \no x\ng y z\ns off\ns 1\nmg 1 2\nlod 3\nbevel on\n").size(), usual);
   // A note has a limited length for any file.
   std::string much;

@@ -452,7 +452,7 @@ TEST(Clipping, HandlesVerticesBehindEyeAndFarOutside) {
   expect_coverage_of_rays(one_triangle({-1e6, 1e6, -2}, {1e6, 1e6, -2}, {0, -2e6, -2}), 64,
                           "all around");
   expect_coverage_of_rays(one_triangle({-4, 0, -1e-3}, {4, 0, 1e-3}, {0, 0, -50}), 64,
-                          "beside the eye");
+                          "next to the eye");
   expect_coverage_of_rays(one_triangle({-0.3, 0.8, -0.6}, {0.4, 0.9, -0.5}, {0.1, 0.2, 3}), 64,
                           "two vertices just in front of the near plane");
 }

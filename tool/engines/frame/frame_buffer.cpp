@@ -84,7 +84,7 @@ rtl::Activity FrameBuffer::tick(rtl::Cycle cycle) {
     }
   }
   if (colours_in_->can_pop(cycle)) {
-    store(cycle, colours_in_->take(cycle));
+    colours_in_->take(cycle, [&](const DrawnColour& drawn) { store(cycle, drawn); });
     worked = true;
   }
   return worked ? rtl::kBusy : activity;

@@ -24,7 +24,9 @@ struct BufferEnds {
   std::function<std::unique_ptr<RowsPort>(const char*)> rows;  // null: rows are never output
 };
 
-// Interval  One colour in and one beat of a complete row out per cycle; its memory is not timed.
+// Interval  One beat of colours in (its pixels are written in the same cycle, with a wide texture
+// unit
+//           up to four) and one beat of a complete row out per cycle; its memory is not timed.
 // Stalls    DRAWER      The next row lacks fragments; if rows wait for release(), any row does.
 //           MESH        The frame is complete and not yet released.
 //           downstream

@@ -26,7 +26,7 @@ class FrameCommand final : public Engine {
  public:
   std::string_view name() const override { return "frame"; }
   std::string_view summary() const override {
-    return "A scene that is drawn into a frame buffer, and smoothed by one engine or two";
+    return "Draw a scene into a frame buffer and smooth it with one or two engines";
   }
 
   void add_parameters(tb::ParameterSet& set) override {
@@ -143,9 +143,10 @@ class FrameCommand final : public Engine {
     for (const PictureSmoother* smoother : roles().chosen_smoothers()) {
       after = smoother->golden_picture(*scene, after);
       if (after.empty())
-        throw spec::ConfigError(fmt::format(
-            "the {} has no golden picture of a frame alone: no flicker is measured through it",
-            smoother->title()));
+        throw spec::ConfigError(
+            fmt::format("the {} has no golden picture of a single frame, so flicker cannot be "
+                        "measured: leave out sequence.frames",
+                        smoother->title()));
     }
     tb::RenderOptions options = reference_options();
     options.interrupted = [] { return tb::interrupted(); };
@@ -157,8 +158,8 @@ class FrameCommand final : public Engine {
     for (const PictureSmoother* smoother : roles().chosen_smoothers())
       line +=
           fmt::format("{}{} ({})", line.empty() ? "" : ", ", smoother->title(), smoother->label());
-    return line + (roles().chosen().mesh ? " on one clock, one after the other"
-                                         : " on one clock, overlapped row by row");
+    return line + (roles().chosen().mesh ? " in one clock domain, one after the other"
+                                         : " in one clock domain, overlapped row by row");
   }
 
   tb::RenderOptions reference_options() const {

@@ -25,7 +25,7 @@ void FrameMeter::collect(tb::Result& result) const {
   add(result, "frame_buffer_bytes_written", parts_.buffer.bytes_written);
   add(result, "frame_buffer_bytes_read", parts_.buffer.bytes_read);
   add(result, "frame_buffer_bytes", std::uint64_t{FrameBuffer::kPixelBytes} * pixels(), "byte",
-      "Size of the frame buffer. It is not one of the memories, and its accesses are not timed.");
+      "Size of the frame buffer. It is not counted as a memory, and its accesses are not timed.");
 }
 
 void FrameMeter::show_parts(tb::Observer& observer) const {
@@ -64,13 +64,13 @@ std::uint64_t FrameMeter::bound(const Cycles& c) const {
 std::string FrameMeter::meaning_of_bound(const Cycles& c) const {
   if (parts_.mesh)
     return fmt::format(
-        "Pixels of the frame over the cycles that the engines need one after the other: {} {}, "
-        "drawing edges {}{}.",
+        "Pixels of the frame divided by the cycles of the engines in sequence: {} {}, drawing "
+        "edges {}{}.",
         words_.doing, tb::grouped(c.colours_bound), tb::grouped(c.drawing_bound),
         parts_.rows ? fmt::format(", smoothing {}", tb::grouped(c.smoothing_bound)) : "");
   return fmt::format(
-      "Pixels of the frame over the cycles of the slower engine alone ({0}), the other one at the "
-      "same time: {1} takes {2} cycles at least, smoothing {3}.",
+      "Pixels of the frame divided by the cycles of the slower engine ({0}), since both run at the "
+      "same time: {1} takes at least {2} cycles, smoothing {3}.",
       c.smoothing_bound >= c.colours_bound ? "smoothing" : words_.doing, words_.doing,
       tb::grouped(c.colours_bound), tb::grouped(c.smoothing_bound));
 }
@@ -124,7 +124,7 @@ std::vector<Figure> FrameMeter::headline_figures(bool complete) const {
     figures.push_back(
         parts_.mesh
             ? Figure{"Frame", "cycles", "engines alone", "work.engine_cycles_bound", true}
-            : Figure{"Frame", "cycles", "slower engine alone", "work.slower_engine_cycles", true});
+            : Figure{"Frame", "cycles", "slower engine", "work.slower_engine_cycles", true});
     figures.push_back({std::string(words_.label), "work." + colours_key(),
                        std::string(words_.bound_label), std::string(words_.bound_key)});
     if (parts_.mesh) figures.push_back({"Edges", "work.drawing_cycles"});
@@ -134,7 +134,7 @@ std::vector<Figure> FrameMeter::headline_figures(bool complete) const {
     if (!parts_.mesh) figures.push_back({"Both at once", "work.overlapped_cycles"});
   }
   append(parts_.drawing.figures());
-  append({{"Frame buffer, not among the memories", "work.frame_buffer_bytes"},
+  append({{"Frame buffer, not counted as a memory", "work.frame_buffer_bytes"},
           {"Written to the frame buffer", "work.frame_buffer_bytes_written"},
           {"Read from the frame buffer", "work.frame_buffer_bytes_read"}});
   for (const SmoothingStage* stage : parts_.smoothing) append(stage->work_figures());

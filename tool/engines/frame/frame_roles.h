@@ -25,7 +25,7 @@ struct Smoothing {
 
 class FrameRoles {
  public:
-  // The roles of engines(). The composition itself has none.
+  // The roles of engines(). Excludes the composition itself.
   FrameRoles();
   explicit FrameRoles(std::vector<std::unique_ptr<CompositionRole>> roles);
 

@@ -50,13 +50,13 @@ void reject_unused_configuration(const tb::ParameterSet& set,
     set.reject(fmt::format("{}{}", kGeometricPrefix, name), why);
   };
   if (p.select == spec::geometric::Select::kAll) {
-    reject("crease", "geometric.select = all draws every edge, crease or not");
+    reject("crease", "geometric.select = all draws every edge, whether it is a crease or not");
     reject("crease_depth", "geometric.select = all has no creases");
     reject("cull", "geometric.select = all draws every edge, whichever way its faces are turned");
     reject("face_limit", "geometric.select = all reads no facing bits");
   }
   if (p.select == spec::geometric::Select::kMesh) {
-    reject("cull", "geometric.select = mesh never looks whichever way faces are turned");
+    reject("cull", "geometric.select = mesh ignores which way faces are turned");
     reject("face_limit", "geometric.select = mesh reads no facing bits");
   }
   if (p.crease == spec::geometric::Crease::kOff)
@@ -68,14 +68,14 @@ void reject_unused_configuration(const tb::ParameterSet& set,
       p.depth_test != spec::geometric::DepthTest::kFarther)
     reject("combine",
            "without geometric.depth_test = farther no pixel is known to be nearer than its "
-           "neighbour: outermost is max");
+           "neighbour, so outermost equals max");
   if (!p.frame_copy) reject("copy_lines", "geometric.frame_copy = false copies nothing");
   if (p.pipelined) {
-    reject("dividers",
-           "geometric.pipelined = true takes a line every clock: one divider is enough");
+    reject("dividers", "geometric.pipelined = true accepts a line every cycle with one divider");
     // A table with entries cannot be built (spec/geometric/check_build.h).
     if (p.reciprocal_table == 0)
-      reject("reciprocal_table", "geometric.pipelined = true takes a line every clock without one");
+      reject("reciprocal_table",
+             "geometric.pipelined = true accepts a line every cycle without one");
   }
 }
 
@@ -84,23 +84,22 @@ void reject_too_many_faces(const tb::Scene& scene, const spec::geometric::Parame
   const std::uint64_t faces = scene.mesh.triangles.size();
   const std::string mesh = fmt::format("the mesh '{}' has {} faces", scene.name, faces);
   if (faces > spec::geometric::kMaxFaces)
-    throw spec::ConfigError(
-        fmt::format("{}, and {} are the most that the engine takes: simplify it", mesh,
-                    spec::geometric::kMaxFaces));
+    throw spec::ConfigError(fmt::format("{}, the engine supports at most {}: simplify the mesh",
+                                        mesh, spec::geometric::kMaxFaces));
   if (p.select == spec::geometric::Select::kEdges &&
       faces > static_cast<std::uint64_t>(p.face_limit))
     throw spec::ConfigError(
-        fmt::format("{}, and the hardware holds the facing bits of {}: give it more (--set "
-                    "geometric.face_limit={}), or simplify the mesh",
+        fmt::format("{}, the hardware has facing bits for {}: raise the limit (--set "
+                    "geometric.face_limit={}) or simplify the mesh",
                     mesh, p.face_limit, (faces + kStep - 1) / kStep * kStep));
 }
 
 std::vector<std::string> build_notes(const spec::geometric::Parameters& p) {
   if (p.latency_fifo >= p.fills) return {};
-  return {fmt::format(
-      "geometric.latency_fifo = {} is below geometric.fills = {}: look-ups wait before all lines "
-      "that may be on their way are asked for",
-      p.latency_fifo, p.fills)};
+  return {
+      fmt::format("geometric.latency_fifo = {} is below geometric.fills = {}: lookups stall before "
+                  "all fills are outstanding",
+                  p.latency_fifo, p.fills)};
 }
 
 std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
@@ -119,8 +118,8 @@ std::vector<std::string> dropped_notes(const spec::geometric::Work& work) {
                                  tb::grouped(work.edges), why);
   if (work.back_edges != 0)
     note +=
-        "; geometric.cull = none draws those that are turned away, for an eye inside of a mesh or "
-        "one wound the other way";
+        "; for a camera inside the mesh, or a mesh with the opposite winding order, set "
+        "geometric.cull = none";
   return {note};
 }
 
@@ -130,7 +129,7 @@ std::vector<Shorthand> edge_shorthands() {
        preset_help(spec::geometric::kPresetNames, spec::geometric::Configuration().preset)},
       {"--layout", "geometric.layout",
        "Pixel order of the colour and depth buffers: tiled (default) or raster"},
-      {"--walkers", "geometric.walkers", "Pixels of a line walked a clock: 1, 2 or 4 (default)"}};
+      {"--walkers", "geometric.walkers", "Pixels of a line walked per cycle: 1, 2 or 4 (default)"}};
 }
 
 }  // namespace deburr::tool

@@ -26,7 +26,7 @@ void imply_crossings(tb::ParameterSet& set, std::string_view name,
 // "preset gpaa", or "preset gpaa, changed: combine".
 std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Parameters& values);
 
-// ConfigError for a parameter that was given and has no effect. After apply_preset().
+// ConfigError for a parameter that was given without effect. After apply_preset().
 void reject_unused_configuration(const tb::ParameterSet& set,
                                  const spec::geometric::Parameters& values);
 

@@ -34,7 +34,7 @@ namespace {
 class GeometricCommand final : public Engine, public tb::GeometricTestbench {
  public:
   std::string_view summary() const override {
-    return "A lit scene and the edges of its mesh through the geometric engine";
+    return "Smooth a lit scene along the edges of its mesh with the geometric engine";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_geometric_role(); }
 
@@ -47,7 +47,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     if (set.find("run.reference")->text() == "false" && frames_ == 1)
-      set.reject("scene.reference_samples", "nothing is compared without run.reference (--truth)");
+      set.reject("scene.reference_samples", "it needs run.reference (--truth)");
     preset_label_ = preset_label(set, parameters_);
   }
 
@@ -161,8 +161,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
       crease = fmt::format(", creases {}", name_of(p.crease, spec::geometric::kCreaseNames));
     return fmt::format(
         "{} x {} pixels, {} faces, {} edges{}, {}: select {}{}, depth test {}, combine {}, {} "
-        "light; "
-        "{} of 8 x 8 pixels, {} edges, {} pixels a clock{}; memory latency {} clk",
+        "light; {} of 8 x 8 pixels, {} edges, {} pixels per cycle{}; memory latency {} clk",
         frame.image.width, frame.image.height, tb::grouped(frame.screen.faces),
         tb::grouped(frame.screen.edges.size()), clipped, preset_label_,
         name_of(p.select, spec::geometric::kSelectNames), crease,
@@ -186,7 +185,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
     if (golden) expected.pixels = engine.golden_model().pixels();
     add_frame_pictures(context, {before, after, after.pixels.size(), golden ? &expected : nullptr,
                                  loaded.reference ? &*loaded.reference : nullptr,
-                                 "the lit frame as it was rendered", loaded.reference_name});
+                                 "the lit frame as rendered", loaded.reference_name});
     add_edge_pictures(context, loaded.frame, parameters_, engine.blocks());
     if (!engine.done()) return;
     result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);

@@ -60,32 +60,34 @@ void reject_unused_configuration(const tb::ParameterSet& set,
     reject("morphological.edges.source is neither luma nor colour and has thresholds of its own",
            {"edges.threshold"});
   if (depth || p.threshold_mode == spec::morphological::ThresholdMode::kFixed)
-    reject("it belongs to morphological.edges.threshold_mode = dynamic",
+    reject("it is only used with morphological.edges.threshold_mode = dynamic",
            {"edges.alpha", "edges.floor", "edges.dynamic_luma"});
   else
     reject("morphological.edges.threshold_mode = dynamic computes the threshold",
            {"edges.threshold"});
   if (!depth && !predicated)
-    reject("it belongs to morphological.edges.source = depth or predicated",
+    reject("it is only used with morphological.edges.source = depth or predicated",
            {"edges.depth_threshold"});
   if (!predicated)
-    reject("it belongs to morphological.edges.source = predicated",
+    reject("it is only used with morphological.edges.source = predicated",
            {"edges.threshold_on_depth_edge", "edges.threshold_off_depth_edge"});
   if (p.predictor == spec::morphological::Predictor::kNone)
     reject("morphological.predictor = none extends no run",
            {"steps", "contiguous", "safe", "trim"});
   if (!has_qualities(p.preset))
-    reject("it belongs to morphological.preset = smaa or smaa-dynamic", {"quality"});
+    reject("it is only used with morphological.preset = smaa or smaa-dynamic", {"quality"});
   if (p.area == spec::morphological::AreaSource::kAnalytic ||
       p.area == spec::morphological::AreaSource::kLearned)
     reject("morphological.area = analytic and learned search nothing", {"search_steps"});
   if ((p.area == spec::morphological::AreaSource::kAnalytic ||
        p.area == spec::morphological::AreaSource::kLearned) &&
       !p.diagonals)
-    reject("it belongs to tables: morphological.area or morphological.diagonals", {"area_values"});
-  if (!p.diagonals) reject("it belongs to morphological.diagonals = true", {"diagonal_steps"});
+    reject("it is only used with tables: morphological.area or morphological.diagonals",
+           {"area_values"});
+  if (!p.diagonals)
+    reject("it is only used with morphological.diagonals = true", {"diagonal_steps"});
   if (!p.round_corners)
-    reject("it belongs to morphological.round_corners = true", {"corner_rounding"});
+    reject("it is only used with morphological.round_corners = true", {"corner_rounding"});
   if (p.storage == spec::morphological::Storage::kLineBuffers) {
     constexpr std::string_view kWhy = "morphological.storage = line_buffers uses no memory";
     reject(kWhy, {"memory.outstanding"});
@@ -103,7 +105,7 @@ std::vector<std::string> threshold_notes(const spec::morphological::Parameters& 
     if (threshold < spec::morphological::kOneCode)
       notes.push_back(fmt::format(
           "morphological.{} = {} is {:.5f} of a code, so noise makes edges: its unit is code / {}; "
-          "multiply a number from before 0.3.0 by 255",
+          "multiply values for versions before 0.3.0 by 255",
           name, threshold, static_cast<double>(threshold) / spec::morphological::kOneCode,
           spec::morphological::kOneCode));
   };
@@ -118,8 +120,8 @@ std::vector<std::string> threshold_notes(const spec::morphological::Parameters& 
     // 255 alpha is below one code; to disable it, 0 is used.
     if (p.alpha > 0 && std::int64_t{255} * p.alpha < 1 << 24)
       notes.push_back(fmt::format(
-          "morphological.edges.alpha = {} is {:.5f}, below a code even of white{}: its unit is 1 / "
-          "{}; multiply a number from before 0.3.0 by 256",
+          "morphological.edges.alpha = {} is {:.5f}, below one code even for white{}: its unit is "
+          "1 / {}; multiply values for versions before 0.3.0 by 256",
           p.alpha, static_cast<double>(p.alpha) / (1 << 24),
           p.floor >= spec::morphological::kOneCode ? ", so edges.floor alone decides" : "",
           1 << 24));
@@ -133,8 +135,8 @@ std::vector<std::string> build_notes(const spec::morphological::Parameters& valu
   std::vector<std::string> notes = threshold_notes(values);
   if (values.trial_cycles < 4)
     notes.push_back(fmt::format(
-        "morphological.trial_cycles = {}: steps of a trial weight a clock, so the engine is not "
-        "made for 250 MHz (docs/reference/morphological/hardware.md, Trials)",
+        "morphological.trial_cycles = {}: a trial weight needs more than one step per cycle, which "
+        "does not reach 250 MHz (docs/reference/morphological/hardware.md, Trials)",
         values.trial_cycles));
   return notes;
 }
@@ -144,9 +146,9 @@ std::vector<Shorthand> smoothing_shorthands() {
       {"--preset", "morphological.preset",
        preset_help(spec::morphological::kPresetNames, spec::morphological::Configuration().preset)},
       {"--lanes", "morphological.lanes",
-       "Pixels a clock of the morphological engine: 1 (default), 2 or 4"},
+       "Pixels per cycle of the morphological engine: 1 (default), 2 or 4"},
       {"--storage", "morphological.storage",
-       "Of the pixels that the morphological engine delays: line_buffers (default) or memory"}};
+       "Where the morphological engine stores delayed pixels: line_buffers (default) or memory"}};
 }
 
 }  // namespace deburr::tool

@@ -38,7 +38,7 @@ namespace {
 class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbench {
  public:
   std::string_view summary() const override {
-    return "An image or a scene through the morphological engine, checked pixel by pixel";
+    return "Smooth an image or a scene with the morphological engine, checked pixel by pixel";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_morphological_role(); }
 
@@ -48,12 +48,12 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     frames_ = frames_of(set, sequence_, lists_);
     if (frames_ > 1 && lists_.frames() == 1 && !is_rendered(first()) && tb::is_there(frame_.source))
       throw spec::ConfigError(
-          "sequence.frames: an image file does not move: list a file a frame, as by "
+          "sequence.frames: a single image file has no motion: give one file per frame, such as "
           "--in 'frames/*.png'");
     if (!frame_.mask.empty()) {
       set.imply("morphological.bypass", "masked", "frame.mask");
       if (parameters_.bypass == spec::morphological::Bypass::kNone)
-        set.reject("frame.mask", "morphological.bypass = none looks at no mask");
+        set.reject("frame.mask", "morphological.bypass = none ignores the mask");
     }
     reject_unused_configuration(set, parameters_, "memory");
     reject_unused_memory(set, "memory", memory_);
@@ -61,10 +61,10 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
       reject_slow_memory(set, "memory", memory_);
     else if (set.find("run.line_trace")->text() != "none")
       set.reject("run.line_trace",
-                 "nothing is asked of memory: morphological.storage = memory asks for lines");
+                 "no memory is used: only morphological.storage = memory requests lines");
     if (!frame_.weights.empty() && parameters_.area != spec::morphological::AreaSource::kLearned)
       set.reject("frame.weights",
-                 fmt::format("morphological.area = {} has no learned weights",
+                 fmt::format("morphological.area = {} does not use learned weights",
                              name_of(parameters_.area, spec::morphological::kAreaSourceNames)));
     reject_unused_frame(set);
     preset_label_ = preset_label(set, parameters_);
@@ -81,8 +81,9 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
           "Image file of any format that OpenImageIO reads, or a mesh file"},
          {"--scene", "frame.source", "Scene instead of a file: cylinders (default), road, ..."},
          {"--truth", "frame.reference", "Anti-aliased picture to compare with"},
-         {"--depth", "frame.depth", "Depth of the image: quality of silhouettes too"},
-         {"--mask", "frame.mask", "Picture of what to leave as it is: white is masked"},
+         {"--depth", "frame.depth",
+          "Depth of the image, for depth edges and the quality of silhouettes"},
+         {"--mask", "frame.mask", "Mask of pixels to bypass: white pixels are not changed"},
          {"--shares", "frame.weights",
           "Learned weights of `deburr train` instead of those shipped"},
          {"--size", "frame.width", "Size of a rendered scene, WxH (640x480)", "frame.height"}},
@@ -209,7 +210,7 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     // load_frame() has its own messages for a reference given with a scene, and for a missing file.
     if (is_rendered(first()) || !tb::is_there(first().source)) return;
     for (const char* name : {"frame.width", "frame.height"})
-      set.reject(name, "frame.source is an image file, which has a size of its own");
+      set.reject(name, "frame.source is an image file, which determines the size");
     set.reject("frame.reference_samples",
                "an image file is compared with the file frame.reference (--truth)");
     if (depth_used && frame_.depth.empty())
@@ -217,9 +218,8 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
           "morphological.edges.source = {} needs the depth of the image: name it with --depth FILE",
           name_of(parameters_.edge_source, spec::morphological::kEdgeSourceNames)));
     if (!depth_used && frame_.reference.empty())
-      set.reject(
-          "frame.depth",
-          "edges come from colours, and silhouettes are measured only against a --truth FILE");
+      set.reject("frame.depth",
+                 "edges are found in colours, and silhouettes are measured only with --truth FILE");
   }
 
   std::string summary_line(const LoadedFrame& loaded) const {
@@ -227,7 +227,7 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     const int lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
     return fmt::format(
         "{} x {} pixels, {}: edges from {} at T = {:.2f} codes, local contrast {}, predictor {} "
-        "with N = {}{}{}{}, {} light; {} pixel{} a clock, {} window rows, {}",
+        "with N = {}{}{}{}, {} light; {} pixel{} per cycle, {} window rows, {}",
         loaded.input.image.width, loaded.input.image.height, preset_label_,
         name_of(p.edge_source, spec::morphological::kEdgeSourceNames), p.threshold / 65536.0,
         name_of(p.local_contrast, spec::morphological::kLocalContrastNames),
@@ -246,11 +246,11 @@ class MorphologicalCommand final : public Engine, public tb::MorphologicalTestbe
     const bool golden = run.check == CheckMode::kGolden &&
                         engine.golden_model().pixels().size() == expected.pixels.size();
     if (golden) expected.pixels = engine.golden_model().pixels();
-    add_smoothing_pictures(context,
-                           {before, after, engine.delivered(), golden ? &expected : nullptr,
-                            loaded.reference ? &*loaded.reference : nullptr, "the frame as it came",
-                            loaded.reference_name},
-                           engine.probes());
+    add_smoothing_pictures(
+        context,
+        {before, after, engine.delivered(), golden ? &expected : nullptr,
+         loaded.reference ? &*loaded.reference : nullptr, "the input frame", loaded.reference_name},
+        engine.probes());
     if (engine.delivered() < after.pixels.size()) return;
     result.change = measure_change(before, after, loaded.reference ? &*loaded.reference : nullptr);
     if (loaded.reference)

@@ -23,11 +23,15 @@ std::string source_of(const spec::texture::Parameters& values) {
 }  // namespace
 
 void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values) {
-  const spec::texture::Parameters configuration = preset_parameters(values.preset);
-  for_each_of(values.preset, [&](std::string_view name, auto, auto) {
-    set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(configuration, name),
-              source_of(values));
-  });
+  const spec::texture::Parameters implied = preset_parameters(values.preset, values.build);
+  const auto imply_from = [&](const std::string& source) {
+    return [&set, &implied, source](std::string_view name, auto, auto) {
+      set.imply(fmt::format("{}{}", kTexturePrefix, name), spec::value_text(implied, name), source);
+    };
+  };
+  for_each_of(values.preset, imply_from(source_of(values)));
+  const auto build = spec::texture::kNamedBuildNames[static_cast<std::size_t>(values.build)];
+  for_each_of(values.build, imply_from(fmt::format("build {}", build)));
 }
 
 std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values) {
@@ -48,8 +52,7 @@ void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
 
 void reject_unused_lookups(const tb::ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
-    set.reject("run.line_trace_lookups",
-               "there is no trace without run.line_trace (--line-trace text)");
+    set.reject("run.line_trace_lookups", "it needs run.line_trace (--line-trace text)");
 }
 
 void reject_unused_scene(const tb::ParameterSet& set) {
@@ -59,7 +62,7 @@ void reject_unused_scene(const tb::ParameterSet& set) {
     set.reject(name, "the fragments come from the file scene.fragments (--fragments)");
   if (set.find("run.reference")->text() == "true")
     throw spec::ConfigError(
-        "run.reference: the scene of a file's fragments is unknown: leave it out");
+        "run.reference: fragments from a file have no known scene to compare with: leave it out");
 }
 
 std::vector<Shorthand> scene_shorthands(const std::string& default_scene) {

@@ -44,7 +44,7 @@ namespace {
 class TextureEngine final : public Engine, public tb::TextureTestbench {
  public:
   std::string_view summary() const override {
-    return "A scene through the texture unit, checked colour by colour and line by line";
+    return "Texture a scene with the texture unit, checked colour by colour and line by line";
   }
   std::unique_ptr<CompositionRole> role() const override { return make_texture_role(); }
 
@@ -65,9 +65,9 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
          {"--fragments", "scene.fragments",
           "Fragments of another rasteriser: a trace, text or binary (docs/reference/traces.md)"},
          {"--fragment-trace", "run.fragment_trace",
-          "Leave the fragments as such a trace: text or binary"},
+          "Write the fragments as such a trace: text or binary"},
          {"--hdl", "run.hdl",
-          "Units that run as SystemVerilog: address, cache, filter (with commas between), or "
+          "Units that run as SystemVerilog: address, cache, filter (separated by commas), or "
           "all"}});
   }
 
@@ -87,7 +87,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     if (foreign() && frames_ > 1)
-      set.reject(lists_.longest(), "the fragments of scene.fragments are those of one frame");
+      set.reject(lists_.longest(), "the file scene.fragments holds the fragments of one frame");
   }
 
   void check(const RunParameters& run, RunContext& context) override {
@@ -177,11 +177,11 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
 
   void reject_maps_of_nothing(const RunParameters& run, const TextureScene& scene) const {
     if (run.maps && scene.stream().width == 0)
-      throw spec::ConfigError(fmt::format(
-          "run.maps: the fragments of '{}' have no place in a picture: leave it out, or write "
-          "'size WIDTH HEIGHT' and the place of each quad into the trace "
-          "(docs/reference/traces.md)",
-          trace_in_.file));
+      throw spec::ConfigError(
+          fmt::format("run.maps: the fragments of '{}' have no position in a picture: leave it "
+                      "out, or add 'size WIDTH HEIGHT' and the position of each quad to the trace "
+                      "(docs/reference/traces.md)",
+                      trace_in_.file));
   }
 
   // Reads and checks the whole file.
@@ -191,7 +191,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         tb::traces::examine_fragments(trace_in_.file, textures);
     if (summary.fragments == 0)
       throw spec::ConfigError(
-          fmt::format("the trace '{}' covers no fragment in {} quads: nothing would be filtered",
+          fmt::format("the trace '{}' has no covered fragment in {} quads: nothing to filter",
                       trace_in_.file, summary.quads));
     const auto open = [file = trace_in_.file, textures]() -> tb::traces::QuadSource {
       const auto reader = std::make_shared<tb::traces::FragmentReader>(file, textures);
@@ -276,7 +276,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     tb::Mask came;
     came.width = unit.frame().width;
     came.height = unit.frame().height;
-    came.pixels = unit.came();
+    came.pixels = unit.received();
     // For a fragment file, pixels without a fragment are known only when all have arrived.
     const tb::Mask drawn = foreign() ? came : drawn_pixels(scene);
     const tb::Mask missing = without(drawn, came);
@@ -288,8 +288,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     const Image after = painted(stored(unit.frame(), drawn), missing, kNotDelivered);
     if (!foreign())
       context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
-    context.add_image("after", after, "Hardware model",
-                      "the colours that the unit delivered" + note);
+    context.add_image("after", after, "Hardware model", "the colours delivered by the unit" + note);
     if (run.check == CheckMode::kGolden) {
       // After the run, missing pixels are lost and count as differences.
       const bool over = unit.done();

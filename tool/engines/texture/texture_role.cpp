@@ -35,18 +35,22 @@ class ColoursOfTexture final : public ColoursPort {
     in_(environment.colours);
   }
   bool can_pop(rtl::Cycle cycle) const override { return in_.can_pop(cycle); }
-  DrawnColour take(rtl::Cycle cycle) override {
-    const Colour colour = in_.take(cycle);
-    environment_.check_output(cycle, colour);
-    DrawnColour drawn;
-    if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return drawn;
-    const tb::FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
-    if (p.x >= stream_.width || p.y >= stream_.height) return drawn;
-    return {true, (stream_.visible[colour.tag] >> colour.lane & 1) != 0, p.x, p.y, colour.rgba};
+  void take(rtl::Cycle cycle, const std::function<void(const DrawnColour&)>& each) override {
+    const spec::texture::ColourGroup& group = in_.take(cycle);
+    environment_.check_output(cycle, group);
+    for (const Colour& colour : group) each(drawn(colour));
   }
 
  private:
-  rtl::In<Colour> in_;
+  DrawnColour drawn(const Colour& colour) const {
+    DrawnColour outside;
+    if (colour.tag >= stream_.quads.size() || colour.lane >= 4) return outside;
+    const tb::FragmentStream::Pixel p = stream_.pixel(colour.tag, colour.lane);
+    if (p.x >= stream_.width || p.y >= stream_.height) return outside;
+    return {true, (stream_.visible[colour.tag] >> colour.lane & 1) != 0, p.x, p.y, colour.rgba};
+  }
+
+  rtl::In<spec::texture::ColourGroup> in_;
   tb::TextureEnvironment& environment_;
   const tb::FragmentStream& stream_;
 };
@@ -94,10 +98,10 @@ class TextureRole final : public PictureDrawer {
             "Texturing",
             "bilinears",
             "work.texture_bilinears",
-            "the texture unit's bilinears, one a clock"};
+            "the texture unit's bilinears, one per cycle"};
   }
   std::string_view caption() const override {
-    return "textured: what the texture unit left in the frame buffer";
+    return "textured: the frame buffer after the texture unit";
   }
 
   void add_scene(tb::ParameterSet& set) override {

@@ -10,7 +10,7 @@ namespace {
 
 class Definition : public PlannedPoints, public testing::WithParamInterface<Case> {
  protected:
-  // Writes s.yaml: the text, with an engine, axes and metrics added if it has none.
+  // Writes s.yaml: the text, with an engine, axes and metrics added if missing.
   Definition() {
     const std::string& text = GetParam().given;
     const auto has = [&](const char* key) { return text.find(key) != std::string::npos; };
@@ -32,17 +32,17 @@ TEST_P(RejectedDefinition, MessageNamesLineAndReason) {
 
 const Case kRejected[] = {
     {"NoEngine", "# no engine\naxes: {made.lanes: [2, 4]}\n",
-     "s.yaml:2: which engine? Say so: 'engine: made'"},
+     "s.yaml:2: 'engine' is missing: add 'engine: made'"},
     {"UnknownKey", "colour: 3",
      "s.yaml:3: unknown key 'colour' (known: engine, base, axes, points, sample, constraints, "
      "refused, title, metrics, limits, objectives, reports, chunk)"},
     {"AxesNotAMap", "axes: [made.lanes]",
-     "s.yaml:2: 'axes' wants a map of parameters to values, got a list"},
+     "s.yaml:2: 'axes' must be a map of parameters to values, got a list"},
     {"AxisOfOneValue", "axes: {made.lanes: 3}",
-     "s.yaml:2: axis 'made.lanes' wants a list of values or {from: .., to: ..}, got a single "
+     "s.yaml:2: axis 'made.lanes' must be a list of values or {from: .., to: ..}, got a single "
      "value"},
     {"RangeWithoutEnd", "axes: {made.lanes: {from: 2}}",
-     "s.yaml:2: axis 'made.lanes': a range wants 'from' and 'to'"},
+     "s.yaml:2: axis 'made.lanes': a range needs 'from' and 'to'"},
     {"UnknownKeyOfRange", "axes: {made.lanes: {from: 2, to: 4, by: 1}}",
      "s.yaml:2: axis 'made.lanes': unknown 'by' (known: from, to, step, times, when)"},
     {"StepAndTimes", "axes: {made.lanes: {from: 2, to: 4, step: 1, times: 2}}",
@@ -59,58 +59,62 @@ const Case kRejected[] = {
     {"RangeTooLong", "axes: {run.max_cycles: {from: 0, to: 2000000}}",
      "s.yaml:2: axis 'run.max_cycles' has 2000001 values: give 'step' or 'times'"},
     {"ChoicesOfOtherParameters", "axes: {a: {x: {made.lanes: 2}, y: {made.depth: 4}}}",
-     "s.yaml:2: axis 'a': 'y' gives made.depth, the first one made.lanes"},
+     "s.yaml:2: axis 'a': 'y' sets made.depth, the first entry sets made.lanes"},
     {"ChoiceNotAMap", "axes: {a: {x: {made.lanes: 2}, y: 3}}",
-     "s.yaml:2: axis 'a': 'y' wants a map of parameters to values, as its neighbours have"},
+     "s.yaml:2: axis 'a': 'y' must be a map of parameters to values, like the other entries"},
     {"EmptyChoice", "axes: {a: {x: {}}}",
-     "s.yaml:2: axis 'a': 'x' wants a map of parameters to values, as its neighbours have"},
+     "s.yaml:2: axis 'a': 'x' must be a map of parameters to values, like the other entries"},
     {"VariedTwice", "axes: {a: {x: {made.lanes: 2}}, made.lanes: [3]}",
      "s.yaml:2: 'made.lanes' is varied twice (first at s.yaml:2)"},
-    {"BaseNotAMap", "base: [1]", "s.yaml:3: 'base' wants a map, got a list"},
+    {"BaseNotAMap", "base: [1]", "s.yaml:3: 'base' must be a map, got a list"},
     {"BaseTwice", "base: {made.lanes: 3, made: {lanes: 3}}\naxes: {made.depth: [8]}",
      "s.yaml:2: 'made.lanes' is given twice (first at s.yaml:2)"},
-    {"PointNotAMap", "points: [3]", "s.yaml:2: a point wants a map, got a single value"},
+    {"PointNotAMap", "points: [3]", "s.yaml:2: a point must be a map, got a single value"},
     {"PointOfFewerParameters", "points: [{made.lanes: 2, made.depth: 3}, {made.lanes: 2}]",
-     "s.yaml:2: every point gives the same parameters, once; this one does not (2 are wanted)"},
+     "s.yaml:2: every point must set the same parameters, each once; this one does not (expected "
+     "2)"},
     {"SampleOfPoints", "points: [{made.lanes: 2}]\nsample: cartesian",
-     "s.yaml:3: 'sample' chooses among 'axes'; 'points' are all taken"},
+     "s.yaml:3: 'sample' is only valid with 'axes'; 'points' are all run"},
     {"UnknownSample", "sample: all",
-     "s.yaml:3: 'sample' = 'all' wants cartesian, {random: N, seed: S} or {latin: N, seed: S}"},
+     "s.yaml:3: 'sample' = 'all' must be cartesian, {random: N, seed: S} or {latin: N, seed: S}"},
     {"SampleWithoutNumber", "sample: {seed: 3}",
-     "s.yaml:3: 'sample' wants random or latin with a number"},
+     "s.yaml:3: 'sample' needs random or latin with a number"},
     {"TwoSamples", "sample: {random: 3, latin: 3}",
-     "s.yaml:3: 'sample': 'latin' was not expected (random or latin, and seed)"},
+     "s.yaml:3: 'sample': unexpected 'latin' (expected random or latin, and seed)"},
     {"TooManySamples", "sample: {random: 1000001}",
      "s.yaml:3: 'random' = '1000001' is outside 1..1000000"},
-    {"UnknownRefusal", "refused: never", "s.yaml:3: 'refused' = 'never' wants error or skip"},
+    {"UnknownRefusal", "refused: never", "s.yaml:3: 'refused' = 'never' must be error or skip"},
     {"AllRejectedByTheEngine", "axes: {made.lanes: [9, 10]}\nrefused: skip",
-     "s.yaml: no point is left of 2: the engine rejects 2, the first made.lanes = 9: made.depth = "
+     "s.yaml: all 2 points are excluded: the engine rejects 2, the first made.lanes = 9: "
+     "made.depth = "
      "8 with lanes = 9: must be at least lanes"},
     {"ConstraintsNotAList", "constraints: made.lanes < 4",
-     "s.yaml:3: 'constraints' wants a list, got a single value"},
+     "s.yaml:3: 'constraints' must be a list, got a single value"},
     {"NoMetrics", "metrics: {}",
-     "s.yaml:3: 'metrics' wants a map of names to keys of result.json or expressions of them, got "
+     "s.yaml:3: 'metrics' must be a map of names to keys of result.json or expressions of them, "
+     "got "
      "an empty map"},
     {"MetricsNotAMap", "metrics: [cycles]",
-     "s.yaml:3: 'metrics' wants a map of names to keys of result.json or expressions of them, got "
+     "s.yaml:3: 'metrics' must be a map of names to keys of result.json or expressions of them, "
+     "got "
      "a list"},
     {"MetricNamedLikeAnAxis", "metrics: {made.lanes: cycles}",
      "s.yaml:3: metric 'made.lanes' has the name of an axis"},
-    {"EmptyMetric", "metrics: {c: ''}", "s.yaml:3: metric 'c' wants a key of result.json"},
+    {"EmptyMetric", "metrics: {c: ''}", "s.yaml:3: metric 'c' must be a key of result.json"},
     {"MetricWithAsterisk", "metrics: {c: /cycles, d: 2 * units.*.busy}",
      "s.yaml:3: metric 'd': no result of 'made' has the key 'units.': did you mean 'unit'?"},
     {"LimitDividesByZero", "limits: [c / 0 < 3]", "s.yaml:4: limit 'c / 0 < 3': division by zero"},
     {"ObjectivesNotAMap", "objectives: [c]",
-     "s.yaml:4: 'objectives' wants minimise and maximise, got a list"},
+     "s.yaml:4: 'objectives' must be a map of minimise and maximise, got a list"},
     {"UnknownObjective", "objectives: {minimize: [c]}",
      "s.yaml:4: 'objectives': unknown 'minimize' (known: minimise, maximise, for_each)"},
-    {"ObjectiveNotAList", "objectives: {minimise: c}", "s.yaml:4: 'minimise' wants a list"},
+    {"ObjectiveNotAList", "objectives: {minimise: c}", "s.yaml:4: 'minimise' must be a list"},
     {"ObjectiveTwice", "objectives: {minimise: [c], maximise: [c]}",
      "s.yaml:4: objective 'c' is given twice"},
-    {"ReportsNotABoolean", "reports: 3", "s.yaml:3: 'reports' = '3' wants true or false"},
+    {"ReportsNotABoolean", "reports: 3", "s.yaml:3: 'reports' = '3' must be true or false"},
     {"ChunkOfZero", "chunk: 0", "s.yaml:3: 'chunk' = '0' is outside 1..100000"},
     {"ChunkTooLarge", "chunk: 100001", "s.yaml:3: 'chunk' = '100001' is outside 1..100000"},
-    {"TitleNotText", "title: [x]", "s.yaml:3: 'title' wants a single value, got a list"},
+    {"TitleNotText", "title: [x]", "s.yaml:3: 'title' must be a single value, got a list"},
 };
 INSTANTIATE_TEST_SUITE_P(All, RejectedDefinition, testing::ValuesIn(kRejected), name_of_case);
 
@@ -119,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(All, RejectedDefinition, testing::ValuesIn(kRejected), 
 class AcceptedDefinition : public Definition {};
 TEST_P(AcceptedDefinition, PlanHasExpectedNumberOfPoints) {
   EXPECT_EQ(result("sweep s.yaml plan"),
-            "PASS sweep s: " + GetParam().expected + ", 0 of them done; out/sweeps/s");
+            "PASS sweep s: " + GetParam().expected + ", 0 already done; out/sweeps/s");
 }
 
 const Case kAccepted[] = {

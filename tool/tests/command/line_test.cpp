@@ -49,14 +49,14 @@ const Case kMistakes[] = {
     {"ValueIsNoCommand", "run --check made --wrong",
      "usage: unknown option '--check' (see deburr run --help)"},
     {"OptionThatIsGone", "search first.yaml run --no-guess",
-     "usage: --no-guess: gone since 0.4.0: a search always runs every generation; leave it out "
+     "usage: --no-guess: removed in 0.4.0: a search always runs every generation; leave it out "
      "(see deburr search --help)"},
     {"NotAnInteger", "run made --windows x",
-     "configuration: --windows: 'run.interval_cycles' = 'x' wants an integer 0..1099511627776"},
+     "configuration: --windows: 'run.interval_cycles' = 'x' must be an integer 0..1099511627776"},
     {"PopulationNotMultipleOf4", "search first.yaml --population 10",
-     "usage: --population: '10' is no multiple of 4 in 8..4096 (see deburr search --help)"},
+     "usage: --population: '10' is not a multiple of 4 in 8..4096 (see deburr search --help)"},
     {"PopulationTooLarge", "search first.yaml --population 4100",
-     "usage: --population: '4100' is no multiple of 4 in 8..4096 (see deburr search --help)"},
+     "usage: --population: '4100' is not a multiple of 4 in 8..4096 (see deburr search --help)"},
 };
 INSTANTIATE_TEST_SUITE_P(All, WrongCommandLine, testing::ValuesIn(kMistakes), name_of_case);
 
@@ -94,12 +94,13 @@ class CommandLine : public InProcess {
 TEST_F(CommandLine, ErrorWithJsonPrintsOneObject) {
   for (const auto& [command, outcome] :
        {std::pair("run made --out --json",
-                  "FAIL usage: --out needs a value, and '--json' is an option: a name that begins "
-                  "so is written --out=--json"),
+                  "FAIL usage: --out needs a value, but '--json' is an option: to use it as the "
+                  "value, write --out=--json"),
         {"params run --json --c-header",
          "FAIL usage: --c-header excludes --json (see deburr params --help)"},
         {"regress --json rerun",
-         "FAIL configuration: rerun: of what? 'rerun --failed' runs again what has failed"}}) {
+         "FAIL configuration: rerun needs --failed: 'rerun --failed' repeats the runs that "
+         "failed"}}) {
     const std::string line = std::string("deburr ") + command;
     EXPECT_EQ(json(command),
               (Json{{"exit_code", 2}, {"outcome", outcome}, {"command", line}, {"repro", line}}));
@@ -130,13 +131,13 @@ TEST_F(CommandLine, HelpOfRunShowsKindsAndDefaultsOfValues) {
   for (const char* const line :
        {"--config FILE               YAML file of parameters, or a run's manifest.json",
         "--set NAME=VALUE ...        Any parameter of `deburr params`; may be repeated",
-        "--out DIR                   Directory of the results (out/made)",
-        "--seed NUMBER               Seed of textures made by formula (1)",
+        "--out DIR                   Directory for the results (out/made)",
+        "--seed NUMBER               Seed of procedural textures (1)",
         "--check NAME                golden (default) or none",
         "--trace GLOB                Write waves of these units and links (glob) to trace.vcd",
         "--trace-to NUMBER           Cycle after the last one traced (2000)",
-        "--maps                      Leave maps of what was done for each pixel",
-        "--pixel X,Y                 Keep everything that happens to this pixel",
+        "--maps                      Write maps of the work per pixel",
+        "--pixel X,Y                 Record every step for this pixel",
         "--in FILE                   What goes in", "--size WxH                  Of the frame",
         "--gain NUMBER               Of the frame (0.5)",
         "--round                     To the nearest",
@@ -212,7 +213,7 @@ made.round   rule   false   true | false                                     To 
 made.lanes   build  4       1..16                                     pixel  So many at a time.
 made.depth   build  8       1..64                                            Of its queue.
 
-What hardware can be built with, beyond these ranges:
+Build limits of the hardware, in addition to these ranges:
 made.depth   must be at least lanes
 )");
   EXPECT_EQ(lines("params", "run.clock_mhz ").size(), 1u) << "what engines share is listed once";

@@ -125,7 +125,7 @@ class MadeEngine : public Engine {
   void measure(const RunParameters& run, const RunContext& context, tb::Result& result) const {
     if (!run.trace.empty())
       std::ofstream(context.trace_file()) << run.trace_from << ".." << run.trace_to << "\n";
-    if (input_.gain == 1.5) throw spec::ConfigError("a gain of 1.5 is none");
+    if (input_.gain == 1.5) throw spec::ConfigError("a gain of 1.5 is invalid");
     result.cycles = static_cast<std::uint64_t>(1200 / values_.lanes);
     if (input_.gain == 2) throw spec::DeadlockError("nothing moves, cycle 812");
     result.throughput = values_.lanes;

@@ -22,7 +22,7 @@ def options_left_out(deburr, source):
     for engine in engines():
         text = subprocess.run([deburr, "run", engine, "--help"], check=True, capture_output=True, text=True).stdout
         options |= set(re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE))
-    return sorted(options - named) if options else ["every option: the help has none"]
+    return sorted(options - named) if options else ["every option: the help lists none"]
 
 
 def main():

@@ -29,7 +29,7 @@ class RegressCommand : public PlannedPoints {
     write("docs/unit.md", "# Unit\n\nIt is so.\n");
     write("night.yaml", kNight);
     EXPECT_EQ(result("regress night.yaml plan --seed 7"),
-              "PASS regression night --seed 7: 5 points over 5 inputs, 0 of them done; "
+              "PASS regression night --seed 7: 5 points over 5 inputs, 0 already done; "
               "out/regressions/night-7");
     name_points("out/regressions/night-7");
   }
@@ -56,7 +56,7 @@ TEST_F(RegressCommand, MissingRunsFailTheRegression) {
 broken      first: 3 of 4 runs passed; colours: 27 comparisons of 30
 broken      second: 0 of 1 runs passed; colours: 0 comparisons of 1; pixels: 0 comparisons of 5
 REPRO: deburr regress night.yaml collect --seed 7
-RESULT: FAIL regression night --seed 7: 5 points, 3 passed, 1 failed in 1 signature, 1 missing; out/regressions/night-7/index.html: 'run' it again for what is missing
+RESULT: FAIL regression night --seed 7: 5 points, 3 passed, 1 failed in 1 signature, 1 missing; out/regressions/night-7/index.html: use 'run' again for the missing runs
 = 3
 )");
 }
@@ -72,7 +72,7 @@ RESULT: FAIL regression night --seed 7: 5 points, 4 passed, 1 failed in 1 signat
   EXPECT_EQ(printed("regress night.yaml run --seed 7"),
             R"(failed      1 x made: mismatch: colours: N of N
 broken      first: 3 of 4 runs passed; colours: 27 comparisons of 30
-broken      second: night.yaml:14: no run of this feature has a scoreboard 'pixels' (there are colours)
+broken      second: night.yaml:14: no run of this feature has a scoreboard 'pixels' (known: colours)
 )" + end);
   EXPECT_EQ(printed("regress night.yaml run --seed 7 --quiet"), end);
 }
@@ -84,12 +84,12 @@ TEST_F(RegressCommand, RerunUsesSeedOfLastReport) {
   check("first/runs/made.lanes=4/1", {{"colours", 3}});
   std::filesystem::remove_all(folder_of("second/one/base/0"));
   EXPECT_EQ(json("regress night.yaml rerun --failed --json"), Json::parse(R"({"exit_code": 0,
-      "outcome": "PASS regression night --seed 7: 1 of 1 runs that had failed pass now, 0 fail; other runs have no result of this state, so the report stays as it is: 'run' it for all of them",
+      "outcome": "PASS regression night --seed 7: 1 of 1 previously failed runs pass now, 0 fail; other runs lack a current result, so the report is unchanged: use 'run' to simulate them",
       "command": "deburr regress night.yaml rerun --failed --json --seed 7",
       "counts": {"rerun": 1, "passed": 1, "failed": 0}, "failures": []})"));
   check("second/one/base/0", {{"colours", 2}, {"pixels", 5}});
   EXPECT_EQ(printed("regress night.yaml rerun --failed"),
-            R"(rerun       1 of 1 runs that had failed pass now, 0 fail
+            R"(rerun       1 of 1 previously failed runs pass now, 0 fail
 RESULT: PASS regression night --seed 7: 5 points, 5 passed, 0 failed in 0 signatures, 0 missing; out/regressions/night-7/index.html
 )");
 }
@@ -115,7 +115,7 @@ const std::string kDeadlock =
     "run.seed=3995485374 --set run.stall_seed=728777629";
 const std::string kBroken =
     "colours: 18 comparisons of 19; made/never/*: 1 of 1 bins were not met\n"
-    "met         made/lanes/many, which the testplan excepts: So few.\n";
+    "met         made/lanes/many, which the testplan lists as unmet: So few.\n";
 
 class RunRegression : public PlannedPoints {
  protected:
@@ -151,9 +151,9 @@ TEST_F(RunRegression, RerunReportsRemovedRuns) {
   write("faulty.yaml", text.replace(text.find("[2, 3, 4]"), 9, "[2, 4]"));
   EXPECT_EQ(
       printed("regress faulty.yaml rerun --failed --seed 5"),
-      R"(changed     'faulty.yaml' since the plan was made: points that are as before keep their results
-gone        lanes/some/made.lanes=3/0: the testplan has no such run any more
-rerun       0 of 1 runs that had failed pass now, 1 fail
+      R"(changed     'faulty.yaml' since the plan was made: unchanged points keep their results
+gone        lanes/some/made.lanes=3/0: the testplan no longer has this run
+rerun       0 of 1 previously failed runs pass now, 1 fail
 failed      1 x made: deadlock: nothing moves, cycle N
 broken      lanes: 2 of 3 runs passed; )" +
           kBroken + "REPRO: " + kDeadlock + R"(
@@ -169,7 +169,7 @@ TEST_F(RunRegression, RerunWithMissingRunsKeepsReport) {
       R"(failed      lanes/some/made.lanes=3/0: mismatch: 1 of 9 outputs and 0 of 0 memory accesses differ from the golden model
 failed      lanes/deadlock/base/0: deadlock: nothing moves, cycle 812
 REPRO: deburr run made --set made.lanes=3 --set run.images=false --set run.coverage=true --set run.seed=3138195282 --set run.stall_seed=2537445909
-RESULT: FAIL regression faulty --seed 5: 0 of 2 runs that had failed pass now, 2 fail; other runs have no result of this state, so the report stays as it is: 'run' it for all of them
+RESULT: FAIL regression faulty --seed 5: 0 of 2 previously failed runs pass now, 2 fail; other runs lack a current result, so the report is unchanged: use 'run' to simulate them
 = 1
 )");
 }

@@ -122,14 +122,14 @@ hits        98.1 % of lookups
 a long name of it 7
 memory      3.2 GB/s read, 0.8 written at 200 MHz
 quality     31.50 dB (+1.25), edges 28.25 dB (-1.25), silhouettes 27.12 dB (+2.12), FLIP 0.0625 (-0.0625), SSIM 0.9688 (+0.0312) against reference
-changed     12.25 % of the pixels by more than 2 codes, 3.50 % by more than 16 (of those that were right before 0.75 % and 0.12 %); 33.75 dB to what went in
+changed     12.25 % of the pixels by more than 2 codes, 3.50 % by more than 16 (of correct input pixels 0.75 % and 0.12 %); 33.75 dB to the input
 RESULT: PASS made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT IMPLEMENTABLE cache, queue, out/made/report.html
 ! deburr: warning: this hardware cannot be built: memory cache: nine ports
 ! deburr: warning: this hardware cannot be built: memory queue: no clock
 )"},
     {"WithoutOptionalValues", "run other --seed 2", R"(rate        0.500 pixel/clk
 quality     identical, FLIP 0.5000, SSIM 0.2500 against reference
-changed     1.00 % of the pixels by more than 2 codes, 0.00 % by more than 16; identical to what went in
+changed     1.00 % of the pixels by more than 2 codes, 0.00 % by more than 16; identical to the input
 RESULT: PASS other: 1,000 cycles, 0.500 pixel/clk, out/other/report.html
 )"},
     {"Unchecked", "run made --seed 2 --quiet --check none",
@@ -160,7 +160,7 @@ RESULT: FAIL simulation: a limit (made: 0 cycles, 0.000 , out/made/report.html)
 )"},
     {"Interrupted", "run made --quiet --seed 8", R"(REPRO: deburr run made --quiet --seed 8
 RESULT: INTERRUPTED made: 12,345 outputs and 2,345 memory accesses compared, 0 mismatches, 40,000 cycles, 1.250 pixel/clk, NOT IMPLEMENTABLE cache, queue, out/made/report.html
-! deburr: interrupted; the partial results are kept. Run the same command again for all of it.
+! deburr: interrupted; the partial results are kept. Run the same command again for complete results.
 = 130
 )"},
     {"InterruptedBeforeItBegan", "run made --seed 9", R"(REPRO: deburr run made --seed 9
@@ -184,7 +184,7 @@ TEST_F(RunCommand, JsonIsOneObject) {
                          Row{"4", "golden", 4, "fail", "nothing moves\nlinks: 1"},
                          Row{"5", "golden", 3, "fail", "a limit"},
                          Row{"8", "golden", 130, "unchecked",
-                             "interrupted: the results cover what was done until then"}}) {
+                             "interrupted: the results cover only the completed part"}}) {
     const std::string line =
         fmt::format("run made --seed {} --check {} --json", row.seed, row.check);
     const Json json = InProcess::json(line);
@@ -242,26 +242,26 @@ const Case kRejected[] = {
     {"SetContradictsSet", "run made --set made.lanes=4 --set made.lanes=5",
      "configuration: --set: 'made.lanes' = '5' contradicts --set ('4')"},
     {"PixelOfEngineWithoutHistory", "run other --pixel 1,2",
-     "configuration: run.pixel: the engine other keeps no history of a pixel: leave out --pixel; "
-     "those that do: made"},
+     "configuration: run.pixel: the engine other does not record the history of a pixel: leave out "
+     "--pixel; engines that do: made"},
     {"TraceFromWithoutTrace", "run made --trace-from 5",
-     "configuration: --trace-from: 'run.trace_from' = '5' has no effect: nothing is traced without "
+     "configuration: --trace-from: 'run.trace_from' = '5' has no effect: it needs "
      "run.trace (--trace)"},
     {"TraceToWithoutTrace", "run made --trace-to 5",
-     "configuration: --trace-to: 'run.trace_to' = '5' has no effect: nothing is traced without "
+     "configuration: --trace-to: 'run.trace_to' = '5' has no effect: it needs "
      "run.trace (--trace)"},
     {"EmptyTimeline", "run made --timeline --timeline-from 7 --timeline-to 7",
      "configuration: run.timeline_from = 7 and run.timeline_to = 7 leave no cycle: --timeline-to "
      "is the cycle after the last one, give one above 7"},
     {"TimelineTooLong", "run made --timeline --timeline-from 7 --timeline-to 100008",
      "configuration: run.timeline_from = 7 and run.timeline_to = 100008: 100001 cycles are more "
-     "than a viewer opens, at most 100000: choose some of them"},
+     "than trace viewers open, at most 100000: choose a shorter range"},
     {"TimelineFromWithoutTimeline", "run made --timeline-from 5",
-     "configuration: --timeline-from: 'run.timeline_from' = '5' has no effect: there is no "
-     "timeline without run.timeline (--timeline)"},
+     "configuration: --timeline-from: 'run.timeline_from' = '5' has no effect: it needs "
+     "run.timeline (--timeline)"},
     {"TimelineToWithoutTimeline", "run made --timeline-to 5",
-     "configuration: --timeline-to: 'run.timeline_to' = '5' has no effect: there is no timeline "
-     "without run.timeline (--timeline)"},
+     "configuration: --timeline-to: 'run.timeline_to' = '5' has no effect: it needs "
+     "run.timeline (--timeline)"},
 };
 INSTANTIATE_TEST_SUITE_P(All, RejectedRun, testing::ValuesIn(kRejected), name_of_case);
 

@@ -90,7 +90,7 @@ TEST(Soak, DeadlockAndRejectionFail) {
   EXPECT_THAT(deadlock.out, HasSubstr("| made | 1 | 1 | 0 | 600 | 0 | 0 | 1 |\n"));
   const Ended rejected = one_soaked("2", "1.5");
   EXPECT_EQ(rejected.code, 1);
-  EXPECT_THAT(rejected.out, HasSubstr("FAIL      made: a gain of 1.5 is none\n"));
+  EXPECT_THAT(rejected.out, HasSubstr("FAIL      made: a gain of 1.5 is invalid\n"));
   EXPECT_THAT(rejected.out, HasSubstr("| made | 1 | 1 | 0 | 0 | 0 | 0 | 1 |\n"));
 }
 

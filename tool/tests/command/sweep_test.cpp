@@ -64,9 +64,9 @@ class SweepCommand : public PlannedPoints {
 // ---- plan and status ----------------------------------------------------------------------------
 
 TEST_F(SweepCommand, PlanListsExcludedPointsAndCountsFinishedOnes) {
-  EXPECT_EQ(first_plan_, kLeftOut + kPlan + "0 of them done; out/sweeps/first\n");
+  EXPECT_EQ(first_plan_, kLeftOut + kPlan + "0 already done; out/sweeps/first\n");
   keep("2 near", 100, 1, 50);
-  EXPECT_EQ(printed("sweep first.yaml plan --quiet"), kPlan + "1 of them done; out/sweeps/first\n");
+  EXPECT_EQ(printed("sweep first.yaml plan --quiet"), kPlan + "1 already done; out/sweeps/first\n");
   EXPECT_THAT(printed("sweep first.yaml plan --json"), EndsWith("\n}\n! " + kLeftOut));
 }
 
@@ -83,7 +83,7 @@ differs
 RESULT: PASS sweep first: 1 of 6 points done
 )");
   expect_failure("search first.yaml collect",
-                 "file: there is no plan in 'out/searches/first': run or plan it first");
+                 "file: no plan in 'out/searches/first': run or plan it first");
 }
 
 TEST_F(SweepCommand, ChangedFileIsReportedAndKeepsResults) {
@@ -91,17 +91,17 @@ TEST_F(SweepCommand, ChangedFileIsReportedAndKeepsResults) {
   printed("search first.yaml --runs 8 --quiet");
   write("first.yaml", std::string(kSweep) + "# more\n");
   const std::string old =
-      "changed     'first.yaml' since the plan was made: these figures are of what it was "
-      "before\npoints      6\n";
+      "changed     'first.yaml' since the plan was made: these figures are from before the "
+      "change\npoints      6\n";
   EXPECT_THAT(printed("sweep first.yaml status"), StartsWith(old));
   EXPECT_THAT(printed("sweep first.yaml status --quiet"), StartsWith("points      6\n"));
   EXPECT_THAT(printed("search first.yaml status"), StartsWith(old));
   expect_failure("search first.yaml collect",
-                 "configuration: 'out/searches/first' is of another state of 'first.yaml', of its "
-                 "inputs or of the model: search again");
+                 "configuration: 'out/searches/first' was made with another version of "
+                 "'first.yaml', of its inputs or of the model: search again");
   EXPECT_THAT(printed("sweep first.yaml plan"),
-              StartsWith("changed     'first.yaml' since the plan was made: points that are as "
-                         "before keep their results\n" +
+              StartsWith("changed     'first.yaml' since the plan was made: unchanged points keep "
+                         "their results\n" +
                          kLeftOut));
 }
 
@@ -110,14 +110,14 @@ TEST_F(SweepCommand, ResultsOfAnotherModelAreRejected) {
   plan["model"] = "another";
   write("out/sweeps/first/plan.json", plan.dump());
   EXPECT_THAT(printed("sweep first.yaml status --json"),
-              EndsWith("! changed     the model since the plan was made: these figures are of what "
-                       "it was before\n"));
+              EndsWith("! changed     the model since the plan was made: these figures are from "
+                       "before the change\n"));
   expect_failure("sweep first.yaml collect",
-                 "configuration: the results in 'out/sweeps/first' are of another state of the "
-                 "model, and count for nothing in this one: 'run' them again");
+                 "configuration: the results in 'out/sweeps/first' are from another version of the "
+                 "model and are not used: 'run' them again");
   EXPECT_THAT(
       printed("sweep first.yaml plan"),
-      StartsWith("changed     the model since the plan was made: no result of before counts\n"));
+      StartsWith("changed     the model since the plan was made: earlier results are not used\n"));
 }
 
 // ---- run and collect ----------------------------------------------------------------------------
@@ -189,13 +189,13 @@ TEST_F(SweepCommand, CompareCountsBetterAndWorsePoints) {
   printed("sweep second.yaml plan");
   printed("sweep second.yaml collect");
   EXPECT_EQ(printed("compare out/sweeps/first out/sweeps/second"),
-            R"(2 points in all of them, 4 not done in all
-A: 4 of its points are on the front of all together
-B: 1 of its points are on the front of all together
+            R"(2 points in all sweeps, 4 not finished in all
+A: 4 points on the joint Pareto front
+B: 1 points on the joint Pareto front
 
-          better  equal  worse  mean change    least     most
-B cycles       0      1      1      +4.17 %  +0.00 %  +8.33 %
-B rate         0      2      0      +0.00 %  +0.00 %  +0.00 %
+          better  equal  worse  mean change  smallest  largest
+B cycles       0      1      1      +4.17 %   +0.00 %  +8.33 %
+B rate         0      2      0      +0.00 %   +0.00 %  +0.00 %
 WORSE at made.lanes = 4, made.filter = wide
 REPRO: deburr compare out/sweeps/first out/sweeps/second
 RESULT: FAIL worse: cycles at 1 points of B
@@ -228,20 +228,20 @@ WORSE at made.depth = 11
 )"));
   EXPECT_THAT(text, EndsWith(R"(
 WORSE at made.depth = 7
-and at others
+and at other points
 REPRO: deburr compare out/sweeps/many out/sweeps/slower
 RESULT: FAIL worse: cycles at 12 points of B
 = 1
 )"));
   EXPECT_EQ(result("compare out/sweeps/slower out/sweeps/many"),
-            "PASS compare: nothing is worse by more than its tolerance");
+            "PASS compare: nothing is worse beyond its tolerance");
   for (int depth = 4; depth <= 15; ++depth) fail(std::to_string(depth), "deadlock", "so");
   printed("sweep many.yaml collect");
   EXPECT_THAT(printed("compare out/sweeps/slower out/sweeps/many"), EndsWith(R"(
 B cycles       0      0      0            -      -     -
 B bits         0      0      0            -      -     -
 REPRO: deburr compare out/sweeps/slower out/sweeps/many
-RESULT: FAIL worse: 12 points that A has failed
+RESULT: FAIL worse: 12 points of A failed in other sweeps
 ! deburr: warning: B is not complete: 12 points failed, 0 are missing
 = 1
 )"));
@@ -272,10 +272,10 @@ done        1
 running     0
 failed      5
 queued      0
-failed      out/points/<2 1.5>: configuration: a gain of 1.5 is none
+failed      out/points/<2 1.5>: configuration: a gain of 1.5 is invalid
 failed      out/points/<2 2>: deadlock: nothing moves, cycle 812
 failed      out/points/<3 0.5>: mismatch: 1 of 9 outputs and 0 of 0 memory accesses differ from the golden model
-failed      out/points/<3 1.5>: configuration: a gain of 1.5 is none
+failed      out/points/<3 1.5>: configuration: a gain of 1.5 is invalid
 failed      out/points/<3 2>: deadlock: nothing moves, cycle 812
 RESULT: PASS sweep real: 1 of 6 points done
 )");

@@ -79,8 +79,9 @@ TEST_P(RejectedTestplan, MessageNamesLineAndReason) {
 const Case kRejected[] = {
     {"UnknownKey", "/colour: 3",
      "t.yaml:1: unknown key 'colour' (known: title, include, features, coverage, unmet)"},
-    {"UpperCaseId", "id: First", "t.yaml:2: 'id' = 'First' wants lower-case letters, digits and -"},
-    {"EmptyId", "id: ''", "t.yaml:2: 'id' = '' wants lower-case letters, digits and -"},
+    {"UpperCaseId", "id: First",
+     "t.yaml:2: 'id' = 'First' must consist of lower-case letters, digits and -"},
+    {"EmptyId", "id: ''", "t.yaml:2: 'id' = '' must consist of lower-case letters, digits and -"},
     {"IdMissing", "-id", "t.yaml:2: 'id' is missing"},
     {"TitleMissing", "-title", "t.yaml:2: 'title' is missing"},
     {"TracesMissing", "-traces", "t.yaml:2: 'traces' is missing"},
@@ -88,36 +89,36 @@ const Case kRejected[] = {
     {"UnknownKeyOfFeature", "colour: 3",
      "t.yaml:7: unknown key 'colour' (known: id, title, traces, stimuli, checks, coverage)"},
     {"TraceNotText", "traces: [[docs/unit.md#unit]]",
-     "t.yaml:4: 'traces' wants a single value, got a list"},
-    {"NoStimuli", "stimuli: []", "t.yaml:5: 'stimuli' wants a list, got an empty list"},
+     "t.yaml:4: 'traces' must be a single value, got a list"},
+    {"NoStimuli", "stimuli: []", "t.yaml:5: 'stimuli' must be a list, got an empty list"},
     {"StimulusWithoutName", "stimuli: [{engine: made}]", "t.yaml:5: 'name' is missing"},
     {"NoSeeds", "stimuli: [{name: a, engine: made, seeds: 0}]",
      "t.yaml:5: 'seeds' = '0' is outside 1..100000"},
     {"TooManySeeds", "stimuli: [{name: a, engine: made, seeds: 100001}]",
      "t.yaml:5: 'seeds' = '100001' is outside 1..100000"},
     {"RandomNotABoolean", "stimuli: [{name: a, engine: made, random: 3}]",
-     "t.yaml:5: 'random' = '3' wants true or false"},
+     "t.yaml:5: 'random' = '3' must be true or false"},
     {"AllRejectedByTheEngine",
      "stimuli: [{name: a, engine: made, base: {made.lanes: 9}, refused: skip}]",
-     "t.yaml: feature 'first': stimulus 'a' has no point"},
+     "t.yaml: feature 'first': stimulus 'a' has zero points"},
     {"AllExcluded",
      "stimuli: [{name: a, engine: made, axes: {made.lanes: [8, 9]}, constraints: [made.lanes > "
      "9]}]",
-     "t.yaml: feature 'first': stimulus 'a' has no point"},
+     "t.yaml: feature 'first': stimulus 'a' has zero points"},
     {"MetricsOfStimulus",
      "stimuli: [{name: a, engine: made, axes: {made.lanes: [8]}, metrics: {c: cycles}}]",
      "t.yaml:5: unknown key 'metrics' (known: engine, base, axes, points, sample, constraints, "
      "refused, name, seeds, random)"},
     {"ChecksNotAMap", "checks: [a]",
-     "t.yaml:6: 'checks' wants a map of scoreboards to numbers, got a list"},
+     "t.yaml:6: 'checks' must be a map of scoreboards to numbers, got a list"},
     {"CheckTwice", "checks: {a: 1, b: 2, a: 3}", "t.yaml:6: 'a' is given twice"},
     {"TooManyComparisons", "checks: {a: 1152921504606846977}",
      "t.yaml:6: 'a' = '1152921504606846977' is outside 1..1152921504606846976"},
     {"CoverageNotAList", "coverage: made/*",
-     "t.yaml:7: 'coverage' wants a list, got a single value"},
+     "t.yaml:7: 'coverage' must be a list, got a single value"},
     {"EmptyGlob", "coverage: ['']",
-     "t.yaml:7: '' is no glob: * stands for any text, ? for any character, and [, {, ! and \\ for "
-     "nothing"},
+     "t.yaml:7: '' is not a glob: * matches any text and ? any character; [, {, ! and \\ are not "
+     "supported"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, RejectedTestplan, testing::ValuesIn(kRejected), name_of_case);
@@ -125,21 +126,21 @@ INSTANTIATE_TEST_SUITE_P(All, RejectedTestplan, testing::ValuesIn(kRejected), na
 const Case kRejectedIncludes[] = {
     {"AddedFeatureNotInThePlan", "!include: ['part_*.yaml']",
      "part_made.yaml:3: 'title' is missing"},
-    {"MissingInclude", "/include: [part_none.yaml]", "t.yaml:1: there is no file 'part_none.yaml'"},
+    {"MissingInclude", "/include: [part_none.yaml]", "t.yaml:1: file 'part_none.yaml' not found"},
     {"IncludeNotAList", "/include: part_made.yaml",
-     "t.yaml:1: 'include' wants a list, got a single value"},
+     "t.yaml:1: 'include' must be a list, got a single value"},
     {"NoStimuliAnywhere", "/include: [part_other.yaml]\n-stimuli",
-     "t.yaml: the feature 'first' has no stimuli, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' lacks stimuli, and no included file adds any"},
     {"NoTracesAnywhere", "/include: [part_other.yaml]\n-traces",
-     "t.yaml: the feature 'first' has no traces, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' lacks traces, and no included file adds any"},
     {"NoChecksAnywhere", "/include: [part_other.yaml]\n-checks",
-     "t.yaml: the feature 'first' has no checks, and no file that the plan includes adds some"},
+     "t.yaml: the feature 'first' lacks checks, and no included file adds any"},
     {"CheckInTwoFiles", "/include: [part_made.yaml]\nchecks: {pixels: 3}",
      "part_made.yaml:5: 'pixels' is given twice"},
     {"IncludedFileWithTitle", "/include: [bad_title.yaml]",
      "bad_title.yaml:1: unknown key 'title' (known: features, coverage, unmet)"},
     {"IncludedFeatureTwice", "/include: [bad_twice.yaml]",
-     "bad_twice.yaml:3: there are two features 'first'"},
+     "bad_twice.yaml:3: duplicate feature 'first'"},
     {"AddedTitle", "/include: [bad_added.yaml]",
      "bad_added.yaml:3: unknown key 'title' (known: id, traces, stimuli, checks, coverage)"},
 };
@@ -154,7 +155,7 @@ TEST_P(AcceptedTestplan, PlanHasExpectedNumberOfRuns) {
   write("t.yaml", patched(GetParam().given));
   EXPECT_EQ(result("regress t.yaml plan --seed 3"),
             "PASS regression t --seed 3: " + GetParam().expected +
-                ", 0 of them done; out/regressions/t-3");
+                ", 0 already done; out/regressions/t-3");
 }
 
 const Case kAccepted[] = {
@@ -188,11 +189,11 @@ TEST_F(TestplanParts, DividedPlanHasFewerSeedsAndItsOwnFolder) {
   // One seed in two is one seed.
   write("t.yaml", patched("stimuli: [{name: runs, engine: made, axes: {made.lanes: [2, 4]}}]"));
   EXPECT_EQ(result("regress t.yaml plan --seed 3 --divide 2"),
-            "PASS regression t-of-2 --seed 3: 2 points over 2 inputs, 0 of them done; "
+            "PASS regression t-of-2 --seed 3: 2 points over 2 inputs, 0 already done; "
             "out/regressions/t-of-2-3");
   EXPECT_EQ(result("regress t.yaml collect --seed 3 --divide 2"),
             "FAIL regression t-of-2 --seed 3: 2 points, 0 passed, 0 failed in 0 signatures, 2 "
-            "missing; out/regressions/t-of-2-3/index.html: 'run' it again for what is missing");
+            "missing; out/regressions/t-of-2-3/index.html: use 'run' again for the missing runs");
   EXPECT_EQ(
       list_points("out/regressions/t-of-2-3"),
       R"(0 [first] [runs] [made.lanes=2] [0] made.lanes=2 run.images=false run.coverage=true run.seed=347513631 run.stall_seed=1671300517

@@ -142,7 +142,7 @@ class Faults(CommandTest):
         done = self.run_texture(3, "--max-cycles", "300",
                                 says=["not done after 300 cycles", "--max-cycles"])
         last = done.stdout.strip().splitlines()[-1]
-        self.assertRegex(last, r"FAIL simulation: .* [\d,]+ of 1,024 fragments are done; raise it")
+        self.assertRegex(last, r"FAIL simulation: .* [\d,]+ of 1,024 fragments are done; raise the limit")
         self.assertIn("texture.texels", done.stderr, "the dump names every link")
         with open(self.path("out/result.json")) as file:
             result = json.load(file)
@@ -188,7 +188,7 @@ class Figures(CommandTest):
 
 
 class Fields(CommandTest):
-    """Hardware decodes a field of a texture descriptor as another value than software wrote."""
+    """Hardware decodes a field of a texture descriptor as a different value than software wrote."""
 
     def test_texture_fields_are_decoded(self):
         small, large = ("--size", "48x32"), ("--size", "48x32", "--scene", "quad", "--set", "scene.texture_size=8")

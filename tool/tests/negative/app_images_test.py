@@ -50,7 +50,7 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--size", "32x24", program=program)
         self.expect(5, "run", "morphological", "--in", picture, "--out", self.path("out2"), program=program,
-                    says=(MODULE, "beside the program", "cannot open shared object file"))
+                    says=(MODULE, "next to the program", "cannot open shared object file"))
 
     def test_copy_with_module_reads_pictures(self):
         program = self.alone()
@@ -64,7 +64,7 @@ class Images(CommandTest):
                    "axes: {memory.latency: [1, 9, 50, 200], texture.cache.ways: [1, 2, 4]}\n"
                    "objectives: {minimise: [cycles, memory_bits]}\n")
         self.expect(5, "search", "s.yaml", "--population", "8", "--out", self.path("found"), program=program,
-                    says=("libdeburr_evolution.so", "beside the program", "libpagmo-dev", "scripts/demo --complete"))
+                    says=("libdeburr_evolution.so", "next to the program", "libpagmo-dev", "scripts/demo --complete"))
         self.assertFalse(os.path.exists(self.path("found/points")))
         self.expect(5, "papers", "--quick", "--out", self.path("papers"), program=program,
                     says=("deburr_papers", "No such file", "scripts/demo --complete"))
@@ -78,7 +78,7 @@ class Images(CommandTest):
         self.write(f"bin/{MODULE}", "this is no library")
         picture = self.write("in.png", png(32, 24))
         self.expect(5, "run", "morphological", "--in", picture, program=program,
-                    says=(MODULE, "beside the program"))
+                    says=(MODULE, "next to the program"))
 
 
 if __name__ == "__main__":

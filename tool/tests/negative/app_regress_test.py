@@ -44,7 +44,7 @@ class Testplans(CommandTest):
     def test_valid_plan_is_accepted(self):
         self.write("t.yaml", HEAD)
         self.expect(0, "regress", "t.yaml", "plan", "--seed", "1",
-                    says="PASS regression t --seed 1: 1 point over 1 input, 0 of them done")
+                    says="PASS regression t --seed 1: 1 point over 1 input, 0 already done")
 
     def test_rejects_unknown_names(self):
         self.reject(HEAD.replace("checks:", "check:"),
@@ -58,27 +58,28 @@ class Testplans(CommandTest):
 
     def test_rejects_missing_and_duplicate_keys(self):
         self.reject("title: Small\n", "t.yaml:1: 'features' is missing")
-        self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
-        self.reject("features: []\n", "t.yaml:1: 'features' wants a list, got an empty list")
-        self.reject(HEAD.replace("    checks: {colours: 1}\n", ""), "t.yaml:3: 'checks' is missing, and so is 'coverage'")
+        self.reject(HEAD + "    coverage: []\n", "t.yaml:9: 'coverage' must be a list, got an empty list")
+        self.reject("features: []\n", "t.yaml:1: 'features' must be a list, got an empty list")
+        self.reject(HEAD.replace("    checks: {colours: 1}\n", ""),
+                    "t.yaml:3: 'checks' and 'coverage' are both missing")
         self.reject(HEAD.replace("{colours: 1}", "{}"),
-                    "t.yaml:8: 'checks' wants a map of scoreboards to numbers, got an empty map")
-        self.reject(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: there are two features 'filtering'")
+                    "t.yaml:8: 'checks' must be a map of scoreboards to numbers, got an empty map")
+        self.reject(HEAD + HEAD[HEAD.index("  - id"):], "t.yaml:9: duplicate feature 'filtering'")
         self.reject(HEAD.replace("    checks", "      - {name: base, engine: texture}\n    checks"),
-                    "t.yaml:8: there are two stimuli 'base'")
+                    "t.yaml:8: duplicate stimulus 'base'")
         self.reject(HEAD.replace("colours: 1", "colours: 0"), "t.yaml:8: 'colours' = '0' is outside 1..")
-        self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' wants")
+        self.reject(HEAD.replace("id: filtering", "id: Filter it"), "t.yaml:3: 'id' = 'Filter it' must consist")
 
     def test_rejects_heading_of_changed_page(self):
-        self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: there is no page 'docs/units.md'")
+        self.reject(HEAD.replace("docs/unit.md", "docs/units.md"), "t.yaml:5: page 'docs/units.md' not found")
         self.write("docs/unit.md", "# The units\n")
-        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': did you mean 'the-units'?")
+        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' lacks the heading '#the-unit': did you mean 'the-units'?")
         self.write("docs/unit.md", "Nothing.\n")
-        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' has no heading '#the-unit': check that the feature is still tested")
+        self.reject(HEAD, "t.yaml:5: 'docs/unit.md' lacks the heading '#the-unit': check that the feature is still tested")
 
     def test_rejects_invalid_headings(self):
         for anchor in ("code", "Stalls", "stalls", "It filters."):
-            self.reject(HEAD.replace("#the-unit", "#" + anchor), f"t.yaml:5: 'docs/unit.md' has no heading '#{anchor}'")
+            self.reject(HEAD.replace("#the-unit", "#" + anchor), f"t.yaml:5: 'docs/unit.md' lacks the heading '#{anchor}'")
         for anchor in ("", "#"):
             self.reject(HEAD.replace("#the-unit", anchor), f"t.yaml:5: 'traces' = 'docs/unit.md{anchor}' names no heading")
         self.reject(HEAD.replace("docs/unit.md#the-unit", "{page: docs/unit.md, says: It filters.}"),
@@ -91,42 +92,44 @@ class Testplans(CommandTest):
         for page in ("/etc/passwd", "etc/passwd", "other.md", "docs/../other.md", "docs/unit.txt", "docs",
                      self.path("docs/unit.md")):
             self.reject(HEAD.replace("docs/unit.md", page),
-                        f"t.yaml:5: 'traces' = '{page}#the-unit' wants a heading of a page")
+                        f"t.yaml:5: 'traces' = '{page}#the-unit' must be a heading of a page")
 
     def test_rejects_invalid_globs(self):
-        self.reject(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
+        self.reject(HEAD + "    coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is not a glob")
         self.reject(HEAD + "    coverage: ['texture/cash/hit']\n",
-                    "t.yaml:9: no bin of the feature's engines is called 'texture/cash/hit'",
+                    "t.yaml:9: no bin of the feature's engines matches 'texture/cash/hit'",
                     "did you mean 'texture/cache/hit'")
         self.reject(HEAD + "    coverage: ['morphological/*']\n",
-                    "t.yaml:9: no bin of the feature's engines is called 'morphological/*'")
+                    "t.yaml:9: no bin of the feature's engines matches 'morphological/*'")
 
     def test_rejects_invalid_globs_of_all_runs(self):
-        self.reject(HEAD + "coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is no glob")
+        self.reject(HEAD + "coverage: ['texture/[ab]']\n", "t.yaml:9: 'texture/[ab]' is not a glob")
         self.reject(HEAD + "coverage: [texture/cash/hit]\n",
-                    "t.yaml:9: no bin of the plan's engines is called 'texture/cash/hit'", "did you mean 'texture/cache/hit'")
+                    "t.yaml:9: no bin of the plan's engines matches 'texture/cash/hit'",
+                    "did you mean 'texture/cache/hit'")
         self.reject(HEAD + "coverage: ['morphological/*']\n",
-                    "t.yaml:9: no bin of the plan's engines is called 'morphological/*'")
+                    "t.yaml:9: no bin of the plan's engines matches 'morphological/*'")
         self.reject(HEAD + "coverage: [{bins: texture/cache/hit, reason: None.}]\n",
-                    "t.yaml:9: 'coverage' wants a list of globs, got a map")
-        self.reject(HEAD + "coverage: []\n", "t.yaml:9: 'coverage' wants a list, got an empty list")
-        self.reject(HEAD + "unmet: [texture/cache/hit]\n", "t.yaml:9: 'unmet' wants maps of bins and reason, got a single value")
+                    "t.yaml:9: 'coverage' must be a list of globs, got a map")
+        self.reject(HEAD + "coverage: []\n", "t.yaml:9: 'coverage' must be a list, got an empty list")
+        self.reject(HEAD + "unmet: [texture/cache/hit]\n",
+                    "t.yaml:9: 'unmet' must be a list of maps of bins and reason, got a single value")
         self.reject(HEAD + "unmet: [{bins: texture/cache/hit}]\n", "t.yaml:9: 'reason' is missing")
-        self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: ''}]\n", "t.yaml:9: 'reason' wants a text")
+        self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: ''}]\n", "t.yaml:9: 'reason' must be a text")
         self.reject(HEAD + "unmet: [{reason: None.}]\n", "t.yaml:9: 'bins' is missing")
         self.reject(HEAD + "unmet: [{bins: texture/cash/hit, reason: None.}]\n",
-                    "t.yaml:9: no bin of the plan's engines is called 'texture/cash/hit'")
+                    "t.yaml:9: no bin of the plan's engines matches 'texture/cash/hit'")
         self.reject(HEAD + "unmet: [{bin: texture/cache/hit, reason: None.}]\n",
                     "t.yaml:9: unknown key 'bin': did you mean 'bins'?")
         self.reject(HEAD + "    unmet: [{bins: texture/cache/hit, reason: None.}]\n", "t.yaml:9: unknown key 'unmet'")
         self.reject(HEAD + "unmet: [{bins: texture/cache/hit, reason: None.}]\n",
-                    "t.yaml:9: 'unmet' excepts bins of the plan's 'coverage' beside 'features', and there is none")
+                    "t.yaml:9: 'unmet' lists bins of the plan's own 'coverage' (next to 'features'), which is missing")
         self.reject(HEAD + "    coverage: [texture/cache/hit]\nunmet: [{bins: texture/cache/hit, reason: None.}]\n",
-                    "t.yaml:10: 'unmet' excepts bins of the plan's 'coverage'")
+                    "t.yaml:10: 'unmet' lists bins of the plan's own 'coverage'")
 
     def test_unknown_scoreboard_is_a_failed_check(self):
         self.write("t.yaml", HEAD.replace("colours: 1", "colors: 1"))
-        why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (there are colours, figures, line fills, "
+        why = ("t.yaml:8: no run of this feature has a scoreboard 'colors' (known: colours, figures, line fills, "
                "status registers): did you mean 'colours'?")
         self.expect(1, "regress", "t.yaml", "--seed", "1", says=("1 passed, 0 failed", why))
         with open(self.path("out/regressions/t-1/collected.json")) as file:
@@ -144,7 +147,7 @@ class Testplans(CommandTest):
     def test_rejects_runs_without_checks(self):
         for run in ("run: {check: none, coverage: false}", "run.check: none"):
             self.reject(HEAD.replace("height: 8}}", "height: 8}, " + run + "}"),
-                        "has run.check = none: what nobody checks would pass")
+                        "has run.check = none: unchecked runs would always pass")
 
     def test_action_without_plan_uses_default_plan(self):
         self.expect(5, "regress", "plan", says="cannot open 'tb/testplan/smoke.yaml'")
@@ -185,14 +188,15 @@ class Testplans(CommandTest):
 
     def test_rejects_rerun_without_target(self):
         self.write("t.yaml", HEAD)
-        self.expect(2, "regress", "t.yaml", "rerun", says="rerun: of what? 'rerun --failed' runs again what has failed")
-        self.expect(2, "regress", "t.yaml", "--failed", says="--failed goes with 'rerun'")
-        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="there is no report of 't' in 'out/regressions'")
+        self.expect(2, "regress", "t.yaml", "rerun",
+                    says="rerun needs --failed: 'rerun --failed' repeats the runs that failed")
+        self.expect(2, "regress", "t.yaml", "--failed", says="--failed is only valid with 'rerun'")
+        self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="no report of 't' in 'out/regressions'")
         self.expect(5, "regress", "t.yaml", "rerun", "--failed", "--seed", "3",
-                    says="there is no report in 'out/regressions/t-3'")
+                    says="no report in 'out/regressions/t-3'")
         self.expect(0, "regress", "t.yaml", "--seed", "4")
         done = self.expect(0, "regress", "t.yaml", "rerun", "--failed")
-        self.assertIn("rerun       0 of 0 runs that had failed pass now", done.stdout)
+        self.assertIn("rerun       0 of 0 previously failed runs pass now", done.stdout)
         self.assertIn("RESULT: PASS regression t --seed 4: ", done.stdout)
         self.write("out/regressions/t-4/collected.json", "{}")
         self.expect(5, "regress", "t.yaml", "rerun", "--failed", says="is not a report of this version")
@@ -201,7 +205,8 @@ class Testplans(CommandTest):
         self.write("t.yaml", HEAD)
         for seed in ("-1", "18446744073709551616", "1.5", "0x10", "today", " 1", ""):
             for command in (("regress", "t.yaml", "plan"), ("search", "t.yaml")):
-                self.expect(2, *command, "--seed", seed, says=f"--seed: '{seed}' is no integer 0..18446744073709551615")
+                self.expect(2, *command, "--seed", seed,
+                            says=f"--seed: '{seed}' is not an integer in 0..18446744073709551615")
         for seed in ("0", "18446744073709551615"):
             self.expect(0, "regress", "t.yaml", "plan", "--seed", seed, says=f"PASS regression t --seed {seed}: 1 point")
 
@@ -209,7 +214,7 @@ class Testplans(CommandTest):
         self.expect(5, "regress", "nothing.yaml", "plan", says="cannot open 'nothing.yaml'")
         self.write("t.yaml", HEAD)
         self.expect(5, "regress", "t.yaml", "status", "--seed", "1",
-                    says="there is no plan in 'out/regressions/t-1'")
+                    says="no plan in 'out/regressions/t-1'")
         self.expect(2, "regress", "t.yaml", "polish", says="polish")
         self.write("t.yaml", "features: [")
         self.expect(2, "regress", "t.yaml", "plan", says="not valid YAML")

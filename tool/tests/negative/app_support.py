@@ -115,7 +115,7 @@ class CommandTest(unittest.TestCase):
 
     def faults(self, engine, kind):
         done = self.expect(2, "run", engine, "--fault", "gremlin")
-        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        line = next(line for line in done.stderr.splitlines() if "unknown fault 'gremlin'" in line)
         return [word.strip(",") for word in line.split() if f"{kind}-" in word]
 
     def misdecode(self, engine, runs):
@@ -167,7 +167,7 @@ class CommandTest(unittest.TestCase):
     def known(self, engine, *arguments):
         """All scoreboards that a run of the engine has."""
         done = self.expect(2, "run", engine, "--fault", "gremlin", *arguments)
-        line = next(line for line in done.stderr.splitlines() if "no fault 'gremlin'" in line)
+        line = next(line for line in done.stderr.splitlines() if "unknown fault 'gremlin'" in line)
         return {word.strip(",") for word in line.split() if "blind-" in word}
 
     def run_texture(self, code, *arguments, says=(), **options):

@@ -134,7 +134,7 @@ class SideBySide(Survival):
             if code == 0:
                 continue
             self.assertEqual(code, 5, out + err)
-            self.assertIn("taken by another run, process ", err)
+            self.assertIn("used by another run, process ", err)
             self.assertIn("--wait", err)
             self.assertIn(int(err.split("process ")[1].split()[0]), pids)
         self.assert_whole()
@@ -157,7 +157,7 @@ class SideBySide(Survival):
         self.assertEqual(holder["host"], os.uname().nodename)
         self.expect(5, *self.command("texture"),
                     says=[f"process {first.pid} on {holder['host']}", "--wait"])
-        self.expect(5, "papers", "--quick", "--out", self.path("out"), says="taken by another run")
+        self.expect(5, "papers", "--quick", "--out", self.path("out"), says="used by another run")
         first.kill()
         first.wait()
         self.expect(0, *self.command("texture"))
@@ -242,7 +242,7 @@ class Papers(Survival):
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 130, out + err)
-        self.assertIn("nothing was finished", out)
+        self.assertIn("no paper was finished", out)
         self.assertFalse(os.path.exists(self.path("out")))
 
     def test_interrupted_after_first_result_keeps_it(self):

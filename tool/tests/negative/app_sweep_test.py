@@ -36,7 +36,7 @@ class Definitions(Sweeps):
         self.reject(BASE + "axes: {texture.cache.ways: [1, 17]}\n",
                     "'texture.cache.ways' = '17' is outside 1..8")
         self.reject(BASE + "axes: {texture.footprint: [half, hafl]}\n",
-                    "s.yaml:3: 'texture.footprint' = 'hafl' wants one of", "'half'?")
+                    "s.yaml:3: 'texture.footprint' = 'hafl' must be one of", "'half'?")
         self.reject(BASE + "axes: {texture.cache.ways: [1, 2, 1]}\n", "has the value '1' twice")
 
     def test_rejects_unknown_faults(self):
@@ -57,17 +57,17 @@ class Definitions(Sweeps):
         self.reject(BASE + "axes: {memory.latency: {from: 60, to: 50}}\n",
                     "axis 'memory.latency' is empty: from 60 to 50")
         self.reject(BASE + "axes: {memory.latency: {from: 1, to: 9, step: 0}}\n", "never gets from")
-        self.reject(BASE + "axes: {}\n", "'axes' wants a map of parameters to values, got an empty map")
-        self.reject(BASE + "points: []\n", "'points' wants a list of maps, got an empty list")
+        self.reject(BASE + "axes: {}\n", "'axes' must be a map of parameters to values, got an empty map")
+        self.reject(BASE + "points: []\n", "'points' must be a list of maps, got an empty list")
         self.reject(BASE, "nothing is varied")
-        self.reject(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has no end of values")
+        self.reject(BASE + "axes: {run.stalls: {from: 0, to: 0.5}}\n", "has infinitely many values")
 
     def test_rejects_duplicates(self):
         self.reject(BASE + "axes: {scene.width: [8, 16]}\n",
                     "'scene.width' is varied, and fixed at s.yaml:2")
         self.reject(BASE + AXES + "points: [{texture.cache.bytes: 4096}]\n", "exclude each other")
         self.reject(BASE + "points: [{memory.latency: 50}, {texture.cache.ways: 1}]\n",
-                    "the first point does not give 'texture.cache.ways'")
+                    "the first point does not set 'texture.cache.ways'")
 
     def test_rejects_invalid_constraints(self):
         def constraint(text, *says):
@@ -76,20 +76,21 @@ class Definitions(Sweeps):
         constraint("texture.cache.bites > 1", "'texture.cache.bites' is neither a parameter nor",
                    "did you mean 'texture.cache.bytes'")
         constraint("texture.cache.ways", "it is a number, not true or false")
-        constraint("texture.footprint == hafl", "is no value of texture.footprint", "'half'?")
+        constraint("texture.footprint == hafl", "is not a value of texture.footprint", "'half'?")
         constraint("texture.footprint > 1", "expected a number, got a word")
-        constraint("texture.cache.ways > 1 memory.latency", "'memory.latency' was not expected")
+        constraint("texture.cache.ways > 1 memory.latency", "unexpected 'memory.latency'")
         constraint("(texture.cache.ways > 1", "a ')' is missing")
-        constraint("texture.cache.ways >", "it ends too early")
+        constraint("texture.cache.ways >", "unexpected end")
         constraint("texture.cache.ways / 0 > 1", "division by zero")
         self.reject(BASE + AXES + "constraints: [texture.cache.ways > 2, memory.latency < 10]\n",
-                    "no point is left of 4: 'texture.cache.ways > 2' excludes 4")
+                    "all 4 points are excluded: 'texture.cache.ways > 2' excludes 4")
 
     def test_rejects_too_long_or_deep_expressions(self):
         """They would take minutes or exhaust the stack."""
-        for text, says in (("(" * 20000 + "cycles" + ")" * 20000, "a metric of 40006 characters: 4000 are the most"),
+        for text, says in (("(" * 20000 + "cycles" + ")" * 20000,
+                            "a metric of 40006 characters, at most 4000 are allowed"),
                            ("+".join(["cycles"] * 20000), "a metric of 139999 characters"),
-                           ("(" * 101 + "cycles" + ")" * 101, "more than 100 brackets and signs inside each other"),
+                           ("(" * 101 + "cycles" + ")" * 101, "brackets and signs are nested more than 100 deep"),
                            ("- " * 101 + "cycles", "more than 100 brackets and signs")):
             self.reject(BASE + AXES + f"metrics: {{a: '{text}'}}\n", says)
         self.reject(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "more than 100 brackets and signs")
@@ -99,12 +100,12 @@ class Definitions(Sweeps):
 
     def test_rejects_text_that_is_not_utf8(self):
         """It cannot be written into results."""
-        self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
+        self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: not valid UTF-8")
 
     def test_rejects_file_name_that_gives_no_folder(self):
         for name in ("..yaml", "...yaml"):
             self.write(name, BASE + AXES)
-            self.expect(2, "sweep", name, "plan", says=(f"'{name}': a sweep is called by its file",))
+            self.expect(2, "sweep", name, "plan", says=(f"'{name}': a sweep is named after its file",))
             self.assertFalse(os.path.exists(self.path("out")))
 
     def test_constraints_are_evaluated(self):
@@ -151,7 +152,7 @@ class Definitions(Sweeps):
         self.reject(axis("{values: [4], when: morphological.steps}"), "not true or false")
         self.reject(axis("{values: [4], where: true}"), "unknown 'where' (known: values, when)")
         self.reject(axis("{values: [], when: true}"), "axis 'morphological.steps' is empty")
-        self.reject(axis("{when: true}"), "a range wants 'from' and 'to'")
+        self.reject(axis("{when: true}"), "a range needs 'from' and 'to'")
         self.reject(axis("{values: [4], when: true}"), "the engine rejects the point")
 
     def test_rejects_unreadable_files(self):
@@ -159,7 +160,7 @@ class Definitions(Sweeps):
         self.reject("engine: [\n", "s.yaml:", "not valid YAML")
         self.reject("- engine\n", "expected a map, got a list")
         self.write("s.yaml", BASE + AXES)
-        self.expect(5, "sweep", "s.yaml", "status", says="there is no plan in 'out/sweeps/s'")
+        self.expect(5, "sweep", "s.yaml", "status", says="no plan in 'out/sweeps/s'")
         self.expect(2, "sweep", "s.yaml", "polish", says="polish")
 
 
@@ -172,15 +173,15 @@ class Searches(Sweeps):
         self.assertFalse(os.path.exists(self.path("out/points")))
 
     def test_rejects_what_cannot_be_searched(self):
-        self.reject_search(BASE + AXES, "a search wants two objectives at least (0 given)")
+        self.reject_search(BASE + AXES, "a search needs at least two objectives (0 given)")
         self.reject_search(BASE + AXES + "objectives: {minimise: [cycles]}\n", "(1 given)")
         self.reject_search(BASE + AXES + self.GOALS + "sample: {random: 3}\n", "leave out 'sample'")
         self.reject_search(BASE + "points: [{memory.latency: 50}]\n" + self.GOALS,
-                           "a search chooses among 'axes'")
+                           "a search needs 'axes'")
         self.reject_search(BASE + AXES + self.GOALS + "constraints: [memory.latency > 60]\n",
                            "no point was found", "'memory.latency > 60' excludes")
         self.reject_search(BASE + AXES + self.GOALS.replace(
-            "]}", "], for_each: [memory.latency, texture.cache.ways]}"), "nothing is left to search")
+            "]}", "], for_each: [memory.latency, texture.cache.ways]}"), "no axis is left to search")
 
     def test_rejects_invalid_budgets(self):
         text = BASE + AXES + self.GOALS.replace("]}", "], for_each: [memory.latency]}")
@@ -199,7 +200,7 @@ class Searches(Sweeps):
 
     def test_rejects_missing_or_foreign_plan(self):
         self.write("s.yaml", BASE + AXES + self.GOALS)
-        self.expect(5, "search", "s.yaml", "status", says="there is no plan in 'out/searches/s'")
+        self.expect(5, "search", "s.yaml", "status", says="no plan in 'out/searches/s'")
         self.expect(0, "search", "s.yaml", "--runs", "8")
         self.write("s.yaml", BASE + AXES.replace("60", "70") + self.GOALS)
         self.expect(2, "search", "s.yaml", "collect", says="search again")
@@ -232,9 +233,9 @@ class Surroundings(Sweeps):
         def metric(text, *says):
             self.reject(BASE + AXES + f"metrics: {{it: '{text}'}}\n", "s.yaml:4: ", *says)
 
-        metric("1 + 2", "metric 'it': '1 + 2' has no key of result.json")
-        metric("cycles +", "metric 'cycles +': it ends too early")
-        metric("cycles 2", "'2' was not expected")
+        metric("1 + 2", "metric 'it': '1 + 2' uses no key of result.json")
+        metric("cycles +", "metric 'cycles +': unexpected end")
+        metric("cycles 2", "unexpected '2'")
         metric("cycles > 2", "expected a number, got true or false")
         metric("2x * cycles", "'2x' is neither a key of result.json nor a number")
 
@@ -243,11 +244,12 @@ class Surroundings(Sweeps):
             self.reject(BASE + AXES + f"metrics: {{cycles: cycles}}\nlimits: ['{text}']\n", "s.yaml:5: ", *says)
 
         limit("cycle < 10", "limit 'cycle < 10': 'cycle' is neither a metric nor a number: did you mean 'cycles'")
-        limit("cycles", "limit 'cycles' is no comparison of a metric by < <= > >=")
-        limit("cycles == 10", "is no comparison of a metric")
-        limit("cycles > 1 and cycles < 3", "give several limits one by one")
-        limit("1 < 2", "is no comparison of a metric")
-        self.reject(BASE + AXES + "limits: cycles\n", "'limits' wants a list of comparisons of metrics, such as 'cycles <= 10'")
+        limit("cycles", "limit 'cycles' is not a comparison of a metric by < <= > >=")
+        limit("cycles == 10", "is not a comparison of a metric")
+        limit("cycles > 1 and cycles < 3", "list several limits separately")
+        limit("1 < 2", "is not a comparison of a metric")
+        self.reject(BASE + AXES + "limits: cycles\n",
+                    "'limits' must be a list of comparisons of metrics, such as 'cycles <= 10'")
 
     def test_unreadable_input_fails_only_its_points(self):
         """It fails only its own points; once it can be read, they are run."""

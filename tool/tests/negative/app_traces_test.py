@@ -39,17 +39,17 @@ class Fragments(CommandTest):
         sized = TITLE + "size 8 8\n"
         for content, *says in (
                 ("", "trace:1", "the file is empty", "begins with 'deburr-fragments 1'"),
-                ("hello\n", "trace:1", "something else", "docs/reference/traces.md"),
+                ("hello\n", "trace:1", "not a fragment trace", "docs/reference/traces.md"),
                 ("deburr-fragments\n", "trace:1", "1 fields, expected 2"),
                 ("deburr-fragments 2\n", "trace:1", "version 2", "reads version 1"),
-                (TITLE, "trace:2", "cut short"),
+                (TITLE, "trace:2", "truncated"),
                 (TITLE + "size 8\n", "trace:2", "2 fields, expected 3", "size WIDTH HEIGHT"),
                 (TITLE + "size 0 8\n", "trace:2", "0 x 8", "1 to 8192"),
                 (TITLE + "size 8 8193\n", "trace:2", "8 x 8193"),
                 (TITLE + "triangle 1\n", "trace:2", "'triangle'", "'quad', 'fragment' or 'end'"),
                 (TITLE + "quad 0 f\n", "trace:2", "3 fields, expected 15", "s0 t0 s1 t1"),
                 (TITLE + "\n# a\n" + FRAGMENT.replace("0 -", "x -", 1), "trace:4", "texture = 'x'", "whole number"),
-                (TITLE + FRAGMENT.replace("0 -", "1 -", 1), "trace:2", "texture 1", "is given 1", "--in FILE.gltf"),
+                (TITLE + FRAGMENT.replace("0 -", "1 -", 1), "trace:2", "texture 1", "the scene has 1", "--in FILE.gltf"),
                 (TITLE + FRAGMENT.replace(".5", "nan", 1), "trace:2", "s = nan", "-128 to below 128"),
                 (TITLE + FRAGMENT.replace(".5", "inf", 1), "trace:2", "s = inf"),
                 (TITLE + FRAGMENT.replace(".5", "1e999", 1), "trace:2", "s = inf"),
@@ -59,15 +59,15 @@ class Fragments(CommandTest):
                 (TITLE + FRAGMENT.replace(".5 .5", "127.999 .5"), "trace:2", "neighbour by the derivatives"),
                 (TITLE + FRAGMENT.replace(".5", "0.5f", 1), "trace:2", "s = '0.5f'", "expected a number"),
                 (TITLE + FRAGMENT + FRAGMENT.replace("- -", "- 3"), "trace:3", "x = '-'"),
-                (TITLE + FRAGMENT.replace("- -", "3 3"), "trace:2", "whose size is not said", "size WIDTH HEIGHT"),
+                (TITLE + FRAGMENT.replace("- -", "3 3"), "trace:2", "has no image size", "size WIDTH HEIGHT"),
                 (sized + FRAGMENT.replace("- -", "8 3"), "trace:3", "(8, 3) is outside", "8 x 8"),
-                (sized + QUAD.replace("0 0 0 0", "0 1 0 0", 1), "trace:3", "(1, 0)", "even x and y"),
+                (sized + QUAD.replace("0 0 0 0", "0 1 0 0", 1), "trace:3", "(1, 0)", "must be even"),
                 (TITLE + "size 7 7\n" + QUAD.replace("0 0 0 0", "0 6 6 0", 1), "trace:3", "lane 1", "outside"),
                 (TITLE + QUAD.replace("f f", "1f f").replace("0 0 0 0", "0 - - 0", 1), "trace:2", "coverage = '1f'", "0 to f"),
-                (TITLE + FRAGMENT, "trace:3", "no line 'end 1'", "cut short"),
+                (TITLE + FRAGMENT, "trace:3", "no line 'end 1'", "truncated"),
                 (TITLE + FRAGMENT + "end 2\n", "trace:3", "'end 2' after 1 records"),
-                (TITLE + FRAGMENT + "end 1", "trace:3", "in the middle of a line", "cut short"),
-                (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "more after the line 'end'"),
+                (TITLE + FRAGMENT + "end 1", "trace:3", "in the middle of a line", "truncated"),
+                (TITLE + FRAGMENT + "end 1\n" + FRAGMENT, "trace:4", "text after the line 'end'"),
                 (TITLE + "x" * 2000 + "\n", "trace:2", "more than 1000 characters")):
             with self.subTest(content=content[:120]):
                 self.rejected(content, *says)
@@ -75,13 +75,13 @@ class Fragments(CommandTest):
     def test_error_in_binary_names_its_record(self):
         good = record()
         for content, *says in (
-                (header()[:40], "within its header of 64 bytes", "cut short"),
+                (header()[:40], "truncated header, expected 64 bytes"),
                 (header(version=7) + good, "version 7", "reads version 1"),
                 (header(size=72) + good, "records of 72, expected 64 and 80"),
-                (header() + good[:-1], "143 bytes", "says 144", "cut short"),
-                (header(count=2) + good, "cut short"),
+                (header() + good[:-1], "143 bytes", "1 records need 144", "truncated"),
+                (header(count=2) + good, "truncated"),
                 (header() + good + b"x", "too long"),
-                (header(count=2**63) + good, f"{2**63} records", "cut it into several runs"),
+                (header(count=2**63) + good, f"{2**63} records", "split the trace into several runs"),
                 (header(width=9000, height=1) + good, "9000 x 1"),
                 (header(count=2) + good + record(kind=2), "record 1", "kind 2"),
                 (header() + record(texture=3), "record 0", "texture 3"),
@@ -91,16 +91,16 @@ class Fragments(CommandTest):
                 (header() + record(values=[float("nan")] * 8), "record 0", "s0 = nan"),
                 (header() + record(values=[0] * 7 + [float("-inf")]), "t3 = -inf"),
                 (header() + record(values=[200] * 8), "s0 = 200", "subtract whole repeats"),
-                (header() + record(x=0, y=0), "whose size is not said"),
-                (header(width=8, height=8) + record(x=0, y=NONE), "outside of the picture"),
-                (header(magic=b"DEBURRFX") + good, "something else")):
+                (header() + record(x=0, y=0), "has no image size"),
+                (header(width=8, height=8) + record(x=0, y=NONE), "outside the image"),
+                (header(magic=b"DEBURRFX") + good, "not a fragment trace")):
             with self.subTest(says=says):
                 self.rejected(content, *says)
 
     def test_rejects_trace_without_samples(self):
-        self.rejected(TITLE + "end 0\n", "covers no fragment", code=2)
+        self.rejected(TITLE + "end 0\n", "has no covered fragment", code=2)
         self.rejected(TITLE + QUAD.replace("f f", "0 f").replace("0 0 0 0", "0 - - 0", 1) + "end 1\n",
-                     "covers no fragment in 1 quads", code=2)
+                     "has no covered fragment in 1 quads", code=2)
 
     def test_rejects_missing_file_and_folder(self):
         for name, says in (("missing", "no such file"), (".", "not a regular file")):
@@ -120,15 +120,16 @@ class Fragments(CommandTest):
         self.run_texture(0, "--fragment-trace", "text")
         before = open(self.path("out/fragments.trace"), "rb").read()
         self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--fragment-trace", "text",
-                    "--out", "out", says="would replace it")
+                    "--out", "out", says="would overwrite the input")
         # Nor is it removed with the results of the run that made it.
-        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out", says="would replace it")
+        self.expect(2, "run", "texture", "--fragments", "out/fragments.trace", "--out", "out",
+                    says="would overwrite the input")
         self.assertEqual(open(self.path("out/fragments.trace"), "rb").read(), before)
 
 
 class Lines(CommandTest):
     def test_rejects_options_without_effect_on_lines(self):
-        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="no trace without run.line_trace")
+        self.run_texture(2, "--set", "run.line_trace_lookups=true", says="it needs run.line_trace")
         for more in ((), ("--show-config",)):
             self.expect(2, "run", "morphological", "--size", "32x32", "--line-trace", "text", "--out", "out",
                         *more, says="morphological.storage = memory")

@@ -52,7 +52,7 @@ class Meshes(Base):
         note = "all 26 edges were dropped (26 turned away from the eye): nothing was smoothed"
         self.run_engine(0, *inside, "--set", "geometric.cull=back", says=["PASS", note])
         self.assertIn(note, self.notes())
-        self.assertIn("geometric.cull = none draws those", self.notes())
+        self.assertIn("set geometric.cull = none", self.notes())
         self.run_engine(0, *inside, "--set", "geometric.cull=none", says="PASS")
         self.assertNotIn("edges were dropped", self.notes())
         self.assertGreater(self.result()["work"]["edge_classifier_kept_edges"], 6)
@@ -102,8 +102,8 @@ class Configuration(Base):
             size = "4096x4096" if engine == "geometric" else "64x64"
             command = ("run", engine, *smoothing, "--scene", "sphere", "--size", size, "--truth", "--out", self.path("out"))
             self.expect(2, *command, "--set", "geometric.face_limit=8192",
-                        says="the mesh 'sphere' has 16128 faces, and the hardware holds the facing bits of 8192: give it more "
-                             "(--set geometric.face_limit=16384), or simplify the mesh",
+                        says="the mesh 'sphere' has 16128 faces, the hardware has facing bits for 8192: raise the "
+                             "limit (--set geometric.face_limit=16384) or simplify the mesh",
                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (40, 40)))
         wide = ("--scene", "cube", "--size", "4096x4096", "--truth")
         self.run_engine(2, *wide, "--set", "geometric.line_pixels=2048", says="raise line_pixels",
@@ -123,7 +123,7 @@ class Configuration(Base):
         self.rejected(["crease_depth", "no effect", "crease = off"], "geometric.crease=off", "geometric.crease_depth=4")
         self.rejected(["crease_depth", "no effect"], "geometric.depth_test=off", "geometric.crease_depth=4")
         for test in ("own", "off"):
-            self.rejected(["combine", "no effect", "outermost is max"], "geometric.combine=outermost",
+            self.rejected(["combine", "no effect", "outermost equals max"], "geometric.combine=outermost",
                          f"geometric.depth_test={test}")
         self.rejected(["depth_bias", "no effect"], "geometric.depth_test=off", "geometric.depth_bias=4")
         self.rejected(["depth_lines", "no effect"], "geometric.depth_test=off", "geometric.depth_lines=64")
@@ -351,7 +351,7 @@ class Registers(Base):
 
 
 class Fields(Base):
-    """Hardware decodes a configuration field as another value than software wrote."""
+    """Hardware decodes a configuration field as a different value than software wrote."""
 
     def test_each_field_is_decoded(self):
         small, gpaa = ("--size", "96x64"), ("--size", "48x32", "--preset", "gpaa")

@@ -137,7 +137,7 @@ class Frames(Base):
     def test_accepts_depth_of_16_bit_grey(self):
         done = self.frame(0, "a.png", noisy_png(16, 16), *DEPTH_EDGES, "--depth",
                           self.write("d.png", png(16, 16, bits=16, channels=1)), says="PASS")
-        self.assertIn("'%s': 16 bits of grey taken as near / w" % self.path("d.png"), done.stderr)
+        self.assertIn("'%s': 16-bit grey read as near / w" % self.path("d.png"), done.stderr)
         self.assertNotIn("looks like a picture", done.stderr)
         self.frame(5, "a.png", png(16, 16), *DEPTH_EDGES, "--depth", self.write("c.png", png(16, 16, bits=16)),
                    says=["c.png", "this one has 3 channels of uint16"])
@@ -151,7 +151,7 @@ class Frames(Base):
             self.assertEqual("looks like a picture" in done.stderr, noted)
 
     def test_rejects_depth_that_is_not_finite(self):
-        """Such a depth has no distance: silhouettes and edges would be found around it."""
+        """Such a depth is without distance: silhouettes and edges would be found around it."""
         depths = [0.25] * 256
         depths[16 * 3 + 5] = depths[16 * 3 + 6] = float("nan")
         depth = ("--depth", self.write("nan.tif", float_tiff(16, 16, depths, channels=1)))
@@ -236,16 +236,16 @@ class Configuration(Base):
         for rules in ((), predicated, dynamic, (*dynamic, "--set", "morphological.edges.alpha=0")):
             self.assertNotIn("morphological.edges.", self.run_engine(0, *self.SMALL, *rules).stderr)
         done = self.run_engine(0, *self.SMALL, "--set", "morphological.edges.threshold=5140", engine="frame")
-        self.assertIn("= 5140 is 0.07843 of a code, so noise makes edges: its unit is code / 65536; multiply a number "
-                      "from before 0.3.0 by 255", done.stderr)
+        self.assertIn("= 5140 is 0.07843 of a code, so noise makes edges: its unit is code / 65536; multiply values "
+                      "for versions before 0.3.0 by 255", done.stderr)
         done = self.run_engine(0, *self.SMALL, "--set", "morphological.edges.threshold=65535")
         self.assertIn("= 65535 is 0.99998 of a code", done.stderr)
         # Below a code, alpha decides nothing if the floor is a code; a lower floor may be below alpha times luma.
         for floor, decides in ((65536, ", so edges.floor alone decides"), (65535, "")):
             done = self.run_engine(0, *self.SMALL, *dynamic, "--set", "morphological.edges.alpha=65793", "--set",
                                    f"morphological.edges.floor={floor}")
-            self.assertIn(f"edges.alpha = 65793 is 0.00392, below a code even of white{decides}: its unit is "
-                          "1 / 16777216; multiply a number from before 0.3.0 by 256", done.stderr)
+            self.assertIn(f"edges.alpha = 65793 is 0.00392, below one code even for white{decides}: its unit is "
+                          "1 / 16777216; multiply values for versions before 0.3.0 by 256", done.stderr)
 
     def test_rejects_unknown_smaa_choices(self):
         for name, known in (("quality", "low, medium, high, ultra"), ("ends", "gaps, crossings"),
@@ -292,7 +292,7 @@ class Configuration(Base):
     def test_rejects_parameters_without_effect(self):
         image = ("--in", self.write("a.png", noisy_png(16, 16)))
         morphological = [
-            (image, "--size", "10x10", "size of its own"),
+            (image, "--size", "10x10", "determines the size"),
             (image, "--set", "frame.reference_samples=8", "--truth"),
             (image, "--depth", self.write("d.png", noisy_png(16, 16)), "--truth FILE"),
             ((), "--set", "memory.latency=100", "line_buffers"),
@@ -643,7 +643,7 @@ class GuardFaults(BlockFaults):
 
 
 class Fields(BlockFaults):
-    """Hardware decodes a configuration field as another value than software wrote."""
+    """Hardware decodes a configuration field as a different value than software wrote."""
 
     def test_each_field_is_decoded(self):
         bits = random.Random(1)

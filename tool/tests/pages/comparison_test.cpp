@@ -241,7 +241,7 @@ TEST_F(Runs, ListDifferencesFromTheFirst) {
   EXPECT_TRUE(cycles["cells"][2]["worse"]);
   const Json bits = row("figures", "memory_bits.total.physical");
   EXPECT_EQ(bits["cells"][1]["judgement"], "worse");
-  EXPECT_FALSE(bits["cells"][1]["worse"]) << "what it costs is no fault";
+  EXPECT_FALSE(bits["cells"][1]["worse"]) << "its cost is not a fault";
   EXPECT_EQ(bits["cells"][2]["judgement"], "equal");
   EXPECT_EQ(row("figures", "throughput.value")["unit"], "bilinear/clk");
   EXPECT_EQ(row("figures", "work.hits")["cells"][1]["judgement"], "") << "no direction";
@@ -276,10 +276,9 @@ TEST_F(Runs, DescribeRunsAndWarnings) {
   leave("d", 1000, "2");
   fs::remove(path_ / "d/manifest.json");
   const Json all = compare_runs(paths({"a", "b", "c", "d/result.json"}), {});
-  EXPECT_EQ(all["warnings"],
-            (Json{"B cannot be built: not implementable: memory cache (nine ports)",
-                  "B was interrupted: its figures cover what was done until then",
-                  "scene.width differs: A 8, B 9 (B is C here)"}));
+  EXPECT_EQ(all["warnings"], (Json{"B is not implementable: memory cache (nine ports)",
+                                   "B was interrupted: its figures cover only the completed part",
+                                   "scene.width differs: A 8, B 9 (B is C here)"}));
   EXPECT_EQ(all["runs"][1],
             (Json{{"name", "B"},
                   {"path", (path_ / "b").string()},
@@ -451,8 +450,8 @@ comparison of runs · texture
 Arun, Brun, Crun|badge fail|worse
 Look.
 Parameters|Figures|Pictures|Values|Commands
-Directory|What it is
-A|out/Arun|(what the others are compared with)|Title A|of it
+Directory|Title
+A|out/Arun|(baseline)|Title A|of it
 B|out/Brun|Title B|of it
 C|out/Crun|Title C|of it
 --columns: 2
@@ -462,7 +461,7 @@ worse|Worse:|nothing
 C against A
 better|Better:|nothing
 worse|Worse:|Cycles +25.00 %, PSNR -10.25 dB
-Parameters that differ
+Different parameters
 Parameter|A|B|C|Unit|Meaning
 ways|2|other|4|2|way|Ways.
 Figures
@@ -471,12 +470,12 @@ Cycles|1,000|width: 80.0%|better|800|-20.00 %|width: 64.0%|worse fails|1,250|+25
 PSNR|30.5|better|identical|worse|20.25|-10.25 dB|dB|Peak.
 Rate|-2.5|width: 0.2%|-|equal|1,234.6|width: 100.0%|R.
 Green is better and red is worse than A by more than the tolerance, bold where it fails the comparison;
-bars are shares of the row's largest value.
+bars are relative to the row's largest value.
 Pictures
 Show|Later|Before
 difference from A, 8 times
 Wheel:
-zoom all at one place.
+zoom all pictures together.
 Double click:
 whole picture.
 Later
@@ -487,7 +486,7 @@ Before
 A|c
 B|has no such picture.
 C|has no such picture.
-Every value that differs
+All different values
 1 values
 Value|A|B|C|Unit|Meaning
 work.rate|a|true|12,345|x|u|R.
@@ -512,13 +511,13 @@ TEST_F(Runs, RejectsIncompleteRuns) {
       EXPECT_THAT(error.what(), HasSubstr(name));
     }
   };
-  rejected("none", "is not there");
+  rejected("none", "does not exist");
   put("empty/x", "");
-  rejected("empty", "name the directory of a run");
+  rejected("empty", "name the directory of a complete run");
   put("running/.deburr_run/claim.json", "{}");
-  rejected("running", "is not over, or was killed");
+  rejected("running", "is not finished or was killed");
   put("point/failure.json", "{}");
-  rejected("point", "point that failed");
+  rejected("point", "failed point of a sweep");
   put("planned/plan.json", "{}");
   rejected("planned", "collect");
   put("torn/result.json", "{");
@@ -625,7 +624,7 @@ TEST_F(Sweeps, MatchPointsByConfiguration) {
   EXPECT_EQ(all["metrics"][0]["maximise"], false);
   EXPECT_EQ(all["metrics"][1]["maximise"], true);
   EXPECT_FALSE(compared({"a", "a"})["worse"]);
-  EXPECT_THAT(comparison_page(all), HasSubstr("1 on the front of all together"));
+  EXPECT_THAT(comparison_page(all), HasSubstr("1 on the joint front"));
 }
 
 TEST_F(Sweeps, PageShowsEveryKindOfCell) {
@@ -646,17 +645,17 @@ TEST_F(Sweeps, PageShowsEveryKindOfCell) {
 Deburr &middot;
 comparison of sweeps · texture
 A, B|badge fail|worse
-Parameters|Points in all|Fronts|Matched points|Points not in all
-Directory|What it is
-A|out/A|(what the others are compared with)|Cache|3 points, 3 done, 1 on its front, 1 on the front of all together
-B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the front of all together
-Parameters that differ, besides the axes
+Parameters|Common points|Fronts|Matched points|Other points
+Directory|Title
+A|out/A|(baseline)|Cache|3 points, 3 done, 1 on its front, 1 on the joint front
+B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the joint front
+Different parameters, except the axes
 Parameter|A|B
 latency|100|other|200
-Points in all of them: 3
+Points in all sweeps: 3
 Matched by bytes, ways.
-1 points are not done in every sweep.
-Metric|Better|Equal|Worse|Mean change|Least|Most|Unit|Meaning
+1 points are not finished in every sweep.
+Metric|Better|Equal|Worse|Mean change|Smallest|Largest|Unit|Meaning
 B|cycles|1|1|worse|1|-13.00 %|-50.00 %|+10.00 %|clk|m
 B|psnr|1|1|worse|1|-0.08 dB|-0.75 dB|+0.50 dB|dB|m
 B|lines|0|1|worse|2|+10.00 %|+0.00 %|+20.00 %|line|m
@@ -664,13 +663,13 @@ Fronts
 Across
 Up
 fronts only
-Large points are on their sweep's front;
-a line joins those that nothing of the same sweep beats in these two metrics.
+Large points are on their sweep's Pareto front;
+lines connect the points that are Pareto-optimal in these two metrics within their sweep.
 Matched points
-Show|all|those that are worse|those that differ|those on a front
-Points that are not done in every sweep: 1
-The points and the picture of the fronts need JavaScript;
-deburr compare --json has them all.
+Show|all|worse points|different points|points on a front
+Points that are not finished in every sweep: 1
+The points and the chart of the fronts need JavaScript;
+deburr compare --json prints all points.
 )page");
 }
 
@@ -692,7 +691,8 @@ TEST_F(Sweeps, IdenticalPictureIsBest) {
   EXPECT_EQ(lost["sweeps"][1]["joint_front"], 1);
   EXPECT_EQ(compared({"b", "a"})["points"][1]["judgements"][0], (Json{"worse", "better", ""}));
   const Json missing = compared({"a", "c"});
-  EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse") << "null without flag is no value";
+  EXPECT_EQ(missing["points"][1]["judgements"][0][1], "worse")
+      << "null without flag is not a value";
   EXPECT_EQ(missing["points"][1]["identical"], (Json{{"psnr"}, Json::array()}));
 }
 

@@ -30,7 +30,7 @@ inline std::string words(std::string page) {
       "<[^>]*src=\"([^\"]*)\" alt=\"([^\"]*)\"(?: data-title=\"([^\"]*)\" data-role=\"([^\"]*)\")?",
       "|$1|$2|$3|$4<");
   replaced("<[^>]*>", "|");
-  replaced("\\. (?=[A-Z0-9]|\\|Choose)", ".\n");
+  replaced("\\. (?=[A-Z0-9]|\\|Click)", ".\n");
   replaced("([;:]) (?=[a-z])", "$1\n");
   replaced("[ \t]*\n[ \t\n|]*", "\n");
   replaced("\\|[| ]*", "|");

@@ -125,10 +125,10 @@ of a test
 Note: 16 bits made 8
 Note: &lt;b&gt;
 Not implementable:
-this hardware cannot be built as it is.|Memories that no technology offers:
+this hardware cannot be built as it is.|Memories that no technology provides:
 lines (nine ports);
 ring (no latency);
-the figures below hold for no real design.
+the figures below do not apply to a real design.
 3 of &lt;them&gt;
 First mismatches|Pixel 3,0|Pictures|Key figures
 Checks|Throughput|Units|Over time|Links|Memories|Work|Reproduce|Parameters|Made by
@@ -139,38 +139,40 @@ tile|Throughput|0.750|pixel/clk, 93.8 % of the bound 0.8
 tile|Latency p50|12|clk|p99 1,400, max 1,500
 tile|Read from memory|5.00|MiB|7,000 reads
 tile|PSNR, edge pixels|31.50|dB|-1.75 dB, before 33.25
-tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing
+tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time
 First mismatches
 Check|Where|Item|Field|Expected|Got|History
 colours|cycle 812|pixel (3, 0)|red|17|18|below
 lines|cycle 9|pixel (12, 7)|blue|1|2|#follow-12,7|copy its command
 fills|end|line 5|-|5|6
-What happened to pixel 3,0
-Golden and hardware side by side;
-the clock is that in which the hardware had it.
+History of pixel 3,0
+Golden model and hardware side by side, with the cycle in which the hardware did each step.
 Steps that differ: 1. one fragment
-Step|What|Golden|Hardware|Clock
+Step|Value|Golden|Hardware|Cycle
 fragment 0
 differs|level|of it|4|2|812
 colour|red|-|7|1,200
 blend
 out|red|9|-|-
 end|all|9|9|34
-Waves around it
+Waveforms around this pixel
 deburr run texture --size 4x3 --maps --pixel 3,0 --trace &apos;*&apos; --trace-from 34 --trace-to 1202
 Pictures
 Left
 Right
-Wheel zooms, drag moves, the line is the divider.
-On the keyboard:
-arrows point at a pixel (with Shift at every tenth), + and &minus;
-zoom, Home fits.
-A click, or Enter, copies the command that follows that pixel.
+Wheel:
+zoom;
+drag:
+move the picture, or the divider.
+Keyboard:
+arrows select a pixel (with Shift, ten pixels on), + and &minus;
+zoom, Home fits the picture.
+Click or Enter copies the command that records the pixel's history.
 deburr run texture --size 4x3 --maps --pixel X,Y
 part|--ratio: 1.3333; --across: 100.00%; --down: 100.00%|PNG|After|After|after|After|Came out.
 part|--ratio: 1.3333; --across: 150.00%; --down: 300.00%|PNG|Map: Work|Map: Work|map_work|Map: Work
 Maps over the picture
-Map|Least|Mean|Most|Unit|Sum|Pixels|Values|Meaning
+Map|Minimum|Mean|Maximum|Unit|Sum|Pixels|Values|Meaning
 work|1|2.5|16|sample|4,000|1,004|map_work.pfm|map_work.pfm|Of each pixel.
 empty|0|0|0|u|0|0|map_empty.pfm|map_empty.pfm|None.
 Key figures
@@ -188,18 +190,18 @@ PSNR, edge pixels|33.25|31.50|-1.75|dB
 PSNR, silhouette pixels|-|22.13|-|dB
 FLIP, less is better|0.0500|0.0125|-0.0375
 SSIM|-|0.9877|-
-What was changed
-Pixels, against what went in|All|Right before|Unit
+Changed pixels
+Pixels, compared with the input|All|Correct input|Unit
 Changed by more than 2 codes|12.50|1.50|%
 Changed by more than 16 codes|3.25|0.50|%
-PSNR to what went in|identical|dB
+PSNR to the input|identical|dB
 Checks
 Check|Value|Meaning
 comparisons|1,000
 mismatches|3|Wrong.
 traffic comparisons|2,000
 traffic mismatches|4
-Throughput, and what limits it
+Throughput and its limits
 Rate over the whole run|0.75 of 0.8 pixel/clk (93.8 %)
 width: 93.75%
 Bound: A clock each.
@@ -221,13 +223,13 @@ min|p50|p95|p99|max|Unit
 From|Transactions
 8|2,000
 16|3
-What each unit did in 400,000 cycles
+Activity of each unit in 400,000 cycles
 Busy:
-did work, on one lane at least, or had some under way.
+work was done on at least one lane, or was in progress.
 Stalled:
-had work and could do none of it.
+there was work, but none could be done.
 Idle:
-had nothing to do, or only waited for answers of memory.
+there was no work, or the unit only waited for memory responses.
 Figures
 Unit|Busy|Idle|Stalled, by cause
 luma|1,000|2,000|wait_fill 4,000, late 1
@@ -236,27 +238,27 @@ Unit|Busy|Idle|Stalled, by cause
 luma|1,000|2,000|wait_fill 4,000, late 1
 blend|7|8|-
 Over time
-2 intervals of 1,000 cycles; 500 were asked for, which would be too many intervals.
-Choose a window in a chart for the command that writes its waves.
+2 intervals of 1,000 cycles;
+intervals of 500 cycles were requested, which would be too many.
+Click an interval in a chart to get the command that records its waveforms.
 Unit
 Memory
-Waves of a window
+Waveforms of an interval
 deburr run texture --size 4x3 --pixel=3,0 --maps --trace '*' --trace-from FROM --trace-to TO
-Every window
+Every interval
 Cycles|Pixels, pixel/clk|port:
 in flight, mean
 0 to 1,000|0.900|0.250
 1,000 to 1,400|0.250|0.750
 Links and FIFOs
-Beats inside at the end of each clock.
+Number of stored beats at the end of each cycle.
 Link
 Every link
-Link|Of waves|Depth|Beats|Mean|Most|Full, % of cycles
+Link|Waveform|Depth|Beats|Mean|Maximum|Full, % of cycles
 codes|top.codes|4|9,000|1.26|3|2.6
 Memories
-1.49 Mbit of words (0.34 Mbit for frames of this width), 2.51 Mbit built:
-copies for more read ports and the words that fill up the last bank included.
-Registers beside the words, and links, are not in the total.
+1.49 Mbit of words (0.34 Mbit for frames of this width), 2.51 Mbit built, including copies for more read ports and padding of the last bank.
+Links, and registers outside the memory words, are not in the total.
 Kind|Memories|Bits at this width|Logical bits|Physical bits
 flops|1|19|20|21
 total|2|340,000|1,490,000|2,510,000
@@ -275,9 +277,8 @@ Reproduce
 deburr run texture --trace &apos;a b&apos; --size 4x3 --pixel=3,0 --maps
 Parameters
 Marked rows differ from the default.
-A rule changes pixels;
-a build choice changes cycles and cost;
-runs that agree in inputs and rules share one golden result.
+Parameters of kind rule change pixels, those of kind build change cycles and cost.
+Runs with equal inputs and rules share one golden result.
 Name|Kind|Value|Default|Range|Unit|Meaning
 changed|cache.ways|build|4|2|1..8|way|Ways.
 rate|run|8|8|1..9|byte/clk, 1.6 GB/s|Rate.
@@ -385,7 +386,7 @@ TEST_F(Pages, ShowTilesForAvailableFigures) {
             "tile|Throughput|1.500|pixel\n"
             "tile|Latency p50|12|clk|p99 1,400, max 1,500\n"
             "tile|PSNR|41.26|dB|+5.76 dB, before 35.50\n"
-            "tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing\n"
+            "tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time\n"
             "--columns: 6\n");
   // Tiles of the engine replace the common ones; more than seven are placed in two rows.
   result_["interrupted"] = false;
@@ -407,8 +408,8 @@ TEST_F(Pages, ShowTilesForAvailableFigures) {
             "tile|Lines|7,000|line\n"
             "tile|On|yes\n"
             "tile|Throughput|1.500|pixel\n"
-            "tile|PSNR|identical|dB|of what came out\n"
-            "tile|Simulation|1.38|Mcycle/s|2.5 s, 1.3 s of them computing\n"
+            "tile|PSNR|identical|dB|of the output\n"
+            "tile|Simulation|1.38|Mcycle/s|2.5 s, of which 1.3 s processor time\n"
             "--columns: 4\n");
   result_["checks"] = {{"comparisons", 0u},
                        {"mismatches", 0u},

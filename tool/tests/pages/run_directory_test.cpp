@@ -170,11 +170,11 @@ TEST_F(Life, NextRunCompletesInterruptedMove) {
   }
 }
 
-TEST_F(Life, OnlyOneRunHasTheDirectory) {
+TEST_F(Life, DirectoryBelongsToOneRun) {
   RunDirectory first(path_), second(path_);
   claim(first);
   EXPECT_THAT(text_of<spec::FileError>([&] { claim(second); }),
-              testing::AllOf(HasSubstr("taken by another run"), HasSubstr("--wait"),
+              testing::AllOf(HasSubstr("used by another run"), HasSubstr("--wait"),
                              HasSubstr("process " + std::to_string(::getpid()) + " on ")));
   draft(first, new_);
   first.publish({}, kHead);

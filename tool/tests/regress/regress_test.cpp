@@ -58,7 +58,7 @@ TEST(FailingCycle, UsesLastMoveBeforeDeadlock) {
   const nlohmann::json result = {
       {"reason",
        "clock: no link has moved a beat for 20000 cycles, now cycle 25000\n\n"
-       "links (beats of depth; beats in, out; cycle of last push, pop; ends):\n"
+       "links (beats of depth; beats in, out; cycle of last push, pop; producer -> consumer):\n"
        "  quads    2 of 2 FULL; 15, 13; 395, 394; driver -> texture\n"
        "  colours  0 of 2; 14, 14; 611, 612; filter -> sink\n"
        "  others   0 of 2; 0, 0; never, never; a -> b\n"},
@@ -197,7 +197,7 @@ TEST(Trend, ReportsSlowdownFromOneFifth) {
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
   after.cycles = 4'790'000;
   EXPECT_THAT(falls_between(before, after),
-              ElementsAre("speed from 100 to 80 thousand cycles a second"));
+              ElementsAre("speed from 100 to 80 thousand cycles per second"));
   after.seconds = 59.9;  // too short
   after.cycles = 1'000;
   EXPECT_THAT(falls_between(before, after), testing::IsEmpty());
@@ -237,7 +237,7 @@ TEST(Trend, ReadsBackWrittenTrend) {
   EXPECT_EQ(trend_text(read_trend(file)), text);
   tb::write_file_atomically(file, text + "{}\n");
   EXPECT_THAT([&] { read_trend(file); },
-              testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is no night")));
+              testing::ThrowsMessage<spec::FileError>(HasSubstr("line 3 is not an entry")));
 }
 
 TEST(Junit, CountsAndEscapes) {

@@ -99,7 +99,7 @@ TEST_F(RegressionReport, FeaturesHaveTheirOwnRunsChecksAndBins) {
   EXPECT_EQ(of(first.checks[0]), std::tuple(30u, true, true));
   EXPECT_EQ(of(first.checks[1]), std::tuple(2u, false, true));
   EXPECT_THAT(first.checks[2].unknown,
-              HasSubstr("plan:3: no run of this feature has a scoreboard 'colour' (there are a/b, "
+              HasSubstr("plan:3: no run of this feature has a scoreboard 'colour' (known: a/b, "
                         "colours)"));
   EXPECT_EQ(of(second.checks[0]), std::tuple(4u, true, true));
   EXPECT_EQ(first.coverage[0].bins, 2u);
@@ -197,11 +197,11 @@ TEST_F(RegressionReport, PageAndJunitMatch) {
   expect_in(page, "Second <span class=\"muted\">second</span>" + n + "4" + n + "1" + n + "3" + n +
                       "0" + n + "25.0 %" + n + "1 of 2" + n + "1 of 2</td>");
   expect_in(page, "<p class=\"muted\">docs/a.md#first docs/b &amp; c.md#second </p>");
-  expect_in(page, "<li>a/b: 2 comparisons, 3 wanted: <b>too few</b></li>");
-  expect_in(page, "<li>colours: 30 comparisons, 30 wanted</li>");
+  expect_in(page, "<li>a/b: 2 comparisons, 3 required: <b>too few</b></li>");
+  expect_in(page, "<li>colours: 30 comparisons, 30 required</li>");
   expect_in(page, "<h3>2 &times; texture: deadlock: at N</h3>");
   expect_in(page, "9 &lt;comparisons&gt;");
-  expect_in(page, "texture/cache/miss: Chance. <b>Met 2 times: take it from the list.</b>");
+  expect_in(page, "texture/cache/miss: Chance. <b>Met 2 times: remove it from the list.</b>");
   expect_in(page, "<summary>texture: 2 of 2 bins (100.0 %)</summary>");
   EXPECT_EQ(page.find("<i>"), std::string::npos);
   const std::string junit = read(place().directory / "junit.xml");

@@ -68,7 +68,7 @@ TEST(Flicker, ComparesEachPairOfFramesWithItsReference) {
   EXPECT_DOUBLE_EQ(m.work.at("flicker_before"), std::sqrt((100.0 / 2 + 0 + 400.0 / 2) / 3));
   ASSERT_EQ(m.result.terminal.size(), 1u);
   EXPECT_EQ(m.result.terminal[0].text,
-            "3.19/255 over 4 frames (worst 4.24, at frame 2), against 9.13 of what went in");
+            "3.19/255 over 4 frames (worst 4.24, at frame 2), against 9.13 of the input");
   ASSERT_EQ(m.result.figures.size(), 2u);
   EXPECT_EQ(m.result.figures[0].key, "work.flicker");
   EXPECT_EQ(m.result.figures[0].against, "work.flicker_worst");
@@ -84,7 +84,7 @@ TEST(Flicker, UsesInputWithoutReference) {
   EXPECT_DOUBLE_EQ(m.work.at("flicker"), std::sqrt((9.0 / 2 + 0) / 2));
   EXPECT_EQ(m.work.at("flicker_before"), 0);
   EXPECT_EQ(m.result.terminal[0].text,
-            "1.50/255 over 3 frames (worst 2.12, at frame 1), beyond what went in");
+            "1.50/255 over 3 frames (worst 2.12, at frame 1), beyond that of the input");
   ASSERT_EQ(m.result.figures.size(), 1u);
 }
 
@@ -94,7 +94,7 @@ TEST(Flicker, EmptySequenceHasNoWorstFrame) {
   EXPECT_EQ(m.work.at("flicker"), 0);
   EXPECT_EQ(m.work.count("flicker_worst_frame"), 0u) << "null";
   EXPECT_EQ(m.result.work.size(), 4u);
-  EXPECT_EQ(m.result.terminal[0].text, "0.00/255 over 3 frames, against 0.00 of what went in");
+  EXPECT_EQ(m.result.terminal[0].text, "0.00/255 over 3 frames, against 0.00 of the input");
 }
 
 TEST(Flicker, CountsOnlyDrawnPixels) {

@@ -69,7 +69,7 @@ TEST_P(RandomConfiguration, VariesEveryFreeParameter) {
 }
 
 // Label long.
-TEST_P(RandomConfiguration, IsAcceptedByManySeeds) {
+TEST_P(RandomConfiguration, ManySeedsAreAccepted) {
   for (std::uint64_t seed = 0; seed < kMostSeeds; ++seed) {
     const std::unique_ptr<Engine> made = engine_named(GetParam());
     BoundEngine bound(*made);

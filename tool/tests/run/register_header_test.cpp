@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C header of the registers, read back and compared with the field rows of every engine: each
-// number exists, matches its row, and there are no others. Two names that are equal in C would lose
+// number exists, matches its row, and no others exist. Two names that are equal in C would lose
 // one. systemrdl_test.py compares SystemRDL with this header, and c_header_test.py compares some
 // numbers with the contract by hand.
 #include <gtest/gtest.h>

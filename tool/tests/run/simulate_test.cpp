@@ -196,12 +196,11 @@ TEST(InputRules, RejectsSceneThatDrawsNothing) {
   tb::DepthImage depth(3, 2);
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(scene, depth); }),
             "the scene 's' draws nothing: none of its 3 triangles, from (-1.5, -2, 0) to (1, 4, "
-            "3), covers the centre of one of 3 x 2 "
-            "pixels: look at the camera (scene.eye, scene.target, scene.fov) and at the size of "
-            "the mesh");
+            "3), covers the centre of any of 3 x 2 pixels: check the camera (scene.eye, "
+            "scene.target, scene.fov) and the size of the mesh");
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(depth, "m.obj"); }),
-            "the scene 'm.obj' draws nothing: none of its triangles covers the centre of one of 3 "
-            "x 2 pixels: look at the size of the mesh");
+            "the scene 'm.obj' draws nothing: none of its triangles covers the centre of any of 3 "
+            "x 2 pixels: check the size of the mesh");
   depth.at(2, 1) = 0.001f;
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(scene, depth); }), "");
   EXPECT_EQ(rejection([&] { reject_nothing_drawn(depth, "m.obj"); }), "");
@@ -223,9 +222,8 @@ TEST(InputRules, RejectsMemorySlowerThanWatchdog) {
   EXPECT_EQ(said(900, 999, 0), "");
   EXPECT_EQ(said(900, 0, 99), "");
   const std::string rest =
-      " is not below run.watchdog_cycles = 1000, after which a run without progress counts as "
-      "dead: raise that (--set "
-      "run.watchdog_cycles=";
+      " is not below run.watchdog_cycles = 1000, after which a run without progress counts as a "
+      "deadlock: raise it (--set run.watchdog_cycles=";
   EXPECT_EQ(said(1000, 0, 0), "memory.latency = 1000" + rest + "2000), or make the memory faster");
   EXPECT_EQ(said(10, 1001, 0),
             "memory.latency_max = 1001" + rest + "2002), or make the memory faster");
@@ -252,7 +250,7 @@ TEST(InputRules, RejectsUnusedMemoryParameters) {
               HasSubstr("has no effect: it is not above memory.latency = 100"));
   EXPECT_THAT(said({{"interleave_bytes", "128"}}), HasSubstr("has no effect: memory.banks = 1"));
   EXPECT_THAT(said({{"error_bytes", "1"}}),
-              HasSubstr("has no effect: memory.error_address names no address"));
+              HasSubstr("has no effect: memory.error_address is not set"));
 }
 
 TEST(InputRules, LabelNamesChangesFromPreset) {

@@ -159,7 +159,7 @@ class Added(unittest.TestCase):
         shutil.copytree(os.path.join(SOURCE, "tb/testplan"), self.folder / "tb/testplan")
         for engine in engines():
             os.symlink(os.path.join(SOURCE, "tb/engines", engine), self.folder / "tb/engines" / engine)
-        self.deburr(2, "regress", "tb/testplan/smoke.yaml", "plan", says=f"there is no file 'tb/engines/{NAME}/smoke.yaml'")
+        self.deburr(2, "regress", "tb/testplan/smoke.yaml", "plan", says=f"file 'tb/engines/{NAME}/smoke.yaml' not found")
         os.symlink(FOLDER, self.folder / "tb/engines" / NAME)
         self.deburr(0, "regress", "tb/testplan/smoke.yaml", "plan", "--seed", "1")
         points = next(self.folder.rglob("points.jsonl"), None) or next(self.folder.rglob("points*"))
@@ -184,7 +184,7 @@ class Added(unittest.TestCase):
         self.deburr(1, "run", "frame", *small, "--smoothing", NAME, "--fault", "posteriser.flip-bit", says="FAIL mismatch")
         for smoothing in (NAME, pair):
             self.deburr(0, "run", "frame", *small, "--smoothing", smoothing, "--set", "run.reset_after=900", says="PASS frame")
-        # An engine that reads no marks makes no engine write them.
+        # If an engine reads no marks, no engine writes them.
         self.assertIn(f"{first}.mark: false", self.deburr(0, "run", "frame", "--smoothing", pair, "--show-config"))
         self.deburr(2, "run", "frame", "--set", "posteriser.bits=3", says=f"frame.smoothing = {values[0]} has no posteriser")
         self.deburr(0, "run", "frame", "--help", says=f" or {pair}")

@@ -115,7 +115,7 @@ class Coverage(unittest.TestCase):
         bins, work = covered("geometric", *SIZE)
         self.assertEqual(set(bins), declared("geometric"))
         self.assertEqual(total(bins, "geometric/line"), work["line_setup_lines"])
-        self.assertEqual(bins["geometric/look-up/depth/miss"], work["lines_read_depth"])
+        self.assertEqual(bins["geometric/lookup/depth/miss"], work["lines_read_depth"])
         self.assertGreater(work["line_setup_lines"], 0)
 
     # A run that ends with an error keeps the coverage up to that point.

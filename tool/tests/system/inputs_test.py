@@ -269,7 +269,7 @@ class Replaced(InputsTest):
         regress()
         self.assertEqual((len(old), results()), (2, old))
         self.write("pictures/wood grain.png", png(220))
-        self.assertIn("2 points over 2 inputs, 0 of them done",
+        self.assertIn("2 points over 2 inputs, 0 already done",
                       self.deburr("regress", "t.yaml", "plan", "--seed", "7"))
         second = regress()
         self.assertEqual(len(results()), 4, "two runs more")

@@ -129,7 +129,7 @@ class Intervals(unittest.TestCase):
         for name, arguments in ENGINES.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 said = run(out, *arguments, "--windows", "300", "--fault", "lose-window", code=3)
-                self.assertIn("windows: units.", said)
+                self.assertIn("intervals: units.", said)
                 self.assertIn("window 2", said)
                 with self.assertRaises(AssertionError):
                     self.check(load(out, "intervals.json"), load(out))
@@ -301,7 +301,7 @@ class Timeline(unittest.TestCase):
                                     (("--timeline", "--timeline-to", "100001"), "at most 100000"),
                                     (("--timeline", "--timeline-from", "9000000", "--timeline-to", "9000001"),
                                      "the timeline is empty"),
-                                    (("--timeline-from", "1"), "no timeline without")):
+                                    (("--timeline-from", "1"), "it needs run.timeline")):
                 self.assertIn(says, run(out, *ENGINES["texture"], *arguments, code=2))
 
 

@@ -58,7 +58,7 @@ class PixelHistory(unittest.TestCase):
             self.assertEqual(history["steps"][-1]["clock"], max(cycles))
             self.assertIn(f"pixel       ({pixel.replace(',', ', ')}): {len(history['steps'])} steps, 0 of them differ",
                           self.said)
-            self.assertIn(f'<h2 id="pixel">What happened to pixel {pixel}</h2>', self.page)
+            self.assertIn(f'<h2 id="pixel">History of pixel {pixel}</h2>', self.page)
             for step in history["steps"]:
                 self.assertIn(f">{step['item']}</td>", self.page.replace("<wbr>", ""))
             waves = re.search(r'id="pixel-waves">(.*?)</pre>', self.page).group(1)
@@ -129,7 +129,7 @@ class PixelHistory(unittest.TestCase):
             if done.returncode == 0:
                 kept.add(engine)
             else:
-                self.assertIn(f"the engine {engine} keeps no history of a pixel", done.stdout + done.stderr)
+                self.assertIn(f"the engine {engine} does not record the history of a pixel", done.stdout + done.stderr)
         self.assertTrue(kept)
         self.assertEqual(kept, {*trials("followed"), *trials("followed_in_parts")})
 
@@ -141,7 +141,7 @@ class PixelHistory(unittest.TestCase):
                 if of_parts:
                     self.assertIn("pixel", result)
                 else:
-                    self.assertIn(f"the engine {engine} keeps no history of a pixel", self.said)
+                    self.assertIn(f"the engine {engine} does not record the history of a pixel", self.said)
 
     # Steps of each part; a fault in one part leaves the others unchanged.
     def test_parts_are_independent(self):
@@ -181,7 +181,7 @@ class PixelHistory(unittest.TestCase):
                     self.assertTrue(history["note"].startswith(note["says"]), history["note"])
                     self.assertEqual(history["differences"], 0)
 
-    # All fragments of a pixel, including hidden ones; none if there is none.
+    # All fragments of a pixel, including hidden ones; none if absent.
     def test_lists_all_fragments(self):
         run = ["--scene", "object", "--size", "64x64", "--no-images", "--set", "scene.visibility=overdraw"]
         parts = set()

@@ -538,7 +538,7 @@ class BadCalls(unittest.TestCase):
                               (image[:, :, 0], "uint8 of (61, 97)"), (image[:, :, :2], "uint8 of (61, 97, 2)"),
                               (image.astype(numpy.int8), "int8"), ("picture.png", "type str")):
             for function in (golden.morphological, ideal.fxaa, ideal.cmaa2):
-                rejected(("pixels: uint8 of (height, width, 4) is wanted", given), function, pixels)
+                rejected(("pixels: expected uint8 of (height, width, 4)", given), function, pixels)
         for shape in ((0, 4, 4), (4, 0, 4), (8193, 1, 4), (1, 8193, 4)):
             rejected("width and height must be 1..8192", golden.morphological, numpy.zeros(shape, dtype=numpy.uint8))
         for depth in (numpy.zeros((61, 97)), numpy.zeros((61, 97, 1), numpy.float32), numpy.zeros((97, 61), numpy.float32),
@@ -553,10 +553,10 @@ class BadCalls(unittest.TestCase):
         rejected("depth: 1 of 5917 values lie outside 0..16777215, the first at (6, 4): a depth has 24 bits",
                  golden.morphological, image, depth)
         rejected("nobody", golden.morphological, image, nobody=1)
-        for name, value, words in (("preset", "mlab", "'preset' = 'mlab' wants one of mlaa, mlaa-slope, smaa"),
+        for name, value, words in (("preset", "mlab", "'preset' = 'mlab' must be one of mlaa, mlaa-slope, smaa"),
                                    ("steps", 99, "'steps' = '99' is outside 0..16"), ("steps", None, "'steps' = 'None'"),
-                                   ("steps", 1.5, "'steps' = '1.5' wants an integer 0..16"),
-                                   ("trim", "maybe", "'trim' = 'maybe' wants true or false"),
+                                   ("steps", 1.5, "'steps' = '1.5' must be an integer 0..16"),
+                                   ("trim", "maybe", "'trim' = 'maybe' must be true or false"),
                                    ("steps", image, "'steps' = '[")):
             rejected(words, golden.morphological, image, **{name: value})
         rejected("unknown parameter 'stepps'; known:", golden.morphological, image, stepps=4)
@@ -564,7 +564,7 @@ class BadCalls(unittest.TestCase):
         edges = numpy.zeros((61, 97), dtype=numpy.uint8)
         edges[0, 5] = 2
         rejected("edges of (5, 0) are 2", golden.morphological, image, edges=edges)
-        rejected("edges: the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
+        rejected("edges: expected the size of the pixels, (61, 97)", golden.morphological, image, edges=edges[:60])
         rejected("give one", golden.morphological, image, numpy.zeros((61, 97), numpy.float32), edges=0 * edges)
         frame = golden.morphological(image, preset="mlaa")
         for plane in ("probes", "decisions", "runs", "coverage"):
@@ -598,24 +598,24 @@ class BadCalls(unittest.TestCase):
         good = unit.filter(quads)
         rejected = self.rejected
         for given in (None, numpy.zeros(4), quads.reshape(2, -1), [1], quads["s"]):
-            rejected("quads: an array of QUAD of (n,) is wanted", unit.filter, given)
+            rejected("quads: expected an array of QUAD of (n,)", unit.filter, given)
         rejected("unknown parameter 'cash_bytes'; known:", unit.set, cash_bytes=4096)
         rejected("'cache.bytes' = '7' is outside 256..65536", unit.set, cache_bytes=7)
         rejected("must be a power of two", unit.set, axes="two", cache_bytes=3000)
         self.assertEqual(unit.parameters["axes"], "four", "all of them or none")
         rejected("must be a power of two", golden.TextureUnit, cache_bytes=3000)
         rejected("unknown field of a texture 'colour'; known:", unit.set_fields, 0, layout="linear", colour=1)
-        rejected("'format' = 'rgb' wants one of rgba8", unit.set_fields, format="rgb")
+        rejected("'format' = 'rgb' must be one of rgba8", unit.set_fields, format="rgb")
         rejected("texture 16 is outside 0..15", unit.set_fields, 16, format="rgba8")
         rejected("outside the memory of", unit.read, 1 << 30, 4)
         rejected("resize() makes it larger", unit.write, 1 << 30, numpy.zeros(4, numpy.uint8))
-        rejected("bytes: uint8 of (n,)", unit.write, 0, b"1234")
+        rejected("bytes: expected uint8 of (n,)", unit.write, 0, b"1234")
         rejected("levels: ", unit.load, None)
         rejected("levels: ", unit.load, [])
         for texture in (0, 1):  # an existing texture is unchanged
-            rejected("level 1: uint8 of (32, 32, 4) is wanted", unit.load, [checkerboard(), checkerboard()], texture)
+            rejected("level 1: expected uint8 of (32, 32, 4)", unit.load, [checkerboard(), checkerboard()], texture)
         rejected("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
-        rejected("sides that are powers of two", golden.mip_levels, vector_image("noise"))
+        rejected("expected sides that are powers of two", golden.mip_levels, vector_image("noise"))
         rejected("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
         rejected("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))
         rejected("", unit.read, -1, 4, error=TypeError)
@@ -625,11 +625,11 @@ class BadCalls(unittest.TestCase):
 
     def test_rejects_bad_ideal_calls(self):
         image = vector_image("noise")
-        self.rejected("steps = 13 wants one of 12, 29, 39", ideal.fxaa, image, steps=13)
+        self.rejected("steps = 13 must be 12, 29 or 39", ideal.fxaa, image, steps=13)
         self.rejected("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
         self.rejected("", ideal.fxaa, image, treshold=1, error=TypeError)
-        self.rejected("'wrap_s' = 'mirror' wants one of repeat", ideal.TextureImage, image, wrap_s="mirror")
-        self.rejected("footprints: an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
+        self.rejected("'wrap_s' = 'mirror' must be one of repeat", ideal.TextureImage, image, wrap_s="mirror")
+        self.rejected("footprints: expected an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
         self.rejected("edges: ", ideal.smaa_weights, image)
         self.rejected("luma: ", ideal.smaa_edges, image)
         self.rejected("pixels: ", ideal.psnr, numpy.zeros((3, 4)), numpy.zeros((2, 4), numpy.uint8))

@@ -152,7 +152,7 @@ class Errors(Scratch):
                 ({"memory_latency": None}, "'memory.latency' = 'None'"), ({"preset": "smaa"}, "'texture.preset' = 'smaa'"),
                 ({"texture_cache_bytes": 3000}, "must be a power of two"),
                 ({"scene": "tunel"}, "tunel"), ({"size": 5}, "expected WIDTHxHEIGHT, got '5'"),
-                ({"size": (5, 5, 5)}, "expected WIDTHxHEIGHT"), ({"scene": numpy.zeros((4, 4))}, "a picture is wanted")):
+                ({"size": (5, 5, 5)}, "expected WIDTHxHEIGHT"), ({"scene": numpy.zeros((4, 4))}, "expected a picture")):
             with self.subTest(given):
                 self.rejected(words, ValueError, "texture", **given)
         depth = numpy.full((16, 16), 0.5, numpy.float32)
@@ -295,9 +295,9 @@ class Sweeps(Scratch):
         rows = self.rows(deburr.sweep(file))
         self.assertEqual([row["memory.latency"] for row in rows], [50, 100])
         for words, arguments, named in (
-                ("says itself what it varies", (file, {"memory_latency": [50]}), {}),
+                ("defines its own axes", (file, {"memory_latency": [50]}), {}),
                 ("no 'deburr run textur'", ("textur", self.AXES), {}),
-                ("axes: a dictionary", ("texture",), {}),
+                ("axes: expected a dictionary", ("texture",), {}),
                 ("unknown", ("texture", {"memory_latncy": [50]}), {}),
                 ("memory.latency", ("texture", {"memory_latency": ["soon"]}), {}),
                 ("no result of 'texture' has the key 'cycle'", ("texture", {"memory_latency": [50]}), {**TINY, "metrics": ["cycle"]}),

@@ -214,10 +214,10 @@ class Passing(RegressTest):
         self.write("plans/small.yaml", TESTPLAN.replace("seeds: 3", "seeds: 4"))
         changed = "changed     'plans/small.yaml' since the plan was made: "
         status = self.regress("status")
-        self.assertIn(changed + "these figures are of what it was before", status)
+        self.assertIn(changed + "these figures are from before the change", status)
         self.assertIn(f"{POINTS} of {POINTS} points done", status)
         collected = self.regress("collect", code=3)
-        self.assertIn(changed + "points that are as before keep their results", collected)
+        self.assertIn(changed + "unchanged points keep their results", collected)
         self.assertIn(f"{POINTS + 3} points, {POINTS} passed, 0 failed in 0 signatures, 3 missing", collected)
         # No run failed, and the results are checked and covered: only the missing runs count.
         report = self.collected()
@@ -243,9 +243,9 @@ class Passing(RegressTest):
         with open(path, "w") as file:
             json.dump({**plan, "model": "another"}, file)
         self.assertIn("changed     the model since", self.regress("status"))
-        self.regress("collect", code=2, says="are of another state of the model")
+        self.regress("collect", code=2, says="are from another version of the model")
         self.assertEqual(self.collected(), report)
-        self.assertIn("no result of before counts", self.regress("run"))
+        self.assertIn("earlier results are not used", self.regress("run"))
         self.regress("collect")
 
     def test_all_runs_together_meet_the_plan(self):
@@ -273,7 +273,7 @@ class Passing(RegressTest):
         self.assertIn(f"1 of 2 bins were not met: {formats[0]}\n", self.regress(code=1))
         self.write("plans/small.yaml", alone + demand + unmet + "  - {bins: 'texture/format/*8', reason: No scene has that.}\n")
         said = self.regress(code=1)
-        self.assertIn("met         texture/format/rgba8, which the testplan excepts: No scene has that.", said)
+        self.assertIn("met         texture/format/rgba8, which the testplan lists as unmet: No scene has that.", said)
         self.assertIn("no run of the plan has a bin 'texture/format/*'", said)
         self.write("plans/small.yaml", alone + demand + unmet + "  - {bins: texture/format/l8, reason: No scene has that.}\n")
         self.assertNotIn("met         ", self.regress())
@@ -291,7 +291,7 @@ class Passing(RegressTest):
                 "coverage: ['texture/format/*']\nunmet: [{bins: texture/format/l8, reason: None.}]\n")
         self.write("plans/small.yaml", "include: [part.yaml]\n")
         self.write("plans/part.yaml", part.replace("format/l8", "format/l9"))
-        self.regress("plan", code=2, says="no bin of the plan's engines is called 'texture/format/l9'")
+        self.regress("plan", code=2, says="no bin of the plan's engines matches 'texture/format/l9'")
         self.write("plans/part.yaml", part)
         self.assertIn("broken      all runs: texture/format/*: 3 of 4 bins", self.regress("-j2", code=1))
 
@@ -322,7 +322,7 @@ class Passing(RegressTest):
         self.regress("run")
         self.assertEqual([n["seed"] for n in self.nights()], [8, 7], "the last one is at the end")
         self.write("out/regressions/small.jsonl", '{"date": "2026-11-23"}\n')
-        self.regress("collect", code=5, says="line 1 is no night of this version")
+        self.regress("collect", code=5, says="line 1 is not an entry of this version")
 
     def nights(self, name="small"):
         with open(self.path(f"out/regressions/{name}.jsonl")) as file:
@@ -368,7 +368,7 @@ class Failing(RegressTest):
         self.assertEqual([night["passed"] for night in self.collected()["trend"]], [POINTS, POINTS])
 
     def test_page_has_no_dead_links_and_no_empty_sections(self):
-        """A run that cannot read its texture has no result and no coverage."""
+        """A run that cannot read its texture leaves no result and no coverage."""
         self.write("bad.png", "no picture")
         unread = """  - id: unread
     title: A texture that cannot be read
@@ -405,26 +405,28 @@ class Failing(RegressTest):
         failed = {point[0] for point in self.points() if point[3] == "broken"}
         before = self.inodes()
         again = self.rerun(code=1)
-        self.assertIn("rerun       0 of 3 runs that had failed pass now, 3 fail\n", again)
+        self.assertIn("rerun       0 of 3 previously failed runs pass now, 3 fail\n", again)
         self.assertIn(f"RESULT: FAIL regression small --seed 7: {POINTS + 3} points, {POINTS} passed, 3 failed", again)
         changed = {os.path.basename(os.path.dirname(path)) for path, inode in self.inodes().items()
                    if before.get(path) != inode}
         self.assertEqual(changed, failed)
-        # If other runs have no result, the report is the previous one, and the verdict covers only these runs.
+        # If other runs lack a result, the report is the previous one, and the verdict covers only these runs.
         os.remove(next(path for path in before if os.path.basename(os.path.dirname(path)) not in failed
                        and os.path.basename(os.path.dirname(path)) in {point[0] for point in self.points()}))
         report = self.collected()
         again = self.rerun(code=1)
-        self.assertRegex(again, r"RESULT: FAIL regression small --seed 7: 0 of 3 runs that had failed pass now, 3 fail; other")
+        self.assertRegex(again,
+                         r"RESULT: FAIL regression small --seed 7: 0 of 3 previously failed runs pass now, 3 fail;")
         self.assertRegex(again, r"(?m)^failed      broken/fault/base/0: mismatch: ")
         self.assertEqual(self.collected(), report)
         # Without the fault they are other points with the same names.
         self.write("plans/small.yaml", TESTPLAN + FAULT.replace(", run.fault: flip-bit", "")
                    .replace(", run.fault: stuck-ready", ""))
         again = self.rerun()
-        self.assertIn("RESULT: PASS regression small --seed 7: 3 of 3 runs that had failed pass now, 0 fail; other", again)
+        self.assertIn(
+            "RESULT: PASS regression small --seed 7: 3 of 3 previously failed runs pass now, 0 fail; other", again)
         self.regress("run", "-j2")
-        self.assertIn("rerun       0 of 0 runs that had failed pass now, 0 fail\n", self.rerun())
+        self.assertIn("rerun       0 of 0 previously failed runs pass now, 0 fail\n", self.rerun())
         self.assertEqual(self.collected()["counts"]["failed"], 0)
 
     def test_fixed_runs_make_the_report_pass(self):
@@ -433,7 +435,7 @@ class Failing(RegressTest):
         self.regress("-j2", code=1)
         self.write("plans/small.yaml", TESTPLAN + mended)
         again = self.rerun("-j2")
-        self.assertIn("rerun       3 of 3 runs that had failed pass now, 0 fail\n", again)
+        self.assertIn("rerun       3 of 3 previously failed runs pass now, 0 fail\n", again)
         self.assertIn(f"RESULT: PASS regression small --seed 7: {POINTS + 3} points, {POINTS + 3} passed, 0 failed", again)
         self.assertTrue(self.collected()["holds"])
 
@@ -446,7 +448,7 @@ class Failing(RegressTest):
         self.assertIn("regression small --seed 7: ", out)
         self.write("plans/small.yaml", TESTPLAN)
         out = self.rerun("--seed", "9")
-        self.assertIn("gone        broken/fault/base/0: the testplan has no such run any more", out)
+        self.assertIn("gone        broken/fault/base/0: the testplan no longer has this run", out)
 
     def rerun(self, *arguments, code=0):
         done = subprocess.run([DEBURR, "regress", "plans/small.yaml", "rerun", "--failed", *arguments],

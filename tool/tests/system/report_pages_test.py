@@ -303,7 +303,7 @@ class Runs(PagesTest):
         self.assertIn("pixel (0, 0)", corner)
         self.assertIn("pixel (3, 1)", at)
         value = self.value(f"{engine}/{role}.pfm", 3, 1)
-        words = "has nothing there" if value != value else f"{number(value)} {figures['unit']}"
+        words = "has no value there" if value != value else f"{number(value)} {figures['unit']}"
         self.assertIn(f"right: {title} {words}", at)
         self.assertEqual(mark == "", value != value)
         self.assertEqual((zoomed, fitted), (True, True))
@@ -336,7 +336,7 @@ class Runs(PagesTest):
             self.deburr("run", engine, *entry["run"], "--pixel", "{},{}".format(*entry["pixel"]), "--out", engine)
             told = self.check(f"{engine}/report.html", f"{engine}_pixel", 1, SEEN_TOGETHER % ("table.history", 5))
             (head, rows, beyond, cut), = told["keys"]
-            for word in ("Golden", "Hardware", "Clock"):
+            for word in ("Golden", "Hardware", "Cycle"):
                 self.assertIn(word, head)
             self.assertGreater(rows, len(entry["steps"]))
             self.assertLessEqual(beyond, 0, engine)
@@ -397,7 +397,7 @@ class Runs(PagesTest):
         """Its link gives the command that follows the pixel."""
         self.deburr("run", "texture", "--size", "64x48", "--fault", "flip-bit", "--pixel", "36,0", "--out", "run", codes=(1,))
         text = self.probed("run/report.html", PHONE, self.TEXT, "#follow-7,9")["keys"]
-        self.assertIn('<h2 id="pixel">What happened to pixel 36,0</h2>', text)
+        self.assertIn('<h2 id="pixel">History of pixel 36,0</h2>', text)
         self.assertIn('id="follow"><pre id="pixel-command">', text)  # not hidden
         self.assertRegex(text, "--fault flip-bit --out run --pixel 7,9</pre>")
         self.assertRegex(text, r"--pixel 36,0 --trace '\*' --trace-from [0-9]+")

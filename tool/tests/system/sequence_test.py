@@ -147,10 +147,11 @@ class Images(SequenceTest):
         self.check(result, self.pictures("one", 3), befores, befores)
         self.assertEqual(result["work"]["flicker_before"], 0)
         with open(self.path("all/report.html"), encoding="utf-8") as file:
-            self.assertIn("Flicker beyond what went in", file.read())
+            self.assertIn("Flicker beyond that of the input", file.read())
         said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f*.png", "--out", "all"], cwd=self.directory,
                               text=True, capture_output=True, check=True).stdout
-        self.assertRegex(said, f"flicker +{result['work']['flicker']:.2f}/255 over 3 frames .*, beyond what went in\n")
+        self.assertRegex(said,
+                         f"flicker +{result['work']['flicker']:.2f}/255 over 3 frames .*, beyond that of the input\n")
         # All of them are inputs: a run with other files is another run.
         with open(self.path("all/manifest.json"), encoding="utf-8") as file:
             self.assertEqual([i["file"] for i in json.load(file)["inputs"]], list(self.NAMES))
@@ -160,7 +161,7 @@ class Images(SequenceTest):
         self.assertEqual((work["flicker"], work["flicker_worst"], work["flicker_worst_frame"]), (0, 0, None))
         said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f1.png;f1.png", "--out", "still"],
                               cwd=self.directory, text=True, capture_output=True, check=True).stdout
-        self.assertRegex(said, r"flicker +0\.00/255 over 2 frames, beyond what went in\n")
+        self.assertRegex(said, r"flicker +0\.00/255 over 2 frames, beyond that of the input\n")
 
     def test_flicker_with_references(self):
         result = self.result(self.ENGINE, "all", "--in", "f*.png", "--truth", "t_f*.png")
@@ -184,11 +185,11 @@ class Images(SequenceTest):
         write_png(self.path("small.png"), [[0] * 16] * 16)
         for says, *arguments in (
                 ("no file matches 'g*.png'", "--in", "g*.png"),
-                ("lists of a run are equally long", "--in", "f*.png", "--truth", "t_f1.png;t_f2.png"),
+                ("all lists of a run must have the same length", "--in", "f*.png", "--truth", "t_f1.png;t_f2.png"),
                 ("has an empty entry", "--in", "f1.png;;f2.png"),
                 ("frame.source lists 3 frames", "--in", "f*.png", "--frames", "3"),
-                ("an image file does not move", "--in", "f1.png", "--frames", "3"),
-                ("does not move", "--in", "f1.png", "--motion", "pan"),
+                ("a single image file has no motion", "--in", "f1.png", "--frames", "3"),
+                ("has no motion", "--in", "f1.png", "--motion", "pan"),
                 ("frame 1 has 16 x 16 pixels", "--in", "f1.png;small.png")):
             with self.subTest(says):
                 self.assertIn(says, self.deburr(self.ENGINE, *arguments, "--out", "rejected", code=2))
@@ -196,7 +197,7 @@ class Images(SequenceTest):
                                                  code=5))
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:
             file.write("frame: {width: [16, 17]}\n")
-        self.assertIn("wants a single value", self.deburr(self.ENGINE, "--config", "run.yaml", code=2))
+        self.assertIn("must be a single value", self.deburr(self.ENGINE, "--config", "run.yaml", code=2))
 
 
 class Meshes(SequenceTest):
@@ -256,7 +257,7 @@ class Meshes(SequenceTest):
         self.write_box("m0.obj", 0)
         self.write_box("m1.obj", 1)
         self.result("texture", "first", "--in", "m0.obj", *self.SIZE, "--fragment-trace", "text")
-        self.assertIn("those of one frame", self.deburr("texture", "--in", "m?.obj", "--fragments",
+        self.assertIn("the fragments of one frame", self.deburr("texture", "--in", "m?.obj", "--fragments",
                                                         "first/fragments.trace", "--out", "rejected", code=2))
 
 

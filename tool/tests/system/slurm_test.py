@@ -291,12 +291,12 @@ class Slurm(OnCluster, unittest.TestCase):
                 self.assertIn(word, text)
 
         rejected("profile.yaml:6: unknown key 'partitions': did you mean 'partition'?", partitions="test")
-        rejected("profile.yaml:4: 'cpus' = 'many' wants a number", cpus="many")
+        rejected("profile.yaml:4: 'cpus' = 'many' must be a number", cpus="many")
         rejected("profile.yaml:5: 'tasks' = '0' is outside 1..1000", tasks=0)
-        rejected("profile.yaml:6: 'setup' wants a list of lines, got a single value", setup="make")
+        rejected("profile.yaml:6: 'setup' must be a list of lines, got a single value", setup="make")
         rejected("sbatch rejects", "nowhere", partition="nowhere")
         begin = time.monotonic()
-        rejected("there is no Slurm configuration '/nonexistent/slurm.conf'", code=5,
+        rejected("Slurm configuration '/nonexistent/slurm.conf' not found", code=5,
                 conf="/nonexistent/slurm.conf")
         self.assertLess(time.monotonic() - begin, 10, "clients hang for a minute")
 

@@ -89,7 +89,7 @@ class SweepTest(unittest.TestCase):
 class Points(SweepTest):
     def test_plan_run_status_and_collect(self):
         self.write("cache.yaml", SWEEP)
-        self.assertIn("12 points over 1 input, 0 of them done", self.run_sweep("cache.yaml", "plan"))
+        self.assertIn("12 points over 1 input, 0 already done", self.run_sweep("cache.yaml", "plan"))
         self.assertIn("12 done (12 in this run), 0 failed", self.run_sweep("cache.yaml", "run", "-j2"))
         self.assertIn("12 of 12 points done", self.run_sweep("cache.yaml", "status"))
         rows = self.rows("cache")
@@ -379,7 +379,7 @@ objectives: {minimise: [inverse, cycles]}
 """)
         flat = {"inverse": "division by zero", "edges": "quality.psnr_edge_db is null",
                 "gain": "not defined for the infinite PSNR of identical pictures", "less": "minus infinity"}
-        always = {"huge": "too large for a number", "name": "throughput.unit is no number"}
+        always = {"huge": "too large for a number", "name": "throughput.unit is not a number"}
         no_reference = {name: f"no key '{key}' in the result" for name, key in
                     (("inverse", "quality.flip"), ("edges", "quality.psnr_edge_db"), ("gain", "quality.psnr_db"),
                      ("less", "quality.psnr_db"))}

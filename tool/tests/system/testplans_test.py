@@ -48,7 +48,7 @@ class Testplans(unittest.TestCase):
                 (self.root / page).write_text(re.sub(r"(?m)^#+ .*$", "# Renamed", text), encoding="utf-8")
                 code, said = self.plan(name)
                 self.assertEqual(code, 2, said)
-                self.assertIn(f"'{page}' has no heading", said)
+                self.assertIn(f"'{page}' lacks the heading", said)
                 (self.root / page).write_text(text, encoding="utf-8")
         self.assertGreater(renamed, 10)
 

@@ -355,7 +355,7 @@ class Fragments(TracesTest):
         done = subprocess.run([DEBURR, "run", "texture", "--fragments", self.path("bare"), "--maps", "--out",
                                self.path("rejected")], text=True, capture_output=True, check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("have no place in a picture", done.stderr)
+        self.assertIn("have no position in a picture", done.stderr)
 
     def test_memory_does_not_grow_with_the_trace(self):
         """Peak memory of a binary trace and of one ten times as long, without a golden model."""

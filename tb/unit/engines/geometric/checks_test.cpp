@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the checks of the geometric engine complain of.
+// Failures that the checks of the geometric engine report.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ struct Checked {
                geometric_system::scene_frame("cube", 30, 17)},
         regions(regions_of(frames, setup.geometric)),
         checks(setup, regions, golden) {}
-  // The current frame as golden has it; one record of a list may be wrong, or missing.
-  void come(const std::string& wrong = "", bool missing = false) {
+  // Passes the golden results of the current frame to the checks; one entry of a list may be wrong
+  // or missing.
+  void deliver(const std::string& wrong = "", bool missing = false) {
     const auto& golden = checks.golden_model();
     const auto all = [&](const char* list, const auto& records, auto&& spoil) {
       for (std::size_t i = 0; i < records.size(); ++i) {
@@ -57,14 +58,14 @@ struct Checked {
   GeometricChecks checks;
 };
 
-TEST(GeometricChecks, EachRecordOfEachListIsCompared) {
+TEST(GeometricChecks, EachEntryOfEachListIsCompared) {
   for (const std::string list : {"lines", "candidates", "blocks"})
     for (const bool missing : {false, true}) {
       Checked c;
       for (const Frame& frame : c.frames) {
         c.checks.begin(frame);
         ASSERT_GT(c.checks.golden_model().blocks().size(), 2u);
-        c.come(&frame == &c.frames[1] ? list : "", missing);
+        c.deliver(&frame == &c.frames[1] ? list : "", missing);
         c.checks.end(c.picture(frame), 99);
       }
       EXPECT_EQ(c.wrong(), list + " 1+0 ") << missing;
@@ -72,19 +73,19 @@ TEST(GeometricChecks, EachRecordOfEachListIsCompared) {
     }
 }
 
-TEST(GeometricChecks, NameWhatIsWrong) {
+TEST(GeometricChecks, DifferencesNameTheirItem) {
   Checked c;
   const Frame& frame = c.frames[1];
   c.checks.begin(frame);
   const auto candidates = c.checks.golden_model().candidates();
   const auto blocks = c.checks.golden_model().blocks();
-  c.come("candidates");
+  c.deliver("candidates");
   const auto& candidate = candidates[candidates.size() / 2];
   EXPECT_EQ(c.checks.candidates.differences().at(0).item,
             fmt::format("pixel ({}, {})", candidate.x, candidate.y));
   Checked other;
   other.checks.begin(other.frames[1]);
-  other.come("blocks");
+  other.deliver("blocks");
   const auto& block = blocks[blocks.size() / 2];
   EXPECT_EQ(other.checks.blocks.differences().at(0).item,
             fmt::format("block ({}, {})", block.x, block.y));
@@ -96,8 +97,8 @@ TEST(GeometricChecks, NameWhatIsWrong) {
   EXPECT_EQ(c.checks.pixels.differences()[0].where, "cycle 99");
 }
 
-// What came of a frame that was reset counts no more, and the frame comes whole again.
-TEST(GeometricChecks, AFrameThatBeginsAgainIsExpectedOnce) {
+// Results of a frame that was reset are discarded, and the whole frame is expected again.
+TEST(GeometricChecks, RestartedFrameIsExpectedOnce) {
   Checked c;
   c.checks.begin(c.frames[0]);
   c.checks.got(c.checks.golden_model().lines()[0], 3);
@@ -106,12 +107,12 @@ TEST(GeometricChecks, AFrameThatBeginsAgainIsExpectedOnce) {
   EXPECT_EQ(c.checks.traffic.leftovers(), 0u);
   c.checks.begin(c.frames[0]);
   EXPECT_GT(c.checks.traffic.leftovers(), 10u);
-  c.come();
+  c.deliver();
   c.checks.end(c.picture(c.frames[0]), 99);
   EXPECT_EQ(c.wrong(), "");
 }
 
-TEST(GeometricChecks, WithoutGoldenNothingIsCompared) {
+TEST(GeometricChecks, ComparesNothingWithoutGolden) {
   Checked c(false);
   c.checks.begin(c.frames[0]);
   c.checks.got(spec::geometric::LineRecord(), 1);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the segments where faces of a mesh pass through each other found, all of them, once, and as
-// loops without gaps?
+// Segments where faces of a mesh intersect: all are found, once each, and form loops without gaps.
 #include "tb/engines/geometric/crossings.h"
 
 #include <gmock/gmock.h>
@@ -57,7 +56,7 @@ struct Soup {
 
 double length(const Crossing& c) { return (c.ends[1] - c.ends[0]).length(); }
 
-// How many segments end in each place.
+// Number of segments that end at each position.
 using Key = std::array<double, 3>;
 std::map<Key, int> degrees(const std::vector<Crossing>& crossings) {
   std::map<Key, int> all;
@@ -66,7 +65,7 @@ std::map<Key, int> degrees(const std::vector<Crossing>& crossings) {
   return all;
 }
 
-TEST(Crossings, ABarThroughTheSideOfABoxLeavesARectangle) {
+TEST(Crossings, BarThroughABoxSideGivesARectangle) {
   Soup soup;
   soup.box({-1, -1, -1}, {1, 1, 1});
   soup.box({0, -0.5, -0.25}, {2, 0.5, 0.25});
@@ -87,13 +86,13 @@ TEST(Crossings, ABarThroughTheSideOfABoxLeavesARectangle) {
   for (const auto& [place, degree] : degrees(crossings)) EXPECT_EQ(degree, 2) << place[1];
 }
 
-TEST(Crossings, WhatTouchesDoesNotCross) {
+TEST(Crossings, TouchingFacesDoNotCross) {
   Soup on_each_other;
   on_each_other.box({-1, -1, -1}, {1, 1, 1});
   on_each_other.box({-0.5, 1, -0.5}, {0.5, 2, 0.5});
   on_each_other.box({1, -1, -1}, {2, 1, 1});
   EXPECT_TRUE(on_each_other.crossings().empty());
-  // Nearer than what a file's digits tell apart.
+  // Closer than the decimal digits of a file can distinguish.
   Soup nearly;
   nearly.box({-1, -1, -1}, {1, 1, 1});
   nearly.box({-0.5, 1 - 1e-7, -0.5}, {0.5, 2, 0.5});
@@ -119,8 +118,8 @@ TEST(Crossings, FacesWithACommonPlaceAreNeighbours) {
   EXPECT_EQ(soup.crossings().size(), 1u);
 }
 
-// A wall whose faces meet exactly in the floor crosses it once.
-TEST(Crossings, ARowOfPlacesInTheOtherPlaneCountsOnce) {
+// A wall whose faces meet exactly in the floor's plane crosses it once.
+TEST(Crossings, EdgeInTheOtherPlaneCountsOnce) {
   Soup soup;
   soup.triangle({-9, 0, -9}, {9, 0, -8}, {0, 0, 9});
   const auto a = soup.place({-1, 0, 0}), b = soup.place({1, 0, 0});
@@ -132,8 +131,8 @@ TEST(Crossings, ARowOfPlacesInTheOtherPlaneCountsOnce) {
   EXPECT_EQ(length(crossings[0]), 2.0);
 }
 
-// Against every pair, and each segment against both of its faces.
-TEST(Crossings, AreThoseOfEveryPair) {
+// Compared with every pair of faces; each segment lies in both of its faces.
+TEST(Crossings, MatchesExhaustiveSearch) {
   Random random(4);
   const auto real = [&] { return random.below(1u << 20) / 524288.0 - 1.0; };
   std::size_t found = 0;
@@ -172,14 +171,15 @@ TEST(Crossings, AreThoseOfEveryPair) {
   EXPECT_GT(found, 300u);
 }
 
-// A ball of many faces through a box: the loop has no gap, to the bit, whichever face found an end.
+// A sphere of many faces through a box: the ends of the loop match bit-exactly, whichever face
+// found them.
 TEST(Crossings, LoopsHaveNoGaps) {
   Scene ball = make_scene("sphere");
   Mesh mesh = ball.mesh;
   const Bounds box = bounds(mesh);
   const V3d centre = box.centre();
   const double r = box.radius() / std::sqrt(3.0);
-  // A big triangle, slanted and off the centre.
+  // A large triangle, tilted and off centre.
   const V3d normal = V3d(0.3, 0.8, 0.5).normalized(), u = V3d(1, 0, 0).cross(normal).normalized(),
             v = normal.cross(u);
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -215,8 +215,8 @@ TEST(Crossings, LoopsHaveNoGaps) {
   EXPECT_EQ(table.edges, build_edge_table(mesh, {.crossings = true}).edges);
 }
 
-// What is looked at grows with the faces and not with their pairs.
-TEST(Crossings, LookAtFewPairs) {
+// The number of tested pairs grows with the number of faces, not with that of their pairs.
+TEST(Crossings, TestsFewPairs) {
   constexpr int kSide = 224;  // 100 352 faces
   Soup soup;
   for (int y = 0; y <= kSide; ++y)

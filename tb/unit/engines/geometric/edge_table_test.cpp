@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the geometric engine get the edges of each kind of mesh, and of broken ones a defined result
-// or a named error (docs/reference/geometric/index.md)?
+// The geometric engine gets the edges of each kind of mesh; an invalid mesh gives a defined result
+// or an error that names the cause (docs/reference/geometric/index.md).
 #include "tb/engines/geometric/edge_table.h"
 
 #include <fmt/core.h>
@@ -26,7 +26,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Face = std::array<int, 3>;
 
-// Every face with corners of its own and its face's normal, as after import of a file without any.
+// Every face has its own corners and normal, as after the import of a file without normals.
 Mesh flat_mesh(const std::vector<V3d>& points, const std::vector<Face>& faces) {
   Mesh mesh;
   mesh.name = "test";
@@ -55,7 +55,7 @@ std::vector<Face> cube_faces() {
           {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
 }
 
-// Two faces over the edge from (0, 0, 0) to (0, 1, 0), the second turned by `angle`.
+// Two faces that share the edge from (0, 0, 0) to (0, 1, 0), the second rotated by `angle`.
 Mesh hinge(double angle) {
   return flat_mesh(
       {V3d(0, 0, 0), V3d(0, 1, 0), V3d(-1, 0, 0), V3d(std::cos(angle), 0, -std::sin(angle))},
@@ -68,7 +68,7 @@ Edge hinge_edge(const EdgeTable& table) {
   return {};
 }
 
-TEST(EdgeTable, ACubeHasEighteenEdges) {
+TEST(EdgeTable, CubeHasEighteenEdges) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   EXPECT_EQ(table.vertices.size(), 8u);
   EXPECT_EQ(table.faces(), 12u);
@@ -88,7 +88,7 @@ TEST(EdgeTable, ACubeHasEighteenEdges) {
   EXPECT_EQ(table.boundaries + table.crowded + table.disagreeing, 0u);
 }
 
-TEST(EdgeTable, VerticesAreNumberedAsTheMeshListsThem) {
+TEST(EdgeTable, VerticesKeepTheOrderOfTheMesh) {
   Mesh mesh = flat_mesh({V3d(5, 0, 0), V3d(0, -0.0, 0), V3d(0, 1, 0), V3d(0, 0, 0)},
                         {{0, 1, 2}, {2, 3, 0}});
   const EdgeTable table = build_edge_table(mesh);
@@ -97,13 +97,13 @@ TEST(EdgeTable, VerticesAreNumberedAsTheMeshListsThem) {
   EXPECT_EQ(table.vertices[2], V3d(0, 1, 0));
 }
 
-TEST(EdgeTable, AnglesAreCreasesFromTheThresholdOn) {
+TEST(EdgeTable, AnglesAboveTheThresholdAreCreases) {
   const double threshold = std::acos(0.99);
   EXPECT_EQ(hinge_edge(build_edge_table(hinge(threshold - 1e-6))).flags & flag::kAngle, 0);
   EXPECT_NE(hinge_edge(build_edge_table(hinge(threshold + 1e-6))).flags & flag::kAngle, 0);
 }
 
-TEST(EdgeTable, SplitNormalsAreThoseOfEitherEnd) {
+TEST(EdgeTable, EitherEndCanSplitNormals) {
   Mesh mesh = hinge(0.0);
   EXPECT_EQ(hinge_edge(build_edge_table(mesh)).flags, 0);
   for (std::size_t corner = 0; corner < 6; ++corner) {
@@ -117,7 +117,7 @@ TEST(EdgeTable, SplitNormalsAreThoseOfEitherEnd) {
   }
 }
 
-TEST(EdgeTable, SeamsAreThoseOfWhatIsTextured) {
+TEST(EdgeTable, SeamsNeedATexture) {
   using spec::texture::Wrap;
   Mesh mesh = hinge(0.0);
   const auto moved = [&](double s, double t) {
@@ -146,8 +146,8 @@ TEST(EdgeTable, SeamsAreThoseOfWhatIsTextured) {
   EXPECT_EQ(moved(0.0, 0.0), flag::kSeam);
 }
 
-TEST(EdgeTable, MeshesThatAreNoSurfaceHaveBoundaries) {
-  // One face; two that pass the edge the same way; three over an edge.
+TEST(EdgeTable, NonManifoldMeshesHaveBoundaries) {
+  // One face; two faces that traverse the edge in the same direction; three faces at one edge.
   EdgeTable table = build_edge_table(flat_mesh(cube_points(), {{0, 2, 3}}));
   EXPECT_EQ(table.edges.size(), 3u);
   EXPECT_EQ(table.boundaries, 3u);
@@ -161,7 +161,7 @@ TEST(EdgeTable, MeshesThatAreNoSurfaceHaveBoundaries) {
   EXPECT_EQ(table.edges[0].f0, 0u);
 }
 
-TEST(EdgeTable, FacesThatAreNoneKeepTheirNumbers) {
+TEST(EdgeTable, DegenerateFacesKeepTheirNumbers) {
   std::vector<V3d> points = cube_points();
   points.push_back(V3d(kNan, 0, 0));
   points.push_back(V3d(0, kInfinity, 0));
@@ -173,12 +173,12 @@ TEST(EdgeTable, FacesThatAreNoneKeepTheirNumbers) {
   for (const Edge& edge : table.edges) EXPECT_EQ(edge.f0, 3u);
   const ScreenEdges screen = project_edges(table, {V3d(0, 0, 9), V3d(0, 0, 0)}, 64, 64);
   EXPECT_EQ(screen.faces, 4u);
-  EXPECT_EQ(screen.facing[0] & 7, 0);  // NaN and no area: turned away
+  EXPECT_EQ(screen.facing[0] & 7, 0);  // NaN and no area: back-facing
   EXPECT_EQ(screen.unusable, 2u);
   EXPECT_EQ(screen.clipped, 0u);
 }
 
-TEST(EdgeTable, RejectsByName) {
+TEST(EdgeTable, RejectsInvalidMeshesWithTheCause) {
   const auto rejected = [](const Mesh& mesh, const char* why) {
     EXPECT_THAT([&] { build_edge_table(mesh); },
                 testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(why)));
@@ -201,9 +201,9 @@ TEST(EdgeTable, RejectsByName) {
   rejected(mesh, "1048577 faces");
 }
 
-// A box of quadrilaterals without normals or coordinates, as a file. (Of a cube the projection has
-// whole repeats at every corner, and no seam.)
-TEST(EdgeTable, OfAnImportedMesh) {
+// A file with a box of quadrilaterals without normals or texture coordinates. (For a cube, the
+// projection repeats at every corner, which gives no seam.)
+TEST(EdgeTable, ImportedMeshHasCreasesAndSeams) {
   const test::TemporaryFolder folder;
   std::string obj;
   for (const V3d& p : cube_points()) obj += fmt::format("v {} {} {}\n", p.x, 0.83 * p.y, p.z);
@@ -215,7 +215,7 @@ TEST(EdgeTable, OfAnImportedMesh) {
     return count;
   };
   constexpr int kCrease = flag::kAngle | flag::kSplitNormals;
-  // Plain faces have creases alone; a texture projected onto them has seams there, too.
+  // Plain faces have only creases; a projected texture adds seams there.
   EXPECT_EQ(flags(load_scene(file, {.plain = true})), (std::map<int, int>{{0, 6}, {kCrease, 12}}));
   const std::map<int, int> textured = flags(load_scene(file));
   EXPECT_EQ(textured.at(0), 6);
@@ -224,9 +224,9 @@ TEST(EdgeTable, OfAnImportedMesh) {
 
 // ---- the frame ----------------------------------------------------------------------------------
 
-// An L of six corners, two units high, one more corner in the middle of a side of its caps: creases
-// around it, and diagonals without a flag.
-TEST(EdgeTable, DiagonalsOfAConcaveFaceAreNotSeen) {
+// An L of six corners, two units high, with one more corner in the middle of a side of its caps:
+// creases along its outline, and diagonals without a flag.
+TEST(EdgeTable, DiagonalsOfAConcaveFaceHaveNoFlag) {
   const test::TemporaryFolder folder;
   std::string text;
   for (const char* z : {"0", "2"})
@@ -242,11 +242,11 @@ TEST(EdgeTable, DiagonalsOfAConcaveFaceAreNotSeen) {
   EXPECT_EQ(table.boundaries, 0u);
   std::size_t plain = 0;
   for (const Edge& edge : table.edges) plain += edge.flags == 0 ? 1 : 0;
-  // Four diagonals of either cap, one of each side, and the line where two sides are in one plane.
+  // Four diagonals in each cap, one in each side, and the line between two sides in one plane.
   EXPECT_EQ(plain, 2u * 4 + 7 + 1);
 }
 
-TEST(ScreenEdges, FacingIsEquationOne) {
+TEST(ScreenEdges, FacingFollowsEquationOne) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   const Camera camera{V3d(3, 2.5, 5), V3d(0, 0, 0)};
   const ScreenEdges screen = project_edges(table, camera, 100, 80);
@@ -254,12 +254,12 @@ TEST(ScreenEdges, FacingIsEquationOne) {
   for (int f = 0; f < 12; ++f)
     front += screen.facing[static_cast<std::size_t>(f / 8)] >> (f % 8) & 1;
   EXPECT_EQ(front, 6);
-  // Seen edge on: the plane x = 1 from an eye in it.
+  // Edge-on: the plane x = 1 seen from an eye in this plane.
   const ScreenEdges edge_on = project_edges(table, {V3d(1, 0, 9), V3d(0, 0, 0)}, 100, 80);
   EXPECT_EQ(edge_on.facing[1] >> 2 & 3, 0);  // faces 10 and 11
 }
 
-TEST(ScreenEdges, VerticesAreSnappedAsTheRasteriserDoes) {
+TEST(ScreenEdges, VerticesSnapLikeTheRasteriser) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   Camera camera{V3d(0, 0, 5), V3d(0, 0, 0)};
   camera.fov_y = 1.5707963267948966;  // a pixel is 2 w / height
@@ -276,7 +276,8 @@ TEST(ScreenEdges, VerticesAreSnappedAsTheRasteriserDoes) {
   }
 }
 
-// A triangle with one corner behind the eye: the two edges to it are drawn up to the near plane.
+// A triangle with one corner behind the eye: the two edges to that corner are clipped at the near
+// plane.
 TEST(ScreenEdges, EdgesAreClippedToTheNearPlane) {
   const EdgeTable table =
       build_edge_table(flat_mesh({V3d(-1, 0, -3), V3d(1, 0, -3), V3d(0, -0.5, 1)}, {{0, 1, 2}}));
@@ -295,9 +296,9 @@ TEST(ScreenEdges, EdgesAreClippedToTheNearPlane) {
     const auto& end = screen.vertices[edge.v1];
     EXPECT_TRUE(end.usable);
     EXPECT_EQ(end.depth, 0xFFFFFFu);
-    EXPECT_LT(edge.v0, 2u);  // the end in front is not written again
+    EXPECT_LT(edge.v0, 2u);  // the end in front of the plane is not written again
   }
-  // The table stays as it was.
+  // The table is unchanged.
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(screen.edges[i], table.edges[i]);
 }
 
@@ -323,7 +324,7 @@ TEST(ScreenEdges, EdgesAreClippedToTheGuardBand) {
   EXPECT_TRUE(found);
 }
 
-TEST(ScreenEdges, WhatLiesWhollyBehindIsLeftOut) {
+TEST(ScreenEdges, EdgesBehindTheEyeAreOmitted) {
   const EdgeTable table = build_edge_table(flat_mesh(cube_points(), cube_faces()));
   const ScreenEdges screen = project_edges(table, {V3d(0, 0, -5), V3d(0, 0, -9)}, 64, 64);
   EXPECT_EQ(screen.unusable, 8u);

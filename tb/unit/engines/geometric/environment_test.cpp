@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What surrounds the geometric engine: several frames, and its use as a part.
-// Resets, stalls and errors of memory: figures_test.cpp and tb/system/geometric_stress_test.cpp.
+// The environment of the geometric engine: several frames, and its use as a part of a composition.
+// figures_test.cpp and tb/system/geometric_stress_test.cpp test resets, stalls and memory errors.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -23,7 +23,7 @@ geometric::Frame small_frame(EdgeOrder order = EdgeOrder::kTable) {
   return load_geometric_frame(p, 1, false).frame;
 }
 
-// Little room on the chip, so that weights come and go.
+// Small caches, so that weight blocks are written and read back.
 GeometricSetup small_setup() {
   GeometricSetup setup;
   setup.geometric.depth_lines = setup.geometric.vertex_lines = setup.geometric.weight_blocks =
@@ -57,8 +57,8 @@ Outcome run(const SimulationOptions& options, const GeometricSetup& setup, std::
   });
 }
 
-// Golden's bins of look-ups against the counters of the hardware.
-TEST(GeometricEnvironment, GoldenFetchesAsTheHardwareLooksUp) {
+// The golden model's lookup bins against the counters of the hardware.
+TEST(GeometricEnvironment, GoldenFetchesMatchHardwareLookups) {
   const std::vector<geometric::Frame> frames = {small_frame()};
   Simulation simulation({});
   GeometricEnvironment environment(simulation, frames, small_setup());
@@ -70,21 +70,21 @@ TEST(GeometricEnvironment, GoldenFetchesAsTheHardwareLooksUp) {
   const auto fetches = [&](const char* cache, const char* outcome) {
     return coverage.bins().at(std::string("geometric/fetch/") + cache + '/' + outcome);
   };
-  const auto ordered = [&](const char* cache) {
+  const auto requested = [&](const char* cache) {
     return fetches(cache, "miss") + fetches(cache, "replaced");
   };
-  EXPECT_EQ(ordered("vertex"), engine.vertex_fetch.misses.value());
-  EXPECT_EQ(ordered("vertex") + fetches("vertex", "hit"), engine.vertex_fetch.lookups.value());
+  EXPECT_EQ(requested("vertex"), engine.vertex_fetch.misses.value());
+  EXPECT_EQ(requested("vertex") + fetches("vertex", "hit"), engine.vertex_fetch.lookups.value());
   EXPECT_LT(engine.vertex_fetch.lookups.value(), 2 * engine.work().kept_edges)
       << "edges with both vertices in a line";
   EXPECT_GT(engine.vertex_fetch.lookups.value(), engine.work().kept_edges) << "and in two";
-  EXPECT_EQ(ordered("depth"), engine.depth_test.misses.value());
+  EXPECT_EQ(requested("depth"), engine.depth_test.misses.value());
   EXPECT_EQ(fetches("block", "miss") + fetches("block", "read-back"),
             engine.weight_combiner.misses.value());
   EXPECT_EQ(fetches("block", "read-back"), engine.weight_combiner.blocks_read.value());
 }
 
-TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
+TEST(GeometricEnvironment, ConsecutiveFramesBehaveAlike) {
   const Outcome one = run({}, small_setup()), three = run({}, small_setup(), 3);
   EXPECT_EQ(three.frames, 3u);
   EXPECT_EQ(three.cycles, 3 * one.cycles);
@@ -93,14 +93,14 @@ TEST(GeometricEnvironment, FramesInARowBeginAsTheyWereRendered) {
   EXPECT_EQ(three.comparisons - kAtTheEnd, 3 * (one.comparisons - kAtTheEnd));
 }
 
-TEST(GeometricEnvironment, TheOrderOfEdgesChangesNoPixel) {
+TEST(GeometricEnvironment, EdgeOrderChangesNoPixel) {
   const Outcome table = run({}, small_setup()),
                 shuffled = run({}, small_setup(), 1, EdgeOrder::kShuffled);
   EXPECT_EQ(shuffled.hash, table.hash);
   EXPECT_NE(shuffled.traffic, table.traffic);
 }
 
-TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRejected) {
+TEST(GeometricEnvironment, RejectsFramesWiderThanTheBuild) {
   const std::vector<geometric::Frame> frames = {small_frame()};
   GeometricSetup setup;
   setup.geometric.line_pixels = 64;
@@ -108,7 +108,7 @@ TEST(GeometricEnvironment, WhatTheEngineDoesNotTakeIsRejected) {
   EXPECT_THROW(GeometricEnvironment(simulation, frames, setup), spec::ConfigError);
 }
 
-// A part that gets its colours from elsewhere: here a row of pixels every few cycles.
+// A part that gets its colours from elsewhere: here one row of pixels every ten cycles.
 class Painted final : public Environment {
  public:
   Painted(Simulation& simulation, std::span<const geometric::Frame> frames,
@@ -165,7 +165,7 @@ class Painted final : public Environment {
   rtl::Cycle next_ = 0;
 };
 
-TEST(GeometricEnvironment, IsAPartOfAComposition) {
+TEST(GeometricEnvironment, WorksAsPartOfAComposition) {
   const Outcome alone = run({}, small_setup());
   for (const rtl::Cycle reset_after : {0u, 300u, 1500u}) {
     const Outcome part = forked<Outcome>([&] {

@@ -29,7 +29,7 @@ const std::vector<Frame>& frames() {
   return all;
 }
 
-// Two builds that have, together, every part that is counted.
+// Builds that together contain every part with counters.
 GeometricSetup plain() {
   GeometricSetup setup;
   setup.geometric.depth_lines = setup.geometric.vertex_lines = setup.geometric.weight_blocks =
@@ -59,9 +59,11 @@ const std::vector<GeometricSetup>& setups() {
   static const std::vector<GeometricSetup> all = {plain(), saving(), copying()};
   return all;
 }
-// Whose turn it is at the port stays from frame to frame: cycles that a copy may differ by for each
-// frame.
-double cycles_of_turns(const GeometricSetup& setup) { return setup.geometric.frame_copy ? 2 : 0; }
+// The arbiter's turn carries over from frame to frame: cycles by which each frame with a copy may
+// differ.
+double arbitration_cycles(const GeometricSetup& setup) {
+  return setup.geometric.frame_copy ? 2 : 0;
+}
 
 struct Options : SimulationOptions {
   Options() {
@@ -70,12 +72,12 @@ struct Options : SimulationOptions {
   }
 };
 
-// Figures, maps, and what the environment says of itself.
-Json run(const std::vector<Frame>& of, const GeometricSetup& setup,
+// Figures, maps, and the data that the environment reports.
+Json run(const std::vector<Frame>& sequence, const GeometricSetup& setup,
          const SimulationOptions& options = Options()) {
   return Json::parse(forked_text([&] {
     Simulation simulation(options);
-    GeometricEnvironment environment(simulation, of, setup);
+    GeometricEnvironment environment(simulation, sequence, setup);
     simulation.elaborate(environment);
     std::string error;
     try {
@@ -91,7 +93,7 @@ Json run(const std::vector<Frame>& of, const GeometricSetup& setup,
     json["amount"] = {amount.delivered, amount.taken, amount.total, std::string(amount.unit)};
     json["hash"] = environment.pixel_hash();
     json["bound"] = environment.meter().frame_cycles_bound();
-    // Lines of memory by region, as golden asked for them in the last frame.
+    // Memory lines by region that the golden model requested in the last frame.
     const golden::geometric::Traffic& traffic = environment.golden_model().traffic();
     for (std::size_t i = 0; i < traffic.reads.size(); ++i) {
       json["golden_reads"][std::string(spec::geometric::kRegionNames[i])] = traffic.reads[i].size();
@@ -110,8 +112,8 @@ std::vector<Json> each_alone(const GeometricSetup& setup) {
 }
 
 const SeveralFrames kFigures = {
-    .of_the_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
-                    "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
+    .from_last = {"edge_cycles", "resolve_cycles", "frame_cycles", "frame_sequencer_frame_cycles",
+                  "frame_sequencer_edge_cycles", "frame_sequencer_resolve_cycles"},
     .largest = {"memory_port_max_outstanding"},
     .by_formula = {"bytes_per_blended_pixel", "frame_bytes_per_blended_pixel", "columns_per_cycle",
                    "vertex_hits_percent", "depth_hits_percent", "weight_hits_percent",
@@ -137,7 +139,7 @@ void expect_formulas(const Json& r, const std::vector<Json>& alone, double divid
                           w("lines_read_colour") + w("lines_read_copy")) +
                     number_at(r, "/memory/bytes_written")) /
                        w("resolver_blended_pixels"));
-  // Exactly the cycles that ran; those alone differ from them by turns.
+  // The cycles of this run; the sum of separate runs differs from them by arbitration.
   const double cycles = number_at(r, "/cycles"),
                edge_cycles = cycles - sum_of(alone, "/work/resolve_cycles");
   EXPECT_DOUBLE_EQ(w("divider_occupancy_percent"),
@@ -155,11 +157,11 @@ void expect_formulas(const Json& r, const std::vector<Json>& alone, double divid
   EXPECT_LE(w("frame_cycles_bound"), cycles / 3);
 }
 
-TEST(GeometricFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
+TEST(GeometricFigures, ThreeFramesGiveSumsRatiosOrLastValues) {
   for (const GeometricSetup& setup : setups()) {
     const std::vector<Json> alone = each_alone(setup);
     const Json all = run(frames(), setup);
-    expect_sums(all, alone, kFigures, cycles_of_turns(setup));
+    expect_sums(all, alone, kFigures, arbitration_cycles(setup));
     expect_formulas(all, alone, setup.geometric.pipelined ? 13 : 2);
     EXPECT_EQ(all["latency"]["min"],
               std::min({number_at(alone[0], "/latency/min"), number_at(alone[1], "/latency/min"),
@@ -195,8 +197,8 @@ TEST(GeometricFigures, OfThreeFramesAreSumsRatiosOfSumsOrOfTheLast) {
   }
 }
 
-// docs/reference/coverage.md: bins of the hardware are what its units count, and none of a part
-// that is not there is hit.
+// docs/reference/coverage.md: hardware bins equal the counters of the units, and no bin of an
+// unbuilt part is hit.
 void expect_bins(const Json& r, const GeometricSetup& setup) {
   const auto w = [&](const std::string& name) {
     return r["work"].contains(name) ? work(r, name) : 0;
@@ -221,7 +223,8 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
   EXPECT_EQ(bin("block/replaced"), w("weight_combiner_blocks_written"));
   EXPECT_EQ(bin("block/read-back"), read_back);
   EXPECT_EQ(bin("block/waited-for"), r["units"]["weight_combiner"]["stalls"]["spill"]);
-  // Each frame ends with the buffer full or not; what came to an empty place is there or has left.
+  // Each frame ends with the buffer full or not. A block put into an empty entry is still there or
+  // has left.
   const bool buffered = setup.geometric.write_buffer > 0;
   EXPECT_EQ(bin("write-buffer/hit"), w("weight_combiner_buffer_hits"));
   EXPECT_EQ(bin("write-buffer/empty") + bin("write-buffer/leaves"),
@@ -242,7 +245,7 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
   EXPECT_EQ(lines, w("depth_test_lookups"));
   EXPECT_GT(groups, 0);
   EXPECT_EQ(bin("group-lines/raster/"), 0);
-  // The hardware's screen drops what golden's does.
+  // The DepthScreen drops the same candidates as the golden model.
   constexpr std::pair<const char*, const char*> kScreens[] = {
       {"dropped-up", "top/dropped"},        {"dropped-down", "bottom/dropped"},
       {"dropped-left", "left/dropped"},     {"dropped-right", "right/dropped"},
@@ -258,7 +261,7 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
     }
 }
 
-TEST(GeometricFigures, BinsOfTheHardwareAreWhatItsUnitsCount) {
+TEST(GeometricFigures, HardwareBinsEqualTheCounters) {
   std::vector<GeometricSetup> all = setups();
   for (const int blocks : {2, 128}) {
     all.push_back(saving());
@@ -267,8 +270,9 @@ TEST(GeometricFigures, BinsOfTheHardwareAreWhatItsUnitsCount) {
   for (const GeometricSetup& setup : all) expect_bins(run(frames(), setup), setup);
 }
 
-// A buffer in which every block of a frame has a place is full where it has no place more.
-TEST(GeometricFigures, AWriteBufferIsFullAtTheEndWithoutAPlaceLeft) {
+// A buffer that holds exactly the blocks of a frame is full at the end; one with another entry is
+// not.
+TEST(GeometricFigures, WriteBufferIsFullAtTheEndWithoutFreeEntry) {
   const Frame& frame = frames()[2];
   const auto bin = [&](int blocks, const std::string& name) {
     GeometricSetup setup = saving();
@@ -284,8 +288,8 @@ TEST(GeometricFigures, AWriteBufferIsFullAtTheEndWithoutAPlaceLeft) {
   }
 }
 
-// What the units count, against the addresses that the golden model asked for.
-TEST(GeometricFigures, LinesOfEachRegionAreThoseThatGoldenAskedFor) {
+// The units' counters against the addresses that the golden model requested.
+TEST(GeometricFigures, LinesPerRegionMatchGolden) {
   for (const GeometricSetup& setup : setups())
     for (const Json& one : each_alone(setup)) {
       double reads = 0;
@@ -304,7 +308,8 @@ TEST(GeometricFigures, LinesOfEachRegionAreThoseThatGoldenAskedFor) {
     }
 }
 
-// docs/reference/geometric/hardware.md: what each part needs at least, of which the slowest counts.
+// docs/reference/geometric/hardware.md: minimum cycles of each part; the slowest part gives the
+// bound.
 double bound_of(const Json& r, const Frame& frame, const GeometricSetup& setup, double times) {
   const auto w = [&](const std::string& name) {
     return r["work"].contains(name) ? work(r, name) : 0;
@@ -334,14 +339,14 @@ double bound_of(const Json& r, const Frame& frame, const GeometricSetup& setup, 
   return std::floor((begin * times + edges + resolve) / times);
 }
 
-TEST(GeometricFigures, BoundIsThatOfTheSlowestPartOfEachPhase) {
-  // A tall frame of one edge, of which nothing is seen: its line, and that of its vertices.
+TEST(GeometricFigures, BoundFollowsTheSlowestPartOfEachPhase) {
+  // A tall frame with one invisible edge: one line of edges and one of vertices.
   Frame empty = frames()[2];
   empty.image = Image(8, 400);
   empty.depths.assign(8 * 400, 0);
   empty.screen.edges.resize(1);
   empty.screen.edges[0].v1 = empty.screen.edges[0].v0;
-  Frame many = empty;  // edges that nobody draws
+  Frame many = empty;  // edges that are not drawn
   many.screen.edges.assign(3001, empty.screen.edges[0]);
   GeometricSetup edges_alone = plain();
   edges_alone.geometric.select = spec::geometric::Select::kAll;
@@ -361,8 +366,8 @@ TEST(GeometricFigures, BoundIsThatOfTheSlowestPartOfEachPhase) {
       }
 }
 
-// The bound is of a frame, however often it comes.
-TEST(GeometricFigures, OfOneFrameThreeTimesAreThoseOfTheFrame) {
+// The bound holds per frame, for any number of repetitions.
+TEST(GeometricFigures, RepeatedFrameKeepsItsFigures) {
   for (GeometricSetup setup : setups())
     for (const auto select : {spec::geometric::Select::kAll, spec::geometric::Select::kEdges}) {
       setup.geometric.select = select;
@@ -378,12 +383,12 @@ TEST(GeometricFigures, OfOneFrameThreeTimesAreThoseOfTheFrame) {
       EXPECT_NEAR(number_at(three, "/throughput/value") / number_at(one, "/throughput/value"), 1,
                   1e-3);
       EXPECT_NEAR(number_at(three, "/cycles"), 3 * number_at(one, "/cycles"),
-                  3 * cycles_of_turns(setup));
+                  3 * arbitration_cycles(setup));
     }
 }
 
-// One frame's maps must come to what was counted; those of several show the last.
-TEST(GeometricFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
+// Maps of one frame must add up to its counters; those of several frames show the last.
+TEST(GeometricFigures, MapsAndHistoryShowLastFrame) {
   Options options;
   options.maps = true;
   options.pixel = PixelAddress{26, 20};
@@ -397,8 +402,8 @@ TEST(GeometricFigures, MapsAndHistoryAreThoseOfTheLastFrame) {
   }
 }
 
-// Of a frame that was broken off nothing is taken from the one before.
-TEST(GeometricFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
+// An aborted frame takes nothing from the previous one.
+TEST(GeometricFigures, HistoryOfAbortedFrameIsItsOwn) {
   Options options;
   options.pixel = PixelAddress{26, 20};
   const std::vector<Frame> two = {frames()[1], frames()[0]};
@@ -409,7 +414,7 @@ TEST(GeometricFigures, AHistoryOfAFrameThatIsBrokenOffIsItsOwn) {
   EXPECT_EQ(without_cycles(run(two, plain(), options)["pixel"]), without_cycles(alone["pixel"]));
 }
 
-TEST(GeometricFigures, AResetInTheFirstOfTwoFramesChangesNoFigure) {
+TEST(GeometricFigures, ResetInFirstFrameChangesNoFigure) {
   const std::vector<Frame> two = {frames()[2], frames()[0]};
   for (const GeometricSetup& setup : setups()) {
     Options options;
@@ -420,17 +425,17 @@ TEST(GeometricFigures, AResetInTheFirstOfTwoFramesChangesNoFigure) {
       Json again = run(two, setup, options);
       for (const char* const key : {"checks", "scoreboards"}) again[key] = whole[key];
       for (const auto& [name, unit] : whole["units"].items())
-        again["units"][name]["idle"] = unit["idle"];  // while memory was drained, too
+        again["units"][name]["idle"] = unit["idle"];  // includes draining memory
       EXPECT_EQ(Json::diff(whole, again), Json::array()) << at;
     }
   }
 }
 
-std::uint64_t errors_of(const std::vector<Frame>& of, GeometricSetup setup, std::int64_t from,
+std::uint64_t errors_of(const std::vector<Frame>& sequence, GeometricSetup setup, std::int64_t from,
                         std::int64_t bytes) {
   setup.memory.error_address = from;
   setup.memory.error_bytes = bytes;
-  const Json r = run(of, setup);
+  const Json r = run(sequence, setup);
   EXPECT_EQ(number_at(r, "/checks/mismatches"), 0);
   const std::string error = r["error"];
   EXPECT_TRUE(error.empty() || error.starts_with("memory answered ")) << error;
@@ -442,14 +447,14 @@ std::uint64_t errors_of(const std::vector<Frame>& of, GeometricSetup setup, std:
   return error.empty() ? 0 : std::stoull(error.substr(sizeof "memory answered " - 1));
 }
 
-// Lines at the end of a region are those of the largest frame alone: it has the errors, wherever it
-// comes among the others, and STATUS and MEMORY_ERRORS keep them to the end.
+// Lines at the end of a region belong only to the largest frame: it has the errors, at any position
+// among the others, and STATUS and MEMORY_ERRORS keep them to the end.
 TEST(GeometricFigures, ErrorsOfOneFrameOfThreeAreExpected) {
   for (const GeometricSetup& setup : setups()) {
     const Frame &large = frames()[0], &small = frames()[2];
     const std::vector<Frame> both = {large, small};
     const platform::GeometricRegions regions = regions_of(both, setup.geometric);
-    // 12 x 8 tiles of the large one, 7 x 5 of the small one.
+    // 12 x 8 tiles in the large frame, 7 x 5 in the small one.
     const auto middle = static_cast<std::int64_t>(regions.base(Region::kDepth)) + 64 * 256;
     const std::uint64_t once = errors_of(both, setup, middle, 2048);
     EXPECT_GT(once, 2u);
@@ -458,7 +463,7 @@ TEST(GeometricFigures, ErrorsOfOneFrameOfThreeAreExpected) {
           std::vector{small, small, large}})
       EXPECT_EQ(errors_of(order, setup, middle, 2048), once);
     EXPECT_EQ(errors_of({large, small, large}, setup, middle, 2048), 2 * once);
-    // Of a line that is read one byte: it fails whole.
+    // An error in one byte of a line fails the whole line.
     golden::geometric::GeometricGolden golden(setup.geometric);
     golden.process(large.input());
     const std::int64_t line =
@@ -469,8 +474,8 @@ TEST(GeometricFigures, ErrorsOfOneFrameOfThreeAreExpected) {
   }
 }
 
-// STATUS says that one of the frames had an invalid edge, whichever; only its own face and vertex
-// numbers make one.
+// STATUS reports that one of the frames had an invalid edge, at any position. Each frame's edges
+// are checked against its own face and vertex counts.
 TEST(GeometricFigures, InvalidEdgesOfOneFrameOfThreeAreExpected) {
   Frame invalid = frames()[2];
   invalid.screen.edges[5].f0 = invalid.screen.faces;

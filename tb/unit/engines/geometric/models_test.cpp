@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Are the models for the geometric engine what docs/reference/scenes.md says, and is their light
-// Phong's?
+// The models for the geometric engine match docs/reference/scenes.md, and their light is Phong's.
 #include "tb/scene/models.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +27,7 @@ const Model kModels[] = {
     {"wing", add_wing, 16640, 24960, 0, 320},   {"canopy", add_canopy, 1472, 2232, 48, 0},
     {"sphere", add_sphere, 16128, 24192, 0, 0}, {"terrain", add_terrain, 4608, 7008, 192, 0}};
 
-TEST(Models, AreSurfacesWithTheseEdges) {
+TEST(Models, EachModelHasItsFacesAndEdges) {
   for (const Model& model : kModels) {
     Mesh mesh;
     mesh.name = model.name;
@@ -43,7 +42,7 @@ TEST(Models, AreSurfacesWithTheseEdges) {
     constexpr std::uint8_t kCrease = flag::kAngle | flag::kSplitNormals;
     for (const auto& edge : table.edges) creases += (edge.flags & kCrease) == kCrease ? 1 : 0;
     EXPECT_EQ(creases, model.creases) << model.name;
-    // Normals are of unit length and on the side from which corners run counter-clockwise.
+    // Normals have unit length and point to the side from which corners run counter-clockwise.
     double volume = 0.0;
     for (const Triangle& triangle : mesh.triangles) {
       const V3d &a = mesh.vertices[triangle.vertex[0]].position,
@@ -62,7 +61,7 @@ TEST(Models, AreSurfacesWithTheseEdges) {
   }
 }
 
-TEST(Models, ASphereIsRound) {
+TEST(Models, SphereIsRound) {
   Mesh mesh;
   add_sphere(mesh, 0);
   for (const Vertex& vertex : mesh.vertices) {
@@ -113,8 +112,9 @@ TEST(Phong, DeferredAndDirectLightAreTheSame) {
   }
 }
 
-// A white wall seen straight on, lit from the eye: ambient + key, and a highlight in the middle.
-TEST(Phong, HasAHighlightWhereTheMirrorShowsTheLight) {
+// A white wall seen from the front and lit from the eye: ambient + key, and a highlight in the
+// middle.
+TEST(Phong, HighlightLiesInTheMirrorDirection) {
   test::FlatScreen screen(64);
   screen.rectangle(0, 0, 64, 64);
   Scene& scene = screen.scene();
@@ -133,7 +133,7 @@ TEST(Phong, HasAHighlightWhereTheMirrorShowsTheLight) {
   EXPECT_GT(image.at(32, 32)[0], image.at(0, 0)[0] + 50);
 }
 
-TEST(Phong, SuperAndMultisamplingUseIt) {
+TEST(Phong, SuperAndMultisamplingUsePhong) {
   const Scene scene = make_scene("sphere");
   const LitFrames frames = render_lit_frames(scene, 128, 96, 8, nullptr, Shading::kPhong);
   const Image msaa = render_msaa4(scene, 128, 96, Shading::kPhong);

@@ -42,10 +42,10 @@ TEST(MorphologicalChecks, EachBeatHasItsPixelsAndSignals) {
   setup.morphological.lanes = spec::morphological::Lanes::kFour;
   const MorphologicalInput frame{Image(10, 3), {}};
   const auto wrong = [&](std::size_t position, std::size_t left,
-                         const spec::morphological::BlendedBeat& came) {
+                         const spec::morphological::BlendedBeat& received) {
     MorphologicalChecks checks(setup, true);
     checks.begin(frame);
-    checks.got_frame(7, position, left, came);
+    checks.got_frame(7, position, left, received);
     EXPECT_EQ(checks.pixels.mismatches(), checks.pixels.differences().size());
     return checks.pixels.differences().empty() ? "" : checks.pixels.differences()[0].item;
   };

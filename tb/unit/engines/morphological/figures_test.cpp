@@ -58,11 +58,11 @@ struct Options : SimulationOptions {
   }
 };
 
-Json run(const std::vector<MorphologicalInput>& of, const MorphologicalSetup& setup,
+Json run(const std::vector<MorphologicalInput>& input, const MorphologicalSetup& setup,
          const SimulationOptions& options = Options()) {
   return Json::parse(forked_text([&] {
     Simulation simulation(options);
-    MorphologicalEnvironment environment(simulation, of, setup);
+    MorphologicalEnvironment environment(simulation, input, setup);
     simulation.elaborate(environment);
     std::string error;
     try {
@@ -93,17 +93,17 @@ std::vector<Json> each_alone(const MorphologicalSetup& setup) {
 }
 
 const SeveralFrames kFigures = {
-    .of_the_last = {"frame_cycles", "frame_cycles_by_formula", "latency_by_formula",
-                    "slot_sequencer_frame_cycles"},
+    .from_last = {"frame_cycles", "frame_cycles_by_formula", "latency_by_formula",
+                  "slot_sequencer_frame_cycles"},
     .largest = {"memory_port_max_outstanding"},
     .by_formula = {"edge_pixels_percent", "blended_pixels_percent", "line_unit_h_occupancy_percent",
                    "line_unit_v_occupancy_percent", "input_pixels_per_cycle",
                    "memory_bytes_per_pixel", "frame_rate", "clock_for_1080p60",
                    "pixel_clock_of_1080p60", "fits_1080p60"}};
 
-double area(const std::vector<MorphologicalInput>& of) {
+double area(const std::vector<MorphologicalInput>& input) {
   double all = 0;
-  for (const MorphologicalInput& frame : of) all += frame.image.width * frame.image.height;
+  for (const MorphologicalInput& frame : input) all += frame.image.width * frame.image.height;
   return all;
 }
 
@@ -185,7 +185,7 @@ TEST(MorphologicalFigures, ThreeFramesGiveSumsRatiosOrLastValues) {
     EXPECT_EQ(number_at(all, "/memory/lines_filled"), lines);
     EXPECT_EQ(number_at(all, "/checks/traffic_comparisons"), 2 * lines);
     EXPECT_EQ(number_at(all, "/memory/bytes_read"), 64 * lines);
-    // Every record of each frame is compared.
+    // Every run and line of each frame is compared.
     EXPECT_EQ(
         number_at(all, "/scoreboards/runs/comparisons"),
         work(all, "run_extractor_horizontal_runs") + work(all, "run_extractor_vertical_runs"));
@@ -324,12 +324,12 @@ TEST(MorphologicalFigures, ResetInFirstFrameChangesNoFigure) {
   }
 }
 
-std::uint64_t errors_of(const std::vector<MorphologicalInput>& of, std::int64_t from,
+std::uint64_t errors_of(const std::vector<MorphologicalInput>& input, std::int64_t from,
                         std::int64_t bytes) {
   MorphologicalSetup setup = in_memory();
   setup.memory.error_address = from;
   setup.memory.error_bytes = bytes;
-  const Json r = run(of, setup);
+  const Json r = run(input, setup);
   EXPECT_EQ(number_at(r, "/checks/mismatches"), 0);
   EXPECT_EQ(work(r, "pixel_store_memory_errors"), work(r, "memory_port_errors"));
   const std::string error = r["error"];

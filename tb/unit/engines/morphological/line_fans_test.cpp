@@ -54,8 +54,8 @@ TEST(Fans, UnsmoothedFansMatchContract) {
   EXPECT_EQ(turned.by_class, few.by_class);
   EXPECT_EQ(turned.undulation, few.undulation);
   EXPECT_EQ(turned.jump, few.jump);
-  // All white: the error is what the line leaves uncovered, in each column at least half of its
-  // crossing.
+  // All white: the error is the part that the line does not cover, at least half of its crossing in
+  // each column.
   const FanFigures white = stimuli::measure_fans(
       [](const Image& image) {
         return Image(image.width, image.height, {255, 255, 255, 255});

@@ -36,7 +36,7 @@ TEST(TextureCounterparts, RejectUnknownUnits) {
 
 TEST(TextureCounterparts, UnavailableInProgramWithoutThem) {
   EXPECT_FALSE(texture_counterparts({}, {}, 1));
-  EXPECT_FALSE(texture_counterparts_there_are({}, 1));
+  EXPECT_FALSE(available_texture_counterparts({}, 1));
   EXPECT_THROW(texture_counterparts({"cache"}, {}, 1), spec::ConfigError);
 }
 

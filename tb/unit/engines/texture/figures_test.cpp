@@ -15,7 +15,7 @@
 namespace deburr::tb::figures_test {
 namespace {
 
-// Not square, with more fragments than pixels.
+// A non-square frame with more fragments than pixels.
 const TextureScene& scene(spec::texture::Format format = spec::texture::Format::kRgba8) {
   static std::map<spec::texture::Format, TextureScene> all;
   if (const auto found = all.find(format); found != all.end()) return found->second;
@@ -71,7 +71,7 @@ Json run(const TextureScene& of, const TextureSetup& setup, const SimulationOpti
     for (const Rgba8& pixel : environment.frame().pixels) colours.push_back(pixel);
     Json& golden = json["golden"] = Json::array();
     for (const Rgba8& pixel : environment.golden_frame().pixels) golden.push_back(pixel);
-    json["came"] = environment.came();
+    json["came"] = environment.received();
     json["magnified"] = environment.golden_work().magnified;
     json["by_samples"] = environment.golden_work().by_samples;
     return json.dump();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every engine of the C interface has: parameters as the command takes them, presets, counters
-// by name, errors that say what was wrong and change nothing.
+// Functions that every engine of the C interface has: parameters as in the command, presets,
+// counters by name, and errors that name the cause and change nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,13 +20,13 @@ namespace deburr::calls_test {
 namespace {
 
 using tb::c::error_of;
+using tb::c::expect_ok;
 using tb::c::expect_rejected;
-using tb::c::expect_taken;
 using tb::c::Handle;
 using tb::c::names_of;
 using tb::c::value_of;
 
-// Texts for a parameter, of which the command takes some.
+// Valid and invalid texts for a parameter.
 std::vector<std::string> texts_for(const tb::Parameter& parameter) {
   std::vector<std::string> texts = {parameter.default_value,
                                     "",
@@ -59,7 +59,7 @@ std::vector<std::string> texts_for(const tb::Parameter& parameter) {
   return texts;
 }
 
-TEST(Parameters, AreTakenAsTheCommandTakesThem) {
+TEST(Parameters, AcceptSameTextsAsCommand) {
   tb::EngineParameters parameters;
   tb::ParameterSet set;
   parameters.add_to(set);
@@ -67,36 +67,36 @@ TEST(Parameters, AreTakenAsTheCommandTakesThem) {
     const Handle names(make());
     const std::string prefix = std::string(deburr_engine(names.get())) + ".";
     std::vector<std::string> expected;
-    std::size_t taken = 0, rejected = 0;
+    std::size_t accepted = 0, rejected = 0;
     for (const tb::Parameter& parameter : set.all()) {
       if (!parameter.name.starts_with(prefix)) continue;
       expected.push_back(parameter.name.substr(prefix.size()));
       for (const std::string& text : texts_for(parameter)) {
         const Handle handle(make());
         parameters = {};
-        std::string complaint;
+        std::string message;
         try {
           set.set(parameter.name, text, "test");
         } catch (const spec::ConfigError& error) {
-          complaint = error.what();
+          message = error.what();
         }
         const std::string shown = parameter.name + " = '" + text + "'";
         const int status = deburr_set(handle.get(), parameter.name.c_str(), text.c_str());
-        if (complaint.empty()) {
-          ++taken;
+        if (message.empty()) {
+          ++accepted;
           EXPECT_EQ(status, DEBURR_OK) << shown << ": " << error_of(handle.get(), status);
           EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.text()) << shown;
         } else {
           ++rejected;
-          EXPECT_EQ(status, DEBURR_ARGUMENT) << shown << ": " << complaint;
+          EXPECT_EQ(status, DEBURR_ARGUMENT) << shown << ": " << message;
           EXPECT_EQ(value_of(handle.get(), parameter.name), parameter.default_value) << shown;
         }
       }
     }
     EXPECT_FALSE(expected.empty()) << prefix;
     EXPECT_EQ(names_of(names.get()), expected);
-    // Two values of each at least, and none of three texts that are no value.
-    EXPECT_GE(taken, 2 * expected.size()) << prefix;
+    // On average at least two texts per parameter are accepted and three rejected.
+    EXPECT_GE(accepted, 2 * expected.size()) << prefix;
     EXPECT_GE(rejected, 3 * expected.size()) << prefix;
   }
 }
@@ -107,18 +107,18 @@ void expect_values(deburr_golden* golden, const Parameters& expected) {
     EXPECT_EQ(value_of(golden, name), spec::value_text(expected, name)) << name;
 }
 
-TEST(Parameters, PresetsGiveWayToWhatIsSetByNameInWhateverOrder) {
+TEST(Parameters, NamedValuesOverridePresetInAnyOrder) {
   for (std::size_t i = 0; i < spec::texture::kPresetNames.size(); ++i) {
     const Handle handle(deburr_texture_new());
-    expect_taken(handle, deburr_set(handle.get(), "preset",
-                                    std::string(spec::texture::kPresetNames[i]).c_str()));
+    expect_ok(handle, deburr_set(handle.get(), "preset",
+                                 std::string(spec::texture::kPresetNames[i]).c_str()));
     expect_values(handle.get(),
                   spec::texture::preset_parameters(static_cast<spec::texture::Preset>(i)));
   }
   for (std::size_t i = 0; i < spec::geometric::kPresetNames.size(); ++i) {
     const Handle handle(deburr_geometric_new());
-    expect_taken(handle, deburr_set(handle.get(), "preset",
-                                    std::string(spec::geometric::kPresetNames[i]).c_str()));
+    expect_ok(handle, deburr_set(handle.get(), "preset",
+                                 std::string(spec::geometric::kPresetNames[i]).c_str()));
     expect_values(handle.get(),
                   spec::geometric::preset_parameters(static_cast<spec::geometric::Preset>(i)));
   }
@@ -133,37 +133,37 @@ TEST(Parameters, PresetsGiveWayToWhatIsSetByNameInWhateverOrder) {
   expected.search_steps = 5;
   for (std::size_t first = 0; first < settings.size(); ++first) {
     const Handle handle(deburr_morphological_new());
-    // Another value of the same name before counts for nothing.
-    expect_taken(handle, deburr_set(handle.get(), "preset", "mlaa-slope"));
+    // The last value of a parameter applies.
+    expect_ok(handle, deburr_set(handle.get(), "preset", "mlaa-slope"));
     for (std::size_t i = 0; i < settings.size(); ++i) {
       const auto& [name, text] = settings[(first + i) % settings.size()];
-      expect_taken(handle, deburr_set(handle.get(), name, text));
+      expect_ok(handle, deburr_set(handle.get(), name, text));
     }
     expect_values(handle.get(), expected);
   }
 }
 
-TEST(Parameters, CheckSaysWhatCannotBeBuiltInTheWordsOfTheCommand) {
+TEST(Parameters, CheckReportsBuildLimitsLikeCommand) {
   const Handle handle(deburr_texture_new());
-  expect_taken(handle, deburr_check(handle.get()));
-  expect_taken(handle, deburr_set(handle.get(), "cache.ways", "3"));
+  expect_ok(handle, deburr_check(handle.get()));
+  expect_ok(handle, deburr_set(handle.get(), "cache.ways", "3"));
   expect_rejected(handle, "deburr_check: texture.cache.ways = 3: must be a power of two",
                   deburr_check(handle.get()), DEBURR_CONFIGURATION);
   const std::int32_t s[4] = {};
   std::uint8_t rgba[16];
   expect_rejected(handle, "must be a power of two",
                   deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba), DEBURR_CONFIGURATION);
-  expect_taken(handle, deburr_set(handle.get(), "cache.ways", "4"));
-  expect_taken(handle, deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
+  expect_ok(handle, deburr_set(handle.get(), "cache.ways", "4"));
+  expect_ok(handle, deburr_texture_quad(handle.get(), 0, 15, 0, s, s, rgba));
 }
 
-TEST(Parameters, AreCheckedOfEveryEngine) {
-  const Handle smoother(deburr_morphological_new()), drawn(deburr_geometric_new());
-  expect_taken(smoother, deburr_set(smoother.get(), "window_rows", "11"));
-  expect_rejected(smoother, "must be an even number of rows", deburr_check(smoother.get()),
-                  DEBURR_CONFIGURATION);
-  expect_taken(drawn, deburr_set(drawn.get(), "face_limit", "8193"));
-  expect_rejected(drawn, "must be a multiple of 512", deburr_check(drawn.get()),
+TEST(Parameters, CheckCoversEveryEngine) {
+  const Handle morphological(deburr_morphological_new()), geometric(deburr_geometric_new());
+  expect_ok(morphological, deburr_set(morphological.get(), "window_rows", "11"));
+  expect_rejected(morphological, "must be an even number of rows",
+                  deburr_check(morphological.get()), DEBURR_CONFIGURATION);
+  expect_ok(geometric, deburr_set(geometric.get(), "face_limit", "8193"));
+  expect_rejected(geometric, "must be a multiple of 512", deburr_check(geometric.get()),
                   DEBURR_CONFIGURATION);
 }
 
@@ -218,7 +218,7 @@ TEST(Calls, NullHandlesAreErrors) {
   EXPECT_STREQ(deburr_engine(nullptr), "");
 }
 
-TEST(Calls, NullTextsAndNumbersAreErrors) {
+TEST(Calls, NullArgumentsAreErrors) {
   for (const golden::c::MakeHandle make : golden::c::kMakeHandle) {
     const Handle owner(make());
     deburr_golden* const golden = owner.get();
@@ -240,20 +240,20 @@ TEST(Calls, NullTextsAndNumbersAreErrors) {
   }
 }
 
-TEST(Calls, TextsThatDoNotFitSayHowLongTheyAre) {
+TEST(Calls, ShortTextBufferErrorGivesNeededSize) {
   const Handle handle(deburr_texture_new());
   char text[8] = "before";
-  // "deburr" and its zero.
+  // "deburr" and its terminating zero.
   expect_rejected(handle, "the text needs 7 bytes; text_size is 6",
                   deburr_get(handle.get(), "preset", text, 6));
   EXPECT_STREQ(text, "before");
   expect_rejected(handle, "the text needs 7 bytes; text_size is 0",
                   deburr_get(handle.get(), "preset", text, 0));
-  expect_taken(handle, deburr_get(handle.get(), "preset", text, 7));
+  expect_ok(handle, deburr_get(handle.get(), "preset", text, 7));
   EXPECT_STREQ(text, "deburr");
 }
 
-TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
+TEST(Calls, UnknownNameErrorListsKnownNames) {
   for (const golden::c::MakeHandle make : golden::c::kMakeHandle) {
     const Handle handle(make());
     const std::string engine = deburr_engine(handle.get());
@@ -264,16 +264,16 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
       EXPECT_EQ(deburr_set(handle.get(), name, "deburr"), DEBURR_ARGUMENT) << name;
     EXPECT_EQ(deburr_set(handle.get(), (engine + ".preset").c_str(), "deburr"), DEBURR_OK);
     char first[64];
-    expect_taken(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
+    expect_ok(handle, deburr_counter_name(handle.get(), 0, first, sizeof first));
     expect_rejected(handle, "unknown counter 'pixel'; known: " + std::string(first) + ", ",
                     deburr_counter(handle.get(), "pixel", &value));
     std::uint32_t parameters = 0, counters = 0;
-    expect_taken(handle, deburr_parameter_count(handle.get(), &parameters));
-    expect_taken(handle, deburr_counter_count(handle.get(), &counters));
+    expect_ok(handle, deburr_parameter_count(handle.get(), &parameters));
+    expect_ok(handle, deburr_counter_count(handle.get(), &counters));
     EXPECT_GT(counters, 8u);
     char text[64];
     for (std::uint32_t i = 0; i < counters; ++i) {
-      expect_taken(handle, deburr_counter_name(handle.get(), i, text, sizeof text));
+      expect_ok(handle, deburr_counter_name(handle.get(), i, text, sizeof text));
       EXPECT_THAT(text, testing::MatchesRegex("[a-z_]+"));
       EXPECT_EQ(tb::c::counter_of(handle.get(), text), 0u) << text;
     }
@@ -284,7 +284,7 @@ TEST(Calls, UnknownNamesGetTheListOfThoseThatThereAre) {
   }
 }
 
-TEST(Calls, AHandleOfAnotherEngineIsAnError) {
+TEST(Calls, RejectHandleOfAnotherEngine) {
   const Handle texture(deburr_texture_new()), frames(deburr_morphological_new());
   expect_rejected(
       texture, "the handle belongs to the engine texture; expected an engine that smooths frames",
@@ -293,13 +293,13 @@ TEST(Calls, AHandleOfAnotherEngineIsAnError) {
   expect_rejected(frames, "expected geometric", deburr_geometric_edges(frames.get(), nullptr, 0));
 }
 
-TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {
+TEST(Errors, TextIsKeptAndTruncatedToBuffer) {
   const Handle handle(deburr_texture_new());
   const int status = deburr_set(handle.get(), "axes", "three");
   EXPECT_EQ(status, DEBURR_ARGUMENT);
   const std::string whole = error_of(handle.get(), status);
-  EXPECT_EQ(whole, "deburr_set: 'axes' = 'three' wants one of two, four, eight");
-  expect_taken(handle, deburr_check(handle.get()));
+  EXPECT_EQ(whole, "deburr_set: 'axes' = 'three' must be one of two, four, eight");
+  expect_ok(handle, deburr_check(handle.get()));
   EXPECT_EQ(error_of(handle.get(), status), whole);
   EXPECT_EQ(error_of(handle.get(), DEBURR_OK), "");
   char text[12] = "before";
@@ -313,14 +313,14 @@ TEST(Errors, AreKeptUntilTheNextOneAndCutToTheirPlace) {
   EXPECT_EQ(deburr_error(handle.get(), status, nullptr, 9), DEBURR_ARGUMENT);
 }
 
-TEST(Errors, WithoutAnyThereIsNoTextButOfMemory) {
+TEST(Errors, TextIsEmptyExceptForOutOfMemory) {
   const Handle handle(deburr_texture_new());
   EXPECT_EQ(error_of(handle.get(), DEBURR_ARGUMENT), "");
-  // There may have been no memory for a text.
+  // Its text is fixed, since storing one could fail.
   EXPECT_THAT(error_of(handle.get(), DEBURR_MEMORY), testing::HasSubstr("out of memory"));
 }
 
-TEST(Version, HasThreeNumbers) {
+TEST(Version, ConsistsOfThreeNumbers) {
   EXPECT_THAT(deburr_version(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The header of the C interface is one that C99 and C++ take without a warning, alone and twice, and its
-functions have the language C in both.
+"""Checks that the header of the C interface compiles without warnings as C and C++, included by itself and twice, and
+that its functions have C linkage.
 
 usage: header_test.py HEADER CC CXX"""
 import pathlib
@@ -22,7 +22,7 @@ FLAGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wstrict-prototypes", "-Werror", "-c
 
 
 def compiled(command, header, suffix):
-    """What the compiler says, and the names that the program wants of a library."""
+    """Messages of the compiler, and undefined symbols of the object file."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "deburr_golden.h").write_text(header, encoding="utf-8")
@@ -39,9 +39,9 @@ def compiled(command, header, suffix):
 def problems(header, compiler, cxx):
     for command, suffix in (([compiler, "-std=c99"], ".c"), ([compiler, "-std=c17"], ".c"),
                             ([cxx, "-std=c++11"], ".cpp"), ([cxx, "-std=c++20"], ".cpp")):
-        said, names = compiled(command, header, suffix)
-        if said:
-            yield f"{' '.join(command)}: {said}"
+        messages, names = compiled(command, header, suffix)
+        if messages:
+            yield f"{' '.join(command)}: {messages}"
         elif not {"deburr_texture_new", "deburr_texture_quad", "deburr_close"} <= names:
             yield f"{' '.join(command)} wants {names}"
 

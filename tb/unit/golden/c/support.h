@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles of the C interface for tests.
+// Helpers for tests of the C interface.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -52,10 +52,10 @@ inline std::uint64_t counter_of(deburr_golden* golden, const std::string& name) 
   return value;
 }
 
-// A call that must be taken, and one that must not, with words of its complaint; by a pointer to
-// the handle or its owner.
+// Expect that a call succeeds, or that it fails with `words` in its message. `golden` is a pointer
+// to the handle or its owner.
 template <class Golden>
-void expect_taken(const Golden& golden, int status) {
+void expect_ok(const Golden& golden, int status) {
   EXPECT_EQ(status, DEBURR_OK) << error_of(&*golden, status);
 }
 template <class Golden>

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""The package for SystemVerilog, and the C file of its arrays and texts, are those that the header of the
-C interface makes; and the page of the interface has every function.
+"""Checks that the SystemVerilog package and its C glue file match the header of the C interface, and that the page of
+the interface names every function.
 
 usage: systemverilog_test.py HEADER SOURCE [--write]     HEADER: layers/golden_c/golden/c/deburr_golden.h of a build
-                                                         --write: makes them"""
+                                                         --write: regenerates package and glue"""
 import pathlib
 import re
 import sys
@@ -26,7 +26,7 @@ RESULTS = {"int": "int", "const char*": "string", "deburr_golden*": "chandle"}
 
 
 class Parameter:
-    """A parameter of a function: how SystemVerilog passes it, and what the C file makes of it."""
+    """A parameter: its SystemVerilog declaration, its declaration in the C glue, and the argument passed on."""
 
     def __init__(self, text, with_size):
         match = PARAMETER.match(text)
@@ -48,7 +48,7 @@ class Parameter:
             self.passed = "text_of_thread, sizeof text_of_thread"
             self.text = True
         elif pointer and with_size:
-            # Not `output`: what lies between rows stays.
+            # Not `output`: padding between rows keeps its values.
             self.sv = f"{'input' if constant else 'inout'} {SCALARS[kind]} {self.name}[]"
             self.declaration = f"const svOpenArrayHandle {self.name}"
             self.passed = (f"({constant or ''}{kind}*)svGetArrayPtr({self.name}), "
@@ -82,7 +82,7 @@ class Function:
 
 
 def pieces(header):
-    """Comments of sections and functions, and functions, in order."""
+    """Yields comments (lists of lines) and Functions of the header in order."""
     begin = header.index("typedef struct")
     for match in PIECE.finditer(header, begin):
         if match["comment"] is None:
@@ -93,7 +93,7 @@ def pieces(header):
 
 def functions(header):
     found = [piece for piece in pieces(header) if isinstance(piece, Function)]
-    # Whatever the pattern did not take.
+    # Functions that the pattern missed.
     names = re.findall(r"\b(deburr_\w+)\(", re.sub(r"/\*.*?\*/", "", header, flags=re.S))
     if [function.name for function in found] != names:
         raise ValueError(f"functions that were not read: {set(names) - {function.name for function in found}}")
@@ -101,7 +101,7 @@ def functions(header):
 
 
 def wrapped(before, items, after, columns=100):
-    """`before`, the items with commas, `after`, in lines of that width."""
+    """`before`, comma-separated items and `after`, wrapped at `columns`."""
     lines, indent = [before], " " * 6
     for index, item in enumerate(items):
         text = item + (after if index == len(items) - 1 else ",")
@@ -157,7 +157,7 @@ def glue(header):
 
 
 def problems(header, texts, page):
-    """Yields what does not follow from the header."""
+    """Yields a message per mismatch with the header."""
     for name, made in ((PACKAGE, package(header)), (GLUE, glue(header))):
         if texts[name] != made:
             yield f"{name} is not what {HEADER} makes: tb/unit/golden/c/systemverilog_test.py HEADER . --write"
@@ -166,8 +166,8 @@ def problems(header, texts, page):
             yield f"{PAGE} does not name {function.name}"
 
 
-def injected_faults_are_caught(header, texts, page):
-    """A change of the header alone, of a file alone, of the page alone."""
+def missed_faults(header, texts, page):
+    """Injected faults that remain undetected: changes of the header, of a generated file, of the page."""
     changes = [("uint32_t* count);", "uint64_t* count);"), ("size_t lines_size,", "uint32_t lines_size,"),
                ("const int32_t s[4]", "const int32_t s[8]"), ("DEBURR_BUSY = 3", "DEBURR_BUSY = 4"),
                ("uint32_t lane,", "uint32_t corner,"), ("int deburr_reset(", "int deburr_restart("),
@@ -202,7 +202,7 @@ def main():
     found = list(problems(header, texts, page))
     for problem in found:
         print(problem)
-    missed = [] if found else injected_faults_are_caught(header, texts, page)
+    missed = [] if found else missed_faults(header, texts, page)
     for fault in missed:
         print(f"injected fault not caught: {fault}")
     sys.exit(1 if found or missed else 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads: each with a handle of its own work at once and get what they get alone; two with one
-// handle never do, and one of them is told.
+// Threads with separate handles run in parallel with the results of a single thread; of concurrent
+// calls with one handle all but one return DEBURR_BUSY.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@ namespace deburr::threads_test {
 namespace {
 
 using tb::c::error_of;
-using tb::c::expect_taken;
+using tb::c::expect_ok;
 using tb::c::Handle;
 
-// A frame of noise, smoothed by a handle that is used a few hundred times on the way.
+// The last of four smoothed noise frames, with thousands of calls in between.
 std::vector<std::uint8_t> smoothed(deburr_golden* golden, std::uint64_t seed) {
   constexpr std::uint32_t kSide = 48;
   tb::Random random(seed);
@@ -40,7 +40,7 @@ std::vector<std::uint8_t> smoothed(deburr_golden* golden, std::uint64_t seed) {
   return result;
 }
 
-TEST(Threads, WithHandlesOfTheirOwnDoNotDisturbEachOther) {
+TEST(Threads, SeparateHandlesAreIndependent) {
   constexpr std::size_t kThreads = 4;
   std::array<std::vector<std::uint8_t>, kThreads> results;
   {
@@ -51,18 +51,18 @@ TEST(Threads, WithHandlesOfTheirOwnDoNotDisturbEachOther) {
         results[i] = smoothed(handle.get(), i / 2);
       });
   }
-  const Handle alone(deburr_morphological_new());
+  const Handle single(deburr_morphological_new());
   for (std::size_t i = 0; i < kThreads; ++i)
-    EXPECT_EQ(results[i], smoothed(alone.get(), i / 2)) << "thread " << i;
+    EXPECT_EQ(results[i], smoothed(single.get(), i / 2)) << "thread " << i;
   EXPECT_NE(results[0], results[2]);
 }
 
-// While a thread is in a call, those of another one say so, and change nothing: of those that every
-// engine has, of frames and of the texture unit some. All go through the same golden::c::call.
-TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
+// While one thread is in a call, calls of another one return DEBURR_BUSY and change nothing. Some
+// functions are enough, since all of them use golden::c::call.
+TEST(Threads, ConcurrentCallReturnsBusy) {
   const Handle handle(deburr_geometric_new());
   deburr_golden* const golden = handle.get();
-  expect_taken(golden, deburr_set(golden, "mark", "true"));
+  expect_ok(golden, deburr_set(golden, "mark", "true"));
   EXPECT_EQ(deburr_set(golden, "mark", "perhaps"), DEBURR_ARGUMENT);
   char text[300] = "before";
   std::uint32_t number = 77;
@@ -88,7 +88,7 @@ TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
       EXPECT_EQ(number, 77u);
       EXPECT_EQ(value, 77u);
       EXPECT_STREQ(deburr_engine(golden), "geometric");
-      // Its own error can be read; that of the thread inside has to wait.
+      // The text of DEBURR_BUSY can be read; the stored error belongs to the thread inside.
       EXPECT_EQ(deburr_error(golden, DEBURR_BUSY, text, sizeof text), DEBURR_OK);
       EXPECT_THAT(std::string(text), testing::HasSubstr("in use by another thread"));
       EXPECT_EQ(deburr_error(golden, DEBURR_ARGUMENT, text, sizeof text), DEBURR_BUSY);
@@ -100,34 +100,34 @@ TEST(Threads, OfWhichOneIsInACallAreToldBusy) {
   EXPECT_THAT(error_of(golden, DEBURR_ARGUMENT), testing::HasSubstr("'perhaps'"));
 }
 
-// Two that fight for one handle: each call is taken whole, or rejected as busy.
-TEST(Threads, ThatShareAHandleAreRejectedAndNeverRace) {
+// Two threads contend for one handle: each call succeeds completely or returns DEBURR_BUSY.
+TEST(Threads, SharedHandleNeverRaces) {
   const Handle handle(deburr_morphological_new());
   deburr_golden* const golden = handle.get();
   EXPECT_EQ(deburr_frame_begin(golden, 64, 64), DEBURR_OK);
-  std::atomic<int> taken{0}, busy{0}, other{0};
+  std::atomic<int> succeeded{0}, busy{0}, other{0};
   std::atomic<bool> done{false};
-  const auto fight = [&](int own) {
+  const auto contend = [&](int own) {
     const std::string mine = std::to_string(own);
     char text[64];
     for (int i = 0; !done && i < 200'000; ++i) {
       for (const int status :
            {deburr_set(golden, "edges.threshold", mine.c_str()), deburr_frame_process(golden),
             deburr_get(golden, "edges.threshold", text, sizeof text)}) {
-        ++(status == DEBURR_OK ? taken : status == DEBURR_BUSY ? busy : other);
+        ++(status == DEBURR_OK ? succeeded : status == DEBURR_BUSY ? busy : other);
       }
-      if (busy > 20 && taken > 200) done = true;
+      if (busy > 20 && succeeded > 200) done = true;
     }
   };
-  { const std::jthread first(fight, 1000), second(fight, 2000); }
+  { const std::jthread first(contend, 1000), second(contend, 2000); }
   EXPECT_EQ(other, 0);
-  EXPECT_GT(taken, 200);
+  EXPECT_GT(succeeded, 200);
   EXPECT_GT(busy, 20);
   EXPECT_THAT(tb::c::value_of(golden, "edges.threshold"), testing::AnyOf("1000", "2000"));
 }
 
-// What a turn ends with: the next call is taken whatever the last one threw.
-TEST(Threads, ACallThatFailsGivesTheHandleBack) {
+// The next call succeeds whatever the previous one threw.
+TEST(Threads, FailedCallReleasesHandle) {
   const Handle handle(deburr_texture_new());
   for (const auto& [status, raise] :
        {std::pair<int, void (*)()>{DEBURR_MEMORY, [] { throw std::bad_alloc(); }},

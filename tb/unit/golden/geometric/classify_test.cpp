@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which edges does the golden keep, and which parameters and frames does it take?
+// Which edges the golden model keeps, and which parameters and frames it accepts.
 #include "golden/geometric/classify.h"
 
 #include <gmock/gmock.h>
@@ -34,8 +34,8 @@ namespace flag = spec::geometric::flag;
 constexpr Select kSelects[] = {Select::kAll, Select::kEdges, Select::kMesh};
 constexpr Crease kCreases[] = {Crease::kOff, Crease::kPaper, Crease::kShading};
 
-// The page's table of classes, read as a list of rows.
-EdgeClass from_the_page(const Configuration& configuration, int flags, bool front0, bool front1) {
+// The table of classes in docs/reference/geometric/algorithm.md, row by row.
+EdgeClass expected_class(const Configuration& configuration, int flags, bool front0, bool front1) {
   if ((flags & 1) != 0) return EdgeClass::kBoundary;
   if (configuration.select == Select::kAll) return EdgeClass::kUnclassified;
   const bool edges = configuration.select == Select::kEdges;
@@ -49,7 +49,7 @@ EdgeClass from_the_page(const Configuration& configuration, int flags, bool fron
   return crease ? EdgeClass::kCrease : EdgeClass::kFlat;
 }
 
-TEST(Classify, AllFlagsFacingsAndRules) {
+TEST(Classify, MatchesTheTableForAllFlagsAndFacings) {
   int seen = 0;
   for (const Select select : kSelects) {
     for (const Crease crease : kCreases) {
@@ -66,10 +66,10 @@ TEST(Classify, AllFlagsFacingsAndRules) {
                 static_cast<std::uint8_t>((facings & 2) != 0 ? 4 : 0)};
             const Edge edge{0, 1, 3, 10, static_cast<std::uint8_t>(flags)};
             const EdgeClass expected =
-                from_the_page(configuration, flags, (facings & 1) != 0, (facings & 2) != 0);
+                expected_class(configuration, flags, (facings & 1) != 0, (facings & 2) != 0);
             EXPECT_EQ(classify(configuration, edge, 2, {bytes, 11}), expected)
                 << flags << ' ' << facings;
-            // Vertices that are not there matter to the one that checks them alone.
+            // Only classify() checks vertices; classify_faces() does not.
             EXPECT_EQ(classify_faces(configuration, edge, {bytes, 11}), expected);
             EXPECT_EQ(classify(configuration, edge, 1, {bytes, 11}), EdgeClass::kInvalid);
             ++seen;
@@ -81,7 +81,7 @@ TEST(Classify, AllFlagsFacingsAndRules) {
   EXPECT_EQ(seen, 3 * 3 * 2 * 256 * 4);
 }
 
-TEST(Classify, IndicesEndWhereTheCountsEnd) {
+TEST(Classify, RejectsIndicesBeyondTheCounts) {
   const std::array<std::uint8_t, 1> bytes = {0xFF};
   const FacingBits facing{bytes, 5};
   Configuration edges, all, mesh;
@@ -95,10 +95,10 @@ TEST(Classify, IndicesEndWhereTheCountsEnd) {
   EXPECT_FALSE(is_valid(edges, {3, 4, 4, 4, 0}));
   EXPECT_FALSE(is_valid(edges, {3, 3, 5, 4, 0}));
   EXPECT_FALSE(is_valid(edges, {3, 3, 4, 5, 0}));
-  // A boundary has no second face; its first must be there all the same.
+  // A boundary has no second face, but its first face must be valid.
   EXPECT_TRUE(is_valid(edges, {3, 3, 4, 5, flag::kBoundary}));
   EXPECT_FALSE(is_valid(edges, {3, 3, 5, 0, flag::kBoundary}));
-  // Without a choice by the view no face matters.
+  // Faces matter only with select = edges.
   for (const Configuration& configuration : {all, mesh}) {
     EXPECT_TRUE(is_valid(configuration, {3, 3, 5, 5, 0}));
     EXPECT_TRUE(is_valid(configuration, {3, 3, 5, 5, flag::kBoundary}));
@@ -109,7 +109,7 @@ TEST(Classify, IndicesEndWhereTheCountsEnd) {
 
 // ---- configuration ------------------------------------------------------------------------------
 
-TEST(Configuration, PresetsAreThePages) {
+TEST(Configuration, PresetsMatchThePage) {
   using spec::geometric::Combine;
   using spec::geometric::CoverageRule;
   const Parameters gpaa = preset_parameters(Preset::kGpaa),
@@ -136,37 +136,41 @@ TEST(Configuration, PresetsAreThePages) {
   }
 }
 
-void rejected(void (*change)(Parameters&), const char* name) {
+void expect_rejected(void (*change)(Parameters&), const char* name) {
   Parameters p;
   change(p);
   EXPECT_THAT([&] { check_build(p); },
               testing::ThrowsMessage<spec::ConfigError>(testing::HasSubstr(name)));
 }
 
-TEST(Configuration, RejectsByName) {
-  rejected([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
-  rejected([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
-  rejected([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
-  rejected([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
-  rejected([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); }, "combine");
-  rejected([](Parameters& p) { p.select = static_cast<Select>(3); }, "select");
-  rejected([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
-  rejected([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
-  rejected([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
-  rejected([](Parameters& p) { p.touched_words = 15; }, "touched_words");
-  rejected([](Parameters& p) { p.colour_lines = 257; }, "colour_lines = 257 is outside 0..256");
-  rejected([](Parameters& p) { p.write_buffer = 129; }, "write_buffer = 129 is outside 0..128");
-  rejected([](Parameters& p) { p.records = static_cast<RecordsLayout>(2); }, "records");
-  rejected([](Parameters& p) { p.coarse_lines = static_cast<CoarseLines>(6); }, "coarse_lines");
-  rejected(
+TEST(Configuration, ErrorsNameTheParameter) {
+  expect_rejected([](Parameters& p) { p.depth_bias = 0; }, "depth_bias = 0 is outside 1..24");
+  expect_rejected([](Parameters& p) { p.depth_bias = 25; }, "depth_bias = 25 is outside 1..24");
+  expect_rejected([](Parameters& p) { p.crease_depth = -1; }, "crease_depth = -1 is outside 0..24");
+  expect_rejected([](Parameters& p) { p.crease_depth = 25; }, "crease_depth = 25 is outside 0..24");
+  expect_rejected([](Parameters& p) { p.combine = static_cast<spec::geometric::Combine>(3); },
+                  "combine");
+  expect_rejected([](Parameters& p) { p.select = static_cast<Select>(3); }, "select");
+  expect_rejected([](Parameters& p) { p.reciprocal_table = 10; }, "reciprocal_table");
+  expect_rejected([](Parameters& p) { p.fills = 129; }, "memory.outstanding");
+  expect_rejected([](Parameters& p) { p.face_limit = 8193; }, "face_limit");
+  expect_rejected([](Parameters& p) { p.touched_words = 15; }, "touched_words");
+  expect_rejected([](Parameters& p) { p.colour_lines = 257; },
+                  "colour_lines = 257 is outside 0..256");
+  expect_rejected([](Parameters& p) { p.write_buffer = 129; },
+                  "write_buffer = 129 is outside 0..128");
+  expect_rejected([](Parameters& p) { p.records = static_cast<RecordsLayout>(2); }, "records");
+  expect_rejected([](Parameters& p) { p.coarse_lines = static_cast<CoarseLines>(6); },
+                  "coarse_lines");
+  expect_rejected(
       [](Parameters& p) {
         p.coarse_lines = CoarseLines::k4;
         p.depth_test = spec::geometric::DepthTest::kOff;
       },
       "must be none with depth_test = off");
-  rejected([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
+  expect_rejected([](Parameters& p) { p.fills = 7; }, "fills = 7: must be at least 8 lines");
   Parameters fills;
-  fills.fills = fills.memory_outstanding = 64;  // as many as memory answers at once
+  fills.fills = fills.memory_outstanding = 64;  // equal to memory.outstanding
   EXPECT_NO_THROW(check_build(fills));
   Parameters table;
   table.pipelined = false;
@@ -174,7 +178,7 @@ TEST(Configuration, RejectsByName) {
   EXPECT_NO_THROW(check_build(table));
 }
 
-TEST(Configuration, FramesEndWhereTheBuildEnds) {
+TEST(Configuration, RejectsFramesBeyondTheBuildLimits) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
   const auto why = [&](FrameCounts counts) { return rejection(p, counts); };
   EXPECT_EQ(why({1920, 1080, 1, 1, 1}), Rejection::kNone);
@@ -209,8 +213,8 @@ TEST(Configuration, FramesEndWhereTheBuildEnds) {
   EXPECT_EQ(why({-1, 1, 0, 0, 0}), Rejection::kSize);
 }
 
-// Of several reasons the first counts: each is the reason once those before it are mended.
-TEST(Configuration, RejectsForTheFirstReason) {
+// Each reason is reported once those before it are fixed.
+TEST(Configuration, ReportsTheFirstOfSeveralReasons) {
   Parameters p;  // 2048 pixels, 1088 words, 32768 faces
   p.records = RecordsLayout::kSplit;
   FrameCounts f = {8193, 8192, (1u << 24) + 1, (1u << 24) + 1, 32769, (1u << 24) + 2};
@@ -231,8 +235,7 @@ TEST(Configuration, RejectsForTheFirstReason) {
   EXPECT_EQ(rejection(p, f), Rejection::kNone);
 }
 
-// What is wrong and what would be possible, in words.
-TEST(Configuration, SaysWhatWouldFit) {
+TEST(Configuration, MessagesGiveTheValueAndTheLimit) {
   const auto text = [](const FrameCounts& counts) -> std::string {
     Parameters p;
     p.records = RecordsLayout::kSplit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Can every bin of the functional coverage be reached, and does a bin count what it says?
+// Functional coverage of the golden model: every bin can be reached and counts its event.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ using spec::geometric::Select;
 using tb::geometric::Drawing;
 
 using Hits = std::map<std::string, std::uint64_t>;
-// The bins of a group, or all, that were hit.
+// The bins that were hit, of one group or of all.
 Hits hits_of(const EdgeCoverage& coverage, const std::string& group = "") {
   Hits hits;
   for (const CoverageBin& bin : coverage.bins())
@@ -39,14 +39,15 @@ Hits hits_of(const EdgeCoverage& coverage, const std::string& group = "") {
   return hits;
 }
 
-// Random edges of all lengths; coordinates often on centres and borders.
+// Random edges of many lengths. Vertices are often at pixel centres, some edges are horizontal or
+// vertical.
 Drawing random_drawing(std::uint64_t seed) {
   tb::Random random(seed);
   Drawing d(70, 50);
   for (auto& pixel : d.colours) pixel = {static_cast<std::uint8_t>(random.below(256)), 0, 0, 255};
   constexpr std::uint32_t kDepths[] = {0, 4000000, 4001000, 8000000};
   for (auto& depth : d.depths) depth = kDepths[random.below(4)];
-  if (seed % 2 != 0) {  // tiles that hide what lies behind them
+  if (seed % 2 != 0) {  // whole tiles at one depth, for the coarse test
     for (std::size_t ty = 0; ty < 7; ++ty)
       for (std::size_t tx = 0; tx < 9; ++tx) {
         const std::uint32_t depth = kDepths[random.below(4)];
@@ -61,15 +62,16 @@ Drawing random_drawing(std::uint64_t seed) {
     return random.chance(300) ? (v & ~255) + 128 : v;
   };
   for (int i = 0; i < 400; ++i) {
-    const std::uint32_t reach = std::uint32_t{8} << random.below(12);
-    // Some at the depth of what is drawn, or as far behind 4000000 as may be.
+    const std::uint32_t range = std::uint32_t{8} << random.below(12);
+    // Some lines have a constant depth: nearer than 4000000, or farther by exactly what the depth
+    // test allows.
     const bool level = random.chance(300);
     const std::uint32_t depth = random.chance(500) ? 4100000 : 4000000 - 4000000 / 512;
     const auto depth_of_end = [&] { return level ? depth : random.below(1u << 24); };
     const spec::geometric::Vertex p{coordinate(70), coordinate(50), depth_of_end(),
                                     !random.chance(10)};
     const auto near = [&](int v) {
-      return v + random.between(-static_cast<int>(reach), static_cast<int>(reach));
+      return v + random.between(-static_cast<int>(range), static_cast<int>(range));
     };
     spec::geometric::Vertex q{near(p.x), near(p.y), depth_of_end(), true};
     if (random.chance(50)) q.y = p.y;
@@ -83,7 +85,8 @@ Drawing random_drawing(std::uint64_t seed) {
   return d;
 }
 
-// A block at the start of a line of memory that is blended to the left, above and below.
+// A block at the start of a memory line that blends with pixels to the left, above and below, so it
+// reads the largest number of lines.
 Drawing most_lines() {
   Drawing d(70, 50);
   d.vertices = {{16 * 256 + 64, 2048, 1, true},      {16 * 256 + 64, 3072, 1, true},
@@ -125,13 +128,13 @@ TEST(Coverage, EveryBinCanBeReached) {
         GeometricGolden golden(p);
         const Drawing d = random_drawing(seed);
         golden::geometric::FrameInput input = d.input();
-        if (seed % 6 == 1) input.boundary_count = 100;  // about a half
+        if (seed % 6 == 1) input.boundary_count = 100;  // about half of the boundaries
         golden.process(input);
         sum.merge(golden.coverage());
       }
     }
   }
-  // A few blocks leave the cache, and stay in the buffer.
+  // A few blocks are evicted from the cache and stay in the write buffer.
   Parameters few;
   few.weight_blocks = CacheLines::k16;
   few.write_buffer = 128;
@@ -147,7 +150,7 @@ TEST(Coverage, EveryBinCanBeReached) {
   EXPECT_GT(sum.bins().size(), 170u);
 }
 
-TEST(Coverage, BinsCountWhatTheWorkCounts) {
+TEST(Coverage, BinsAgreeWithWorkCounters) {
   GeometricGolden golden(Parameters{});
   golden.process(tb::geometric::vector_drawing().input());
   std::map<std::string, std::uint64_t> hits;
@@ -178,13 +181,14 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   EXPECT_EQ(
       hits.at("fetch/block/hit") + hits.at("fetch/block/miss") + hits.at("fetch/block/read-back"),
       work.passed);
-  // An edge looks up the lines of its vertices, which may be one; what is not found is read.
+  // An edge looks up the lines of its two vertices, which may be the same line. A line that misses
+  // is read.
   const auto drawing = tb::geometric::vector_drawing();
   std::uint64_t vertex_lines = 0, in_one_line = 0, turned_away = 0;
   for (std::size_t i = 0; i < drawing.edges.size(); ++i) {
     const auto& edge = drawing.edges[i];
     const auto c = golden.classes()[i];
-    if (c == EdgeClass::kCrease || c == EdgeClass::kFlat)  // its faces are turned the same way
+    if (c == EdgeClass::kCrease || c == EdgeClass::kFlat)  // both faces have the same facing
       turned_away += (drawing.facing[edge.f0 / 8] >> (edge.f0 % 8) & 1) == 0 ? 1 : 0;
     if (!golden::geometric::is_kept(c)) continue;
     const bool one =
@@ -205,8 +209,8 @@ TEST(Coverage, BinsCountWhatTheWorkCounts) {
   for (const CoverageBin& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u);
 }
 
-// What the choices that leave traffic out count, over their lists.
-TEST(Coverage, BinsCountWhatIsLeftOut) {
+// Bins of the options that reduce traffic, against the lists of traffic.
+TEST(Coverage, BinsAgreeWithReducedTraffic) {
   Parameters p;
   p.weight_blocks = CacheLines::k16;
   p.depth_lines = CacheLines::k1024;
@@ -221,11 +225,12 @@ TEST(Coverage, BinsCountWhatIsLeftOut) {
   for (const CoverageBin& bin : golden.coverage().bins()) hits[bin.name] = bin.hits;
   const auto& traffic = golden.traffic();
   const auto& work = golden.work();
-  EXPECT_EQ(hits.at("fetch/depth/miss"), traffic.read(Region::kDepth).size());  // all fit
+  EXPECT_EQ(hits.at("fetch/depth/miss"),
+            traffic.read(Region::kDepth).size());  // all fit
   EXPECT_EQ(hits.at("fetch/colour/miss"), 20u);
   EXPECT_EQ(hits.at("fetch/colour/miss") + hits.at("fetch/colour/replaced"),
             traffic.read(Region::kColour).size());
-  std::uint64_t lines = 0;  // that blocks read
+  std::uint64_t lines = 0;  // looked up for blocks
   for (std::uint64_t n = 1; n <= 5; ++n) lines += n * hits.at("lines/tiled/" + std::to_string(n));
   EXPECT_EQ(hits.at("fetch/colour/hit") + traffic.read(Region::kColour).size(), lines);
   EXPECT_EQ(hits.at("fetch/boundary-pair/miss") + hits.at("fetch/other-pair/miss"),
@@ -250,8 +255,8 @@ TEST(Coverage, BinsCountWhatIsLeftOut) {
                                                  hits.at("fetch/write-buffer/empty"));
 }
 
-// One pixel in the last column of a tile, whose neighbour is in the next one.
-TEST(Coverage, CoarseBinsAreOfTheLimitAndTheTiles) {
+// One pixel in the last column of a tile; its neighbour is in the next tile.
+TEST(Coverage, CoarseBinsSeparateTheLimitAndTheTiles) {
   const auto hits = [](std::uint32_t depth, std::uint32_t own, std::uint32_t other) {
     Drawing d(16, 1);
     d.vertices = {{7 * 256 + 192, -64, depth, true}, {7 * 256 + 192, 320, depth, true}};
@@ -264,20 +269,21 @@ TEST(Coverage, CoarseBinsAreOfTheLimitAndTheTiles) {
     golden.process(d.input());
     return hits_of(golden.coverage(), "coarse/");
   };
-  // 25600 less its 512th.
+  // The limit is 25600 - 25600 / 512.
   EXPECT_EQ(hits(25549, 25600, 25600), (Hits{{"coarse/right/dropped", 1}}));
   EXPECT_EQ(hits(25550, 25600, 25600), (Hits{{"coarse/equal", 1}}));
   EXPECT_EQ(hits(25551, 25600, 25600), Hits{});
   EXPECT_EQ(hits(0, 0, 0), Hits{});
   EXPECT_EQ(hits(25551, 25600, 25856), (Hits{{"coarse/lesser/own", 1}}));
   EXPECT_EQ(hits(25551, 25856, 25600), (Hits{{"coarse/lesser/other", 1}}));
-  EXPECT_EQ(hits(25551, 25601, 25855), Hits{});  // both in the same 256
+  EXPECT_EQ(hits(25551, 25601, 25855), Hits{});  // both have the coarse entry 100
 }
 
-// ---- what each bin counts, one thing at a time --------------------------------------------------
+// ---- each bin by itself -------------------------------------------------------------------------
 
-// Holes in the list of bins itself would not show as bins that nobody hits. Of 7 classes, `all` can
-// give three, `edges` five without creases and six with either rule, `mesh` three and four.
+// A bin that is missing from the list would not show up as an unhit bin. There are 7 classes: `all`
+// can give three, `edges` five without creases and six with either crease rule, `mesh` three
+// without creases and four with them.
 TEST(Coverage, ListsEveryBinOfEveryGroup) {
   std::map<std::string, std::size_t> sizes;
   for (const CoverageBin& bin : EdgeCoverage().bins())
@@ -302,9 +308,9 @@ TEST(Coverage, ListsEveryBinOfEveryGroup) {
                                                        {"lines", 10 + 5}}));
 }
 
-// The names of the bins that a call hits, each once, in the order of the alphabet.
+// The names of the bins that a call hits, in alphabetical order; each must be hit once.
 template <class Count>
-std::string counted(Count&& count) {
+std::string bins_hit_by(Count&& count) {
   EdgeCoverage coverage;
   count(coverage);
   std::string names;
@@ -315,8 +321,9 @@ std::string counted(Count&& count) {
   return names;
 }
 
-// A line in a frame of 20 x 10; a length of four pixels and a diagonal are borders between bins.
-TEST(Coverage, LinesHaveAnOctantALengthAndTheirCuts) {
+// Lines in a frame of 20 x 10 pixels, on both sides of the limits between bins: one pixel, four
+// pixels, the diagonal.
+TEST(Coverage, LinesCountOctantLengthAndClipping) {
   constexpr int kRight = 20 * 256, kBottom = 10 * 256;
   struct Row {
     int x0, y0, x1, y1;
@@ -342,15 +349,15 @@ TEST(Coverage, LinesHaveAnOctantALengthAndTheirCuts) {
            octant(256, 0, "columns/none line/right-down/below-four rows/inside"),
            octant(1023, 0, "columns/none line/right-down/below-four rows/inside"),
            octant(1024, 0, "columns/none line/right-down/longer rows/inside"),
-           // The frame cuts off the columns whose centres it does not have: that at -1/2 and that
-           // half a pixel after the last one's end.
+           // The frame clips columns whose centre is outside: the one with centre -1/2, and the
+           // first one after the last column.
            {-127, 300, kRight + 128, 300, "columns/none line/right-down/longer rows/inside"},
            {-128, 300, kRight + 128, 300, "columns/start line/right-down/longer rows/inside"},
            {-127, 300, kRight + 129, 300, "columns/end line/right-down/longer rows/inside"},
            {kRight + 129, 300, -128, 300, "columns/both line/left-down/longer rows/inside"},
            {300, -127, 300, kBottom + 128, "columns/none line/down-right/longer rows/inside"},
            {300, kBottom + 129, 300, -127, "columns/end line/up-right/longer rows/inside"},
-           // Rows are those across the line.
+           // Rows are counted across the line.
            {128, 0, 5000, kBottom - 1, "columns/none line/right-down/longer rows/inside"},
            {128, -1, 5000, 0, "columns/none line/right-down/longer rows/enters-before"},
            {5000, 0, 128, -1, "columns/none line/left-up/longer rows/enters-before"},
@@ -358,7 +365,7 @@ TEST(Coverage, LinesHaveAnOctantALengthAndTheirCuts) {
            {128, kBottom, 5000, 0, "columns/none line/right-up/longer rows/enters-after"},
            {5000, kBottom, 128, 0, "columns/none line/left-up/longer rows/leaves-after"},
        }) {
-    EXPECT_EQ(counted([&](EdgeCoverage& c) {
+    EXPECT_EQ(bins_hit_by([&](EdgeCoverage& c) {
                 c.count_line({row.x0, row.y0, 0, true}, {row.x1, row.y1, 0, true}, 20, 10);
               }),
               row.bins)
@@ -366,7 +373,7 @@ TEST(Coverage, LinesHaveAnOctantALengthAndTheirCuts) {
   }
 }
 
-TEST(Coverage, EachCountHasItsBin) {
+TEST(Coverage, EachEventHasItsBin) {
   using golden::geometric::Buffered;
   using golden::geometric::CacheKind;
   using golden::geometric::Fetch;
@@ -414,7 +421,7 @@ TEST(Coverage, EachCountHasItsBin) {
                [](C& c) { c.count_turned_away(Cull::kNone, EdgeClass::kCrease); }},
            Row{"turned-away/none/flat",
                [](C& c) { c.count_turned_away(Cull::kNone, EdgeClass::kFlat); }},
-           // Weights of an axis against those of the other.
+           // Compares the sums of weights of the two axes.
            Row{"resolve/up-down",
                [](C& c) {
                  c.count_probe({10, 20, 15, 14});
@@ -436,24 +443,24 @@ TEST(Coverage, EachCountHasItsBin) {
                  c.count_probe({0, 0, 1, 0});
                }},
        })
-    EXPECT_EQ(counted(row.count), row.bin);
+    EXPECT_EQ(bins_hit_by(row.count), row.bin);
   for (const int slope : {-1, 0, 1}) {
     LineRecord line;
     line.slope = slope;
     const auto tie = [&](EdgeCoverage& c) { c.count_tie(line); };
     line.axis = Axis::kHorizontal;
-    EXPECT_EQ(counted(tie), slope < 0    ? "tie/horizontal-rising"
-                            : slope == 0 ? "tie/horizontal-level"
-                                         : "tie/horizontal-falling");
+    EXPECT_EQ(bins_hit_by(tie), slope < 0    ? "tie/horizontal-rising"
+                                : slope == 0 ? "tie/horizontal-level"
+                                             : "tie/horizontal-falling");
     line.axis = Axis::kVertical;
-    EXPECT_EQ(counted(tie), "tie/vertical");
+    EXPECT_EQ(bins_hit_by(tie), "tie/vertical");
   }
   const std::array<std::string, 4> caches = {"vertex", "depth", "block", "colour"};
   const std::array<std::string, 4> fetches = {"hit", "miss", "replaced", "read-back"};
   for (std::size_t cache = 0; cache < caches.size(); ++cache) {
     for (std::size_t fetch = 0; fetch < fetches.size(); ++fetch) {
       if (fetches[fetch] == "read-back" && caches[cache] != "block") continue;
-      EXPECT_EQ(counted([&](EdgeCoverage& c) {
+      EXPECT_EQ(bins_hit_by([&](EdgeCoverage& c) {
                   c.count_fetch(static_cast<CacheKind>(cache), static_cast<Fetch>(fetch));
                 }),
                 "fetch/" + caches[cache] + '/' + fetches[fetch]);
@@ -463,32 +470,32 @@ TEST(Coverage, EachCountHasItsBin) {
                                             "other-pair/hit",      "other-pair/miss",
                                             "pair-number/invalid", "pair-vertex/invalid"};
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
+    EXPECT_EQ(bins_hit_by([&](EdgeCoverage& c) { c.count_pair(static_cast<PairFetch>(i)); }),
               "fetch/" + pairs[i]);
   const std::array<std::string, 5> buffered = {"hit", "empty", "leaves", "full-at-end",
                                                "not-full-at-end"};
   for (std::size_t i = 0; i < buffered.size(); ++i)
-    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
+    EXPECT_EQ(bins_hit_by([&](EdgeCoverage& c) { c.count_buffered(static_cast<Buffered>(i)); }),
               "fetch/write-buffer/" + buffered[i]);
   for (std::size_t lines = 1; lines <= 10; ++lines) {
     for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
       if (layout == Layout::kTiled && lines > 5) continue;
       EXPECT_EQ(
-          counted([&](EdgeCoverage& c) { c.count_block_lines(layout, lines); }),
+          bins_hit_by([&](EdgeCoverage& c) { c.count_block_lines(layout, lines); }),
           (layout == Layout::kRaster ? "lines/raster/" : "lines/tiled/") + std::to_string(lines));
     }
   }
 }
 
-// Of a weight of 10, 20, 30 or 40 and another line's.
-TEST(Coverage, EachCountOfADirectionHasItsBin) {
+// The weight of a direction is 10, 20, 30 or 40; another line adds its own.
+TEST(Coverage, EachEventOfADirectionHasItsBin) {
   using spec::geometric::Direction;
   using spec::geometric::Weights;
   const std::array<std::string, 4> names = {"top", "bottom", "left", "right"};
   for (std::size_t i = 0; i < 4; ++i) {
     const auto to = static_cast<Direction>(i);
     const auto expect = [&](const std::string& group, const std::string& what, auto&& count) {
-      EXPECT_EQ(counted(count), group + '/' + names[i] + what);
+      EXPECT_EQ(bins_hit_by(count), group + '/' + names[i] + what);
     };
     expect("coarse", "/dropped", [&](EdgeCoverage& c) { c.count_dropped(to); });
     expect("border", "", [&](EdgeCoverage& c) { c.count_outside(to); });
@@ -505,24 +512,26 @@ TEST(Coverage, EachCountOfADirectionHasItsBin) {
       weight(Combine::kMax, nearer, 1, "/raised");
       weight(Combine::kMax, nearer, -1, "/kept");
       weight(Combine::kMax, nearer, 0, "/equal");
-      // The outermost one is the largest where the pixel is not nearer, or there is none yet.
+      // With `outermost` the larger weight wins if the pixel is not nearer, or if its weight is
+      // still 0.
       weight(Combine::kOutermost, nearer, 1, nearer ? "/held" : "/raised");
       weight(Combine::kOutermost, nearer, -1, nearer ? "/lowered" : "/kept");
       weight(Combine::kOutermost, nearer, 0, "/equal");
     }
     expect("weight", "/raised",
            [&](EdgeCoverage& c) { c.count_weight(Combine::kOutermost, true, {}, to, 1); });
-    // The last line overwrites all four, so that any of them counts.
+    // With `last` a line overwrites all four weights, so a weight of any direction counts.
     Weights one = {};
     one[(i + 1) % 4] = 1;
     expect("weight", "/overwritten",
            [&](EdgeCoverage& c) { c.count_weight(Combine::kLast, false, one, to, 5); });
-    EXPECT_EQ(counted([&](EdgeCoverage& c) { c.count_weight(Combine::kLast, false, {}, to, 5); }),
-              "");
+    EXPECT_EQ(
+        bins_hit_by([&](EdgeCoverage& c) { c.count_weight(Combine::kLast, false, {}, to, 5); }),
+        "");
   }
 }
 
-TEST(Coverage, AColumnIsATieWhereItsLineMeetsAPixelsCentre) {
+TEST(Coverage, LineThroughAPixelCentreIsATie) {
   const auto ties = [](std::int32_t y) {
     Drawing d(16, 16);
     d.vertices = {{0, y, 0xFFFFFF, true}, {16 * 256, y, 0xFFFFFF, true}};
@@ -538,8 +547,7 @@ TEST(Coverage, AColumnIsATieWhereItsLineMeetsAPixelsCentre) {
   EXPECT_TRUE(ties(8 * 256 + 129).empty());
 }
 
-// What one engine counted is added to what another did, bin by bin.
-TEST(Coverage, MergesAreSums) {
+TEST(Coverage, MergeAddsBinByBin) {
   GeometricGolden a(Parameters{}), b(Parameters{});
   a.process(tb::geometric::vector_drawing().input());
   b.process(random_drawing(1).input());

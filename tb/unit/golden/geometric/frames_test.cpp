@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Does a whole frame keep its promises: order, walkers, layouts, addresses, traffic, errors?
+// Whole frames: order of edges, walkers, layouts, addresses, traffic and memory errors.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ using tb::geometric::Drawing;
 using tb::geometric::kVectorBases;
 using tb::geometric::vector_drawing;
 
-// A drawing of one line over black and white halves, everything in front.
+// A drawing of one line, in front of everything, over a black upper and a white lower half.
 Drawing one_line(int x0, int y0, int x1, int y1, int width = 16, int height = 16) {
   Drawing d(width, height);
   std::fill(d.colours.begin(), d.colours.end(), Rgba8{255, 255, 255, 255});
@@ -46,8 +46,9 @@ Drawing one_line(int x0, int y0, int x1, int y1, int width = 16, int height = 16
   return d;
 }
 
-TEST(Frame, ALineBetweenTwoRowsBlendsByHalfOfWhatItCuts) {
-  // 64 / 256 above the border between rows 7 and 8: row 7 is cut a quarter from below.
+TEST(Frame, LineBlendsByTheAreaItCutsOff) {
+  // The line is 64/256 pixel above the border of rows 7 and 8, so it cuts off the lowest quarter of
+  // row 7.
   const Drawing d = one_line(0, 8 * 256 - 64, 16 * 256, 8 * 256 - 64);
   Parameters p;
   p.linear_light = false;
@@ -61,7 +62,7 @@ TEST(Frame, ALineBetweenTwoRowsBlendsByHalfOfWhatItCuts) {
   EXPECT_EQ(golden.work().blended_pixels, 16u);
 }
 
-TEST(Frame, NeighboursOutsideAreNoCandidates) {
+TEST(Frame, PixelsOutsideTheFrameAreNotCandidates) {
   for (const auto& [y, direction] : {std::pair{64, 0}, {16 * 256 - 64, 1}}) {
     GeometricGolden golden(Parameters{});
     golden.process(one_line(0, y, 16 * 256, y).input());
@@ -70,7 +71,7 @@ TEST(Frame, NeighboursOutsideAreNoCandidates) {
   }
 }
 
-TEST(Frame, OnlyWithLastTheOrderOfEdgesMatters) {
+TEST(Frame, EdgeOrderMattersOnlyWithLast) {
   Drawing d = vector_drawing();
   tb::Random random(8);
   for (const Combine combine : {Combine::kMax, Combine::kLast, Combine::kOutermost}) {
@@ -91,7 +92,7 @@ TEST(Frame, OnlyWithLastTheOrderOfEdgesMatters) {
   }
 }
 
-TEST(Frame, LeavesNothingInTheNextOne) {
+TEST(Frame, RepeatedFrameGivesTheSameResult) {
   GeometricGolden once(preset_parameters(Preset::kDeburr)), twice = once;
   once.process(vector_drawing().input());
   for (int frame = 0; frame < 2; ++frame) twice.process(vector_drawing().input());
@@ -104,11 +105,12 @@ TEST(Frame, LeavesNothingInTheNextOne) {
   EXPECT_EQ(twice.pixels(), once.pixels());
 }
 
-// Of a line over columns 1 to 12 that enters the next row of blocks at column 5, 6 or 7: the group
-// before ends there, those before columns 4 and 8 with their block, and 8 to 11 are four.
-TEST(Frame, GroupsEndWithBlocksAndWalkers) {
+// A line over columns 1 to 12 enters the next row of blocks at column 5, 6 or 7. One group ends
+// there, the groups before columns 4 and 8 end with their block, and columns 8 to 11 are a full
+// group of four.
+TEST(Frame, GroupsEndAtBlockBordersOrWhenFull) {
   for (const int crossing : {5, 6, 7}) {
-    const int rise = 128 * (crossing - 1);  // half a row a column
+    const int rise = 128 * (crossing - 1);  // half a row per column
     Parameters p;
     p.walkers = Lanes::kFour;
     GeometricGolden golden(p);
@@ -124,9 +126,9 @@ TEST(Frame, GroupsEndWithBlocksAndWalkers) {
   }
 }
 
-// Whose colour as it was a pixel is given: that of the pixel above or to the left, if that one is
-// blended too. Counted again from the weights.
-TEST(Frame, OriginalsAreNeighboursThatAreBlendedToo) {
+// The resolve needs the original colour of the pixel above or to the left if that pixel is blended
+// too. The expected counts are derived from the weights.
+TEST(Frame, OriginalsAreBlendedNeighboursAboveOrLeft) {
   GeometricGolden golden(Parameters{});
   golden.process(vector_drawing().input());
   const auto& weights = golden.weights();
@@ -146,7 +148,7 @@ TEST(Frame, OriginalsAreNeighboursThatAreBlendedToo) {
   }
 }
 
-TEST(Frame, WithoutEdgesNothingChanges) {
+TEST(Frame, FrameWithoutEdgesIsUnchanged) {
   Drawing d = vector_drawing();
   d.edges.clear();
   GeometricGolden golden(preset_parameters(Preset::kGpaaOptimised));
@@ -159,7 +161,7 @@ TEST(Frame, WithoutEdgesNothingChanges) {
   EXPECT_EQ(golden.traffic().read(Region::kColour).size(), 8u * 6u * 4u);
 }
 
-TEST(Frame, RejectsViewsThatAreTooSmall) {
+TEST(Frame, RejectsTooSmallViews) {
   const Drawing d = vector_drawing();
   GeometricGolden golden(Parameters{});
   golden::geometric::FrameInput input;
@@ -180,7 +182,7 @@ TEST(Frame, RejectsViewsThatAreTooSmall) {
   input = d.input();
   input.image.width = 0;
   EXPECT_THROW(golden.process(input), spec::ConfigError);
-  for (const std::uint32_t faces : {1u, 8u, 9u, 16u, 17u}) {  // a bit each
+  for (const std::uint32_t faces : {1u, 8u, 9u, 16u, 17u}) {  // one bit per face
     const std::uint32_t bytes = faces <= 8 ? 1 : faces <= 16 ? 2 : 3;
     input = d.input();
     input.facing.count = faces;
@@ -189,13 +191,13 @@ TEST(Frame, RejectsViewsThatAreTooSmall) {
     input.facing.bytes = input.facing.bytes.first(bytes - 1);
     EXPECT_THROW(golden.process(input), spec::CheckFailed) << faces;
   }
-  // Rows of 61 pixels at a distance of 64: the last one may end before its gap, not earlier.
+  // Rows of 61 pixels with a stride of 64: the last row may lack its padding, but no pixel.
   const std::vector<Rgba8> wide(std::size_t{64} * 45);
   const std::vector<std::uint32_t> wide_depths(std::size_t{64} * 45);
   for (const std::size_t missing : {0u, 3u, 4u}) {
-    for (const bool of_depth : {false, true}) {
+    for (const bool shorten_depth : {false, true}) {
       input = d.input();
-      if (of_depth) {
+      if (shorten_depth) {
         input.depth = {std::span(wide_depths).first(wide_depths.size() - missing), 61, 45, 64};
       } else {
         input.image = {std::span(wide).first(wide.size() - missing), 61, 45, 64};
@@ -211,8 +213,8 @@ TEST(Frame, RejectsViewsThatAreTooSmall) {
 
 // ---- addresses ----------------------------------------------------------------------------------
 
-// The tables of the page against a walk over memory.
-TEST(Layouts, EveryPixelHasAPlaceOfItsOwn) {
+// The address formulas of docs/reference/geometric/memory.md for every pixel.
+TEST(Layouts, EveryPixelHasItsOwnAddress) {
   for (const auto& [width, height] : {std::pair{61, 45}, {64, 8}, {1, 1}, {17, 9}}) {
     const FrameLayout raster(Layout::kRaster, width, height), tiled(Layout::kTiled, width, height);
     const int stride = (4 * width + 63) / 64 * 64, tiles = (width + 7) / 8;
@@ -243,10 +245,9 @@ TEST(Layouts, EveryPixelHasAPlaceOfItsOwn) {
   }
 }
 
-// Blocks that are replaced come back once each, and every touched block is read or cached at last;
-// of a write buffer as often as they leave it. A single line of colours that is kept is a read
-// less.
-TEST(Traffic, WeightsComeBackAsOftenAsTheyWent) {
+// With any write buffer, every block that is written is read again once, since the resolve reads
+// the touched blocks that are not cached. More kept lines of colours need fewer reads.
+TEST(Traffic, WeightBlocksAreReadAsOftenAsWritten) {
   Parameters p;
   p.weight_blocks = CacheLines::k16;
   std::size_t colours = ~std::size_t{0};
@@ -274,8 +275,8 @@ GeometricGolden with_error(const Parameters& p, const Drawing& d, std::uint32_t 
   return golden;
 }
 
-// One line after the other cannot be read; of facing bits there are three, of 512 faces each.
-TEST(MemoryErrors, LinesOfInputReadAsZeros) {
+// Each row makes one line unreadable. The facing bits take three lines of 512 faces each.
+TEST(MemoryErrors, UnreadableInputLinesAreZeros) {
   Drawing d = vector_drawing();
   tb::Random random(6);
   for (std::uint32_t face = 0; face < 1200; ++face) d.set_facing(face, random.chance(500));
@@ -319,9 +320,9 @@ TEST(MemoryErrors, LinesOfInputReadAsZeros) {
   }
 }
 
-// Pixels of a line of colours are zeros to the resolve, and it writes none of them; of a line of
-// the copy they are zeros, too, and the frame's own line is written.
-TEST(MemoryErrors, ColoursReadAsZeros) {
+// The resolve reads an unreadable line of colours as zeros and does not write it. An unreadable
+// line of the copy also reads as zeros, but the line of the frame is written.
+TEST(MemoryErrors, UnreadableColoursAreZeros) {
   const Drawing d = vector_drawing();
   GeometricGolden clean(Parameters{});
   clean.process(d.input(kVectorBases));
@@ -347,8 +348,9 @@ TEST(MemoryErrors, ColoursReadAsZeros) {
   }
 }
 
-// A block whose weights are lost is touched and has no blended pixel; all other blocks stay.
-TEST(MemoryErrors, WeightsReadAsZeros) {
+// A block whose weights cannot be read stays touched, but none of its pixels is blended; other
+// blocks do not change.
+TEST(MemoryErrors, UnreadableWeightsAreZeros) {
   const Drawing d = vector_drawing();
   Parameters p;
   p.weight_blocks = CacheLines::k16;
@@ -363,15 +365,16 @@ TEST(MemoryErrors, WeightsReadAsZeros) {
     for (int y = 0; y < 45; ++y) {
       for (int x = 0; x < 61; ++x) {
         const auto i = static_cast<std::size_t>(61 * y + x);
-        const bool lost = x / 4 == block.x && y / 4 == block.y;
-        EXPECT_EQ(golden.weights()[i], lost ? Weights{} : clean.weights()[i]) << x << ' ' << y;
+        const bool unreadable_line = x / 4 == block.x && y / 4 == block.y;
+        EXPECT_EQ(golden.weights()[i], unreadable_line ? Weights{} : clean.weights()[i])
+            << x << ' ' << y;
       }
     }
   }
 }
 
-// Lost lines must be followed without any detail, too; nothing else comes of it.
-TEST(MemoryErrors, NeedNoDetail) {
+// Detail::kPixels models memory errors as well, but records nothing else.
+TEST(MemoryErrors, FastModeModelsMemoryErrors) {
   GeometricGolden golden(Parameters{}, GeometricGolden::Detail::kPixels), all(Parameters{});
   for (GeometricGolden* g : {&golden, &all}) {
     g->set_memory_errors([](std::uint32_t a) { return a % 1024 == 64; });
@@ -386,33 +389,34 @@ TEST(MemoryErrors, NeedNoDetail) {
   for (const auto& bin : golden.coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
-// What cannot be read is as far as can be, so that a line behind everything else is seen there, in
-// every row and column of it.
-TEST(MemoryErrors, DepthThatCannotBeReadHidesNothing) {
+// Unreadable depth counts as the farthest, so a line farther than everything else is visible there,
+// in every row and column of the unreadable line.
+TEST(MemoryErrors, UnreadableDepthHidesNothing) {
   for (const Layout layout : {Layout::kRaster, Layout::kTiled}) {
     Drawing d = one_line(192, 0, 192, 16 * 256);  // 3/4 of column 0
     std::fill(d.depths.begin(), d.depths.end(), 8000000);
     d.vertices[0].depth = d.vertices[1].depth = 1;
     Parameters p;
     p.layout = layout;
-    p.depth_test = spec::geometric::DepthTest::kOwn;  // the neighbour is lost with the pixel
+    p.depth_test = spec::geometric::DepthTest::kOwn;  // the neighbour is in the same line
     GeometricGolden golden(p);
     golden.process(d.input(kVectorBases));
     EXPECT_EQ(golden.work().candidates, 16u);
     EXPECT_EQ(golden.work().passed, 0u);
     const FrameLayout frame(layout, 16, 16);
-    const std::uint32_t lost = frame.offset_of(frame.line_of(0, 5));
-    golden.set_memory_errors([=](std::uint32_t a) { return a == kVectorBases.depth + lost; });
+    const std::uint32_t unreadable_line = frame.offset_of(frame.line_of(0, 5));
+    golden.set_memory_errors(
+        [=](std::uint32_t a) { return a == kVectorBases.depth + unreadable_line; });
     golden.process(d.input(kVectorBases));
     for (int y = 0; y < 16; ++y) {
-      const bool there = frame.offset_of(frame.line_of(0, y)) == lost;
-      EXPECT_EQ(golden.weights()[static_cast<std::size_t>(16 * y)] != Weights{}, there) << y;
+      const bool unreadable = frame.offset_of(frame.line_of(0, y)) == unreadable_line;
+      EXPECT_EQ(golden.weights()[static_cast<std::size_t>(16 * y)] != Weights{}, unreadable) << y;
     }
     EXPECT_EQ(golden.work().passed, layout == Layout::kTiled ? 4u : 1u);
   }
 }
 
-TEST(MemoryErrors, AreCountedOnceAResponse) {
+TEST(MemoryErrors, EachFailedResponseIsCountedOnce) {
   GeometricGolden golden(preset_parameters(Preset::kGpaaOptimised));
   golden.set_memory_errors([](std::uint32_t) { return true; });
   golden.process(vector_drawing().input(kVectorBases));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Is a line what the formats say: columns, reciprocals, bounds against exact fractions, coverage,
-// ties, the depth test, weights and the blend?
+// Lines against docs/reference/geometric/algorithm.md: columns, reciprocals, bounds against exact
+// fractions, coverage, ties, the depth test, weights and the blend.
 #include "golden/geometric/line.h"
 
 #include <gmock/gmock.h>
@@ -40,8 +40,8 @@ Vertex vertex(int major, int minor, bool horizontal, std::uint32_t depth = 5) {
 
 // ---- columns ------------------------------------------------------------------------------------
 
-// The columns whose centres lie in [m0, m1) and in the frame, one after the other.
-TEST(Columns, AreThoseWhoseCentresLieInTheLine) {
+// Expected columns: those whose centres lie in [m0, m1) and in the frame.
+TEST(Columns, CentresLieWithinTheLine) {
   constexpr int kWidth = 6, kHeight = 4;
   int lines = 0;
   for (const bool horizontal : {true, false}) {
@@ -75,7 +75,7 @@ TEST(Columns, AreThoseWhoseCentresLieInTheLine) {
   EXPECT_GT(lines, 9000);
 }
 
-TEST(Fates, EachHasItsReason) {
+TEST(Fates, EachReasonGivesItsFate) {
   LineRecord line;
   const auto fate = [&](Vertex p, Vertex q) { return set_up_line(p, q, 16, 16, line); };
   constexpr std::int32_t kBand = spec::geometric::kGuardBand;
@@ -110,7 +110,7 @@ TEST(Axis, TiesAreVertical) {
 
 // ---- numbers ------------------------------------------------------------------------------------
 
-TEST(Reciprocal, IsTheQuotientAndTheTableHoldsIt) {
+TEST(Reciprocal, MatchesTheQuotientAndTheTable) {
   tb::Random random(3);
   const auto check = [](std::uint32_t length) {
     int e = 0;
@@ -134,13 +134,13 @@ TEST(Reciprocal, IsTheQuotientAndTheTableHoldsIt) {
   for (int i = 0; i < 100000; ++i) check(1 + random.below((1u << 23) - 1));
 }
 
-// Position, depth and slope against the exact line, within the bounds of the formats' page.
+// Position, depth and slope against the exact line, within the bounds of their formats.
 TEST(Line, StaysWithinItsBounds) {
   tb::Random random(11);
   double worst_slope = 0, worst_position = 0;
   for (int i = 0; i < 20000; ++i) {
-    const int reach = random.chance(500) ? 2000 : (1 << 22) - 1;
-    const auto coordinate = [&] { return random.between(-reach, reach); };
+    const int largest = random.chance(500) ? 2000 : (1 << 22) - 1;
+    const auto coordinate = [&] { return random.between(-largest, largest); };
     const Vertex p{coordinate(), coordinate(), random.below(1u << 24), true};
     const Vertex q{coordinate(), coordinate(), random.below(1u << 24), true};
     LineRecord line;
@@ -172,29 +172,29 @@ TEST(Line, StaysWithinItsBounds) {
     }
   }
   EXPECT_LT(worst_slope, 1.0);
-  EXPECT_GT(worst_slope, 0.4);  // the bound is not idle
+  EXPECT_GT(worst_slope, 0.4);  // the bound is tight
   EXPECT_GT(worst_position, 0.3);
 }
 
-// A line shorter than a pixel has one column, so that its depth makes no step.
+// A line shorter than a pixel has at most one column, so its depth step is 0.
 TEST(Line, ShorterThanAPixelHasNoDepthStep) {
   LineRecord line;
   for (const int length : {1, 128, 255, 256}) {
     ASSERT_EQ(set_up_line(vertex(128, 300, true, 0), vertex(128 + length, 300, true, 1u << 23), 16,
                           16, line),
               LineFate::kLine);
-    // 2^23 over 256 / 256 columns, in 1/4096.
+    // A depth of 2^23 over one column, in units of 1/4096.
     EXPECT_EQ(line.depth_step, length == 256 ? std::int64_t{1} << 35 : 0) << length;
   }
 }
 
-TEST(Coverage, OfAllDistances) {
+TEST(Coverage, AllDistancesGiveTheRoundedCoverage) {
   for (int distance = -32768; distance < 32768; ++distance) {
     const double exact = 256 * (0.5 - std::abs(distance) / 65536.0);
     ASSERT_EQ(golden::geometric::coverage(distance), static_cast<int>(std::floor(exact + 0.5)));
     ASSERT_EQ(golden::geometric::coverage(distance) == 0, std::abs(distance) > 32640);
     ASSERT_EQ(golden::geometric::coverage(distance) == 128, std::abs(distance) <= 128);
-    // The point at a position says the same distance and the row below it.
+    // point_at() returns the same distance, and the row.
     const auto at = point_at((std::int64_t{7} << 24) + (std::int64_t{distance} + 32768) * 256, 0);
     ASSERT_EQ(at.row, 7);
     ASSERT_EQ(at.distance, distance);
@@ -205,8 +205,8 @@ TEST(Coverage, OfAllDistances) {
   }
 }
 
-// The area that a line of slope s, |d| above a pixel's centre in the middle of a column, cuts off
-// it, by ever thinner strips of the column.
+// Area that a line cuts off a pixel, as a sum over thin strips of the column. The line has slope s
+// and passes the middle of the column at distance |d| from the pixel's centre.
 double cut_area(double s, double d) {
   constexpr int kStrips = 2000;
   double sum = 0;
@@ -215,7 +215,7 @@ double cut_area(double s, double d) {
   return sum / kStrips;
 }
 
-TEST(Shares, AreTheDistanceWhereALineStays) {
+TEST(Shares, FollowDistanceWhileLineStaysInPixel) {
   using golden::geometric::shares;
   using spec::geometric::CoverageRule;
   for (int slope = -(1 << 24); slope <= 1 << 24; slope += 1 << 20) {
@@ -223,7 +223,7 @@ TEST(Shares, AreTheDistanceWhereALineStays) {
       const auto plain = shares(CoverageRule::kDistance, distance, slope);
       ASSERT_EQ(plain.first, golden::geometric::coverage(distance));
       ASSERT_EQ(plain.second, 0);
-      // By the contract's words: within half of what the slope leaves.
+      // The contract: the line stays in the pixel if |distance| <= (1 - |slope|) / 2.
       if (std::abs(distance) / 65536.0 > (1 - std::abs(slope) / 16777216.0) / 2) continue;
       const auto area = shares(CoverageRule::kArea, distance, slope);
       ASSERT_EQ(area.first, plain.first) << distance << ' ' << slope;
@@ -232,9 +232,9 @@ TEST(Shares, AreTheDistanceWhereALineStays) {
   }
 }
 
-// The limit, one step on either side of it, for slopes whose limit has 16 bits and for one that is
-// cut to them.
-TEST(Shares, LeaveThePixelBeyondTheLimit) {
+// At the limit and one step beyond it, for slopes whose limit is exact in 16 bits and for one whose
+// limit is truncated.
+TEST(Shares, FollowTheTableWhenLineLeavesPixel) {
   using golden::geometric::shares;
   using spec::geometric::CoverageRule;
   for (const int sign : {-1, 1}) {
@@ -249,13 +249,14 @@ TEST(Shares, LeaveThePixelBeyondTheLimit) {
       EXPECT_EQ(beyond.second, areas[static_cast<std::size_t>((65535 - limit) >> 10)]);
     }
   }
-  // A level line never does, nor one below a unit of the limit; a unit more takes the first row.
+  // A line of slope 0 never leaves the pixel, nor does one of slope below 2^-16; a slope of 2^-16
+  // uses the first row of the table.
   EXPECT_EQ(shares(CoverageRule::kArea, -32768, 0).first, 0);
   EXPECT_EQ(shares(CoverageRule::kArea, -32768, 255).first, 0);
   EXPECT_EQ(shares(CoverageRule::kArea, -32768, 256).first, spec::geometric::kCutArea[0][32]);
 }
 
-TEST(Shares, AreTheAreaThatALineCutsOff) {
+TEST(Shares, MatchTheAreaThatALineCutsOff) {
   using golden::geometric::shares;
   using spec::geometric::CoverageRule;
   double worst = 0;
@@ -272,10 +273,10 @@ TEST(Shares, AreTheAreaThatALineCutsOff) {
   }
   EXPECT_GT(seconds, 1000);
   EXPECT_LT(worst, 2.5);
-  EXPECT_GT(worst, 1.5);  // the table's steps: the bound is close
+  EXPECT_GT(worst, 1.5);  // from the steps of the table: the bound is tight
 }
 
-TEST(Shares, HaveEveryEntryOfTheTable) {
+TEST(Shares, TableEntriesMatchTheirFormula) {
   for (int k = 1; k <= spec::geometric::kAreaSlopes; ++k) {
     for (int i = 0; i < spec::geometric::kAreaDistances; ++i) {
       const double s = k / 32.0, d = (2 * i + 1) / 128.0;
@@ -289,7 +290,7 @@ TEST(Shares, HaveEveryEntryOfTheTable) {
   }
 }
 
-TEST(Direction, OfAllSidesAndTies) {
+TEST(Direction, FollowsAxisSideAndTie) {
   using golden::geometric::direction;
   using golden::geometric::is_forward;
   for (const bool tie : {false, true}) {
@@ -325,7 +326,7 @@ TEST(Direction, OfAllSidesAndTies) {
 
 // ---- depth --------------------------------------------------------------------------------------
 
-TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
+TEST(DepthTest, PassesAtTheLimitAndFailsBelow) {
   Configuration configuration;
   configuration.crease_depth = 0;
   tb::Random random(5);
@@ -338,7 +339,7 @@ TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
         configuration.depth_test = test;
         const std::uint32_t f = test == DepthTest::kOwn ? own : std::min(own, other);
         const std::uint32_t limit = f - static_cast<std::uint32_t>(f / std::exp2(bias));
-        for (const bool crease : {false, true}) {  // whose depth is not limited
+        for (const bool crease : {false, true}) {  // crease_depth = 0: no more limits
           EXPECT_TRUE(passes(configuration, crease, limit, own, other)) << bias << ' ' << f;
           EXPECT_TRUE(passes(configuration, crease, limit + 1, own, other));
           if (limit > 0) {
@@ -352,9 +353,9 @@ TEST(DepthTest, AtEqualityAndOneOnEitherSide) {
   }
 }
 
-// What a crease is compared with may lie behind it by a share of the crease's depth; other lines
-// have no such limit.
-TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
+// The depth that a crease is compared with may be farther than the crease by at most
+// 2^-crease_depth of the crease's depth. Other lines are not limited in this way.
+TEST(DepthTest, CreasesHaveAnAdditionalLimit) {
   Configuration configuration;
   tb::Random random(9);
   for (int n = 1; n <= 24; ++n) {
@@ -366,7 +367,7 @@ TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
         configuration.depth_test = test;
         for (const std::uint32_t f : {limit - 1, limit, limit + 1}) {
           const std::uint32_t other = test == DepthTest::kOwn ? 0 : 0xFFFFFF;
-          if (f > d) continue;  // the line must be seen
+          if (f > d) continue;  // the line would be hidden
           EXPECT_EQ(passes(configuration, true, d, f, other), f >= limit)
               << n << ' ' << d << ' ' << f;
           EXPECT_TRUE(passes(configuration, false, d, f, other));
@@ -374,18 +375,18 @@ TEST(DepthTest, CreasesHaveALimitOfTheirOwn) {
       }
       configuration.depth_test = DepthTest::kFarther;
       EXPECT_FALSE(
-          passes(configuration, true, d, 0xFFFFFF, limit - 1));  // the neighbour is the farther
+          passes(configuration, true, d, 0xFFFFFF, limit - 1));  // the neighbour is farther
       configuration.depth_test = DepthTest::kOff;
       EXPECT_TRUE(passes(configuration, true, d, 0, 0));
     }
     configuration.depth_test = DepthTest::kFarther;
     EXPECT_TRUE(passes(configuration, true, 0, 0, 0));
-    // The other test holds for creases, too.
+    // Creases must also pass the test that holds for all lines.
     EXPECT_FALSE(passes(configuration, true, 1000, 8000000, 8000000));
   }
 }
 
-TEST(DepthTest, NearerIsKnownWithTheNeighboursDepthAlone) {
+TEST(DepthTest, NearerNeedsTheDepthOfTheNeighbour) {
   using golden::geometric::is_nearer;
   Configuration configuration;
   EXPECT_TRUE(is_nearer(configuration, 6, 5));
@@ -399,7 +400,7 @@ TEST(DepthTest, NearerIsKnownWithTheNeighboursDepthAlone) {
 
 // ---- weights ------------------------------------------------------------------------------------
 
-TEST(Weights, MaxKeepsTheLargerLastTheLast) {
+TEST(Weights, MaxKeepsTheLargestAndLastTheLast) {
   for (const bool nearer : {false, true}) {
     Weights w = {10, 20, 30, 40};
     combine(Combine::kMax, nearer, w, Direction::kLeft, 29);
@@ -411,13 +412,13 @@ TEST(Weights, MaxKeepsTheLargerLastTheLast) {
   }
 }
 
-TEST(Weights, OutermostKeepsTheSmallerOfANearerPixel) {
+TEST(Weights, OutermostKeepsTheSmallerWeightIfNearer) {
   Weights w = {10, 20, 0, 40};
   combine(Combine::kOutermost, true, w, Direction::kUp, 11);
   EXPECT_EQ(w, (Weights{10, 20, 0, 40}));
   combine(Combine::kOutermost, true, w, Direction::kUp, 9);
   EXPECT_EQ(w, (Weights{9, 20, 0, 40}));
-  combine(Combine::kOutermost, true, w, Direction::kLeft, 7);  // the first one
+  combine(Combine::kOutermost, true, w, Direction::kLeft, 7);  // the first weight of this direction
   EXPECT_EQ(w, (Weights{9, 20, 7, 40}));
   combine(Combine::kOutermost, false, w, Direction::kDown, 19);
   EXPECT_EQ(w, (Weights{9, 20, 7, 40}));
@@ -425,8 +426,8 @@ TEST(Weights, OutermostKeepsTheSmallerOfANearerPixel) {
   EXPECT_EQ(w, (Weights{9, 21, 7, 40}));
 }
 
-// Every pair of weights of an axis, against the division-free form written out; and which axis.
-TEST(Resolve, AllPairsOfWeights) {
+// Every pair of weights of an axis, against the blend in real arithmetic.
+TEST(Resolve, AllWeightPairsMatchRealArithmetic) {
   Configuration configuration;
   const spec::geometric::Rgba8 own = {10, 200, 77, 201}, one = {250, 3, 90, 1},
                                two = {0, 255, 76, 2};
@@ -459,7 +460,7 @@ TEST(Resolve, AllPairsOfWeights) {
   }
 }
 
-TEST(Resolve, TheHeavierAxisAndUpDownOnATie) {
+TEST(Resolve, HeavierAxisWinsAndUpDownOnATie) {
   EXPECT_TRUE(probe_of({10, 20, 15, 16}).left_right);
   EXPECT_FALSE(probe_of({10, 20, 15, 15}).left_right);
   EXPECT_FALSE(probe_of({10, 20, 15, 14}).left_right);

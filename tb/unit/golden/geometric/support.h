@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The contract's frames (docs/reference/geometric/vectors.md), and hashes
-// of what came of it.
+// Frames of the contract (docs/reference/geometric/vectors.md), and hashes of pixels, weights and
+// traffic.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace deburr::tb::geometric {
 
-// A frame and what it is drawn from; owns what the golden only looks at.
+// A frame and its mesh. Owns the data that FrameInput refers to.
 struct Drawing {
   int width = 0, height = 0;
   std::vector<spec::geometric::Rgba8> colours;
@@ -76,9 +76,9 @@ inline std::uint64_t hash_of(const std::vector<std::array<std::uint8_t, 4>>& pix
   return hash.value();
 }
 
-// Of the reads of faces, edges, pairs, vertices, coarse depth, depth and weights, the writes of
-// weights, the reads of colours by the resolve, the writes of colours, and the reads and writes of
-// the copying.
+// Hash of the reads of faces, edges, pairs, vertices, coarse depth, depth and weights, of the
+// writes of weights, of the colour reads of the resolve and of the colour writes; with frame_copy
+// also of the reads and writes of the copy.
 inline std::uint64_t hash_of(const golden::geometric::Traffic& traffic, bool frame_copy) {
   using spec::geometric::Region;
   stimuli::VectorHash hash;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Do the choices that leave traffic out leave out what docs/reference/geometric/memory.md says, in
-// its order, and nothing of the picture? Lists and counts are worked out by hand.
+// The options that reduce traffic omit the accesses that docs/reference/geometric/memory.md says,
+// keep the order of the others, and do not change the picture. Lists and counts are worked out by
+// hand.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 namespace flag = spec::geometric::flag;
 
-// A boundary that is seen everywhere.
+// Adds a boundary edge; with the default depth it is visible everywhere.
 void add_line(Drawing& d, int x0, int y0, int x1, int y1, std::uint32_t depth = 0xFFFFFF) {
   const auto v = static_cast<std::uint32_t>(d.vertices.size());
   d.vertices.push_back({x0, y0, depth, true});
@@ -52,7 +53,7 @@ void add_line(Drawing& d, int x0, int y0, int x1, int y1, std::uint32_t depth = 
   d.edges.push_back({v, v + 1, 0, 0, flag::kBoundary});
 }
 
-// Lines of a region from their numbers.
+// Addresses of lines, from the base of their region and their numbers.
 std::vector<std::uint32_t> lines(std::uint32_t base, std::vector<std::uint32_t> numbers) {
   for (std::uint32_t& number : numbers) number = base + 64 * number;
   return numbers;
@@ -64,9 +65,9 @@ GeometricGolden golden_of(const Parameters& p, const Drawing& d) {
   return golden;
 }
 
-// ---- colours that are kept ----------------------------------------------------------------------
+// ---- kept colours -------------------------------------------------------------------------------
 
-TEST(KeptLines, AreThoseThatWereReadLast) {
+TEST(KeptLines, ReplaceTheLineReadFirst) {
   KeptLines kept;
   kept.reset(10, 2);
   EXPECT_FALSE(kept.look_up(5));
@@ -76,7 +77,7 @@ TEST(KeptLines, AreThoseThatWereReadLast) {
   EXPECT_TRUE(kept.look_up(5));
   EXPECT_TRUE(kept.look_up(7));
   EXPECT_TRUE(kept.look_up(5));
-  // 5 was used last, and read first: its place is taken.
+  // 5 was used last but read first, so it is replaced.
   EXPECT_FALSE(kept.look_up(9));
   EXPECT_TRUE(kept.look_up(7));
   EXPECT_FALSE(kept.look_up(5));
@@ -91,15 +92,15 @@ TEST(KeptLines, AreThoseThatWereReadLast) {
   EXPECT_FALSE(kept.look_up(0));
 }
 
-// A line that blends row 7 of 64 x 16 pixels with row 8: each of sixteen blocks reads a line of
-// either row, and four blocks in turn read the same two.
+// A line that blends row 7 with row 8 in a frame of 64 x 16 pixels. Each of the sixteen blocks
+// reads one line of each row, and four consecutive blocks read the same two lines.
 Drawing row_of_blocks() {
   Drawing d(64, 16);
   std::fill(d.colours.begin(), d.colours.end(), Rgba8{200, 100, 50, 255});
   add_line(d, 0, 8 * 256 - 64, 64 * 256, 8 * 256 - 64);
   return d;
 }
-// Lines 28.. are of row 7, 32.. of row 8.
+// Lines 28..31 hold row 7, lines 32..35 row 8.
 const std::vector<std::uint32_t> kOnceEach = {28, 32, 29, 33, 30, 34, 31, 35};
 
 Parameters raster(int colour_lines) {
@@ -110,7 +111,7 @@ Parameters raster(int colour_lines) {
   return p;
 }
 
-TEST(KeptColours, AreNotReadAgain) {
+TEST(KeptColours, KeptLinesAreNotReadAgain) {
   const Drawing d = row_of_blocks();
   std::vector<std::uint32_t> all;
   for (std::uint32_t block = 0; block < 16; ++block)
@@ -119,7 +120,7 @@ TEST(KeptColours, AreNotReadAgain) {
   for (const auto& [kept, expected] :
        {std::pair{0, all}, {1, all}, {2, kOnceEach}, {3, kOnceEach}, {256, kOnceEach}}) {
     GeometricGolden golden(raster(kept));
-    for (const int frame : {0, 1}) {  // a frame begins with none
+    for (const int frame : {0, 1}) {  // no line is kept from frame to frame
       golden.process(d.input(kVectorBases));
       EXPECT_EQ(golden.traffic().read(Region::kColour), lines(base, expected)) << kept << frame;
     }
@@ -127,7 +128,7 @@ TEST(KeptColours, AreNotReadAgain) {
   }
 }
 
-TEST(KeptColours, AreOfTheCopyWithFrameCopy) {
+TEST(KeptColours, FrameCopyKeepsLinesOfTheCopy) {
   Parameters p = raster(2);
   p.frame_copy = true;
   const GeometricGolden golden = golden_of(p, row_of_blocks());
@@ -137,8 +138,8 @@ TEST(KeptColours, AreOfTheCopyWithFrameCopy) {
   EXPECT_EQ(golden.traffic().read(Region::kColour), lines(kVectorBases.colour, all));
 }
 
-// A line that cannot be read is kept as zeros: the error comes once, its effect in four blocks.
-TEST(KeptColours, AreZerosIfTheyCannotBeRead) {
+// An unreadable line is kept as zeros: one error affects four blocks.
+TEST(KeptColours, UnreadableLinesAreKeptAsZeros) {
   const Drawing d = row_of_blocks();
   for (const int kept : {0, 2}) {
     GeometricGolden golden(raster(kept));
@@ -146,15 +147,15 @@ TEST(KeptColours, AreZerosIfTheyCannotBeRead) {
     golden.process(d.input(kVectorBases));
     EXPECT_EQ(golden.memory_errors(), kept == 0 ? 4u : 1u);
     for (std::size_t x = 0; x < 64; ++x) {
-      // A quarter of 0 beside three of 200.
+      // A quarter of 0 and three quarters of 200.
       EXPECT_EQ(golden.pixels()[7 * 64 + x][0], x < 16 ? 150 : 200) << x;
     }
   }
 }
 
-// ---- a write buffer that can be hit -------------------------------------------------------------
+// ---- write buffer -------------------------------------------------------------------------------
 
-TEST(WriteBuffer, IsARing) {
+TEST(WriteBuffer, PushReturnsTheOldestEntry) {
   WriteBuffer ring;
   ring.reset(2);
   EXPECT_EQ(ring.push(10), WriteBuffer::kNothing);
@@ -163,13 +164,13 @@ TEST(WriteBuffer, IsARing) {
   EXPECT_EQ(ring.push(12), 10u);
   EXPECT_THAT(ring.remaining(), ElementsAre(11, 12));
   EXPECT_FALSE(ring.exchange(10, 13));
-  // A hit keeps the place and the turn.
+  // A hit replaces the value and keeps the order.
   EXPECT_TRUE(ring.exchange(12, 13));
   EXPECT_THAT(ring.remaining(), ElementsAre(11, 13));
   EXPECT_EQ(ring.push(14), 11u);
   EXPECT_EQ(ring.push(15), 13u);
   EXPECT_THAT(ring.remaining(), ElementsAre(14, 15));
-  // Empty places are left out, and the full ones after them come all the same.
+  // Empty entries are skipped, and the used entries after them are still returned.
   ring.reset(3);
   ring.push(1);
   ring.push(2);
@@ -182,8 +183,9 @@ TEST(WriteBuffer, IsARing) {
   EXPECT_THAT(ring.remaining(), IsEmpty());
 }
 
-// Twice over sixteen blocks of a row, first with weights of 96, then of 64. Four blocks of a row
-// are in the cache at a time: block x replaces x - 4, the second time x + 12 or x - 4.
+// Two lines over the same row of sixteen blocks, first with weights of 96, then of 64. The cache
+// holds four blocks of a row, so block x replaces block x - 4, or block x + 12 at the start of the
+// second line.
 Drawing twice_over_a_row() {
   Drawing d(64, 16);
   add_line(d, 0, 8 * 256 - 96, 64 * 256, 8 * 256 - 96);
@@ -199,8 +201,9 @@ Parameters small_cache(int write_buffer) {
   return p;
 }
 
-// What is hit is not read, so that memory cannot lose it. Block 15 is in the cache at last.
-TEST(WriteBuffer, KeepsWhatMemoryWouldLose) {
+// A block that hits in the write buffer is not read from memory, so a memory error does not affect
+// it. Block 15 is in the cache at the end.
+TEST(WriteBuffer, HitsAreUnaffectedByMemoryErrors) {
   for (const int places : {0, 12}) {
     GeometricGolden golden(small_cache(places));
     golden.set_memory_errors(
@@ -222,8 +225,9 @@ Parameters split(Select select = Select::kEdges) {
   return p;
 }
 
-// 25 edges: every third from 0 on is a boundary, nine in all, so that of two lines of pairs after
-// theirs the first one starts at 64. The sixteen others are flat. Each has vertices of its own.
+// 25 edges. Every third one from 0 on is a boundary, nine in all, so their pairs take one line and
+// the pairs of the others start at byte 64. The sixteen others are flat. Each edge has its own
+// vertices.
 Drawing mixed_edges() {
   Drawing d(64, 64);
   d.set_facing(0, true);
@@ -237,7 +241,7 @@ Drawing mixed_edges() {
 }
 constexpr std::uint32_t kPairs = kVectorBases.pairs;
 
-TEST(SplitRecords, AreReadInLinesOfTen) {
+TEST(SplitRecords, LinesHoldTenRecords) {
   for (const std::size_t edges : {1u, 10u, 11u, 20u, 21u, 25u}) {
     Drawing d = mixed_edges();
     d.edges.resize(edges);
@@ -255,7 +259,7 @@ TEST(SplitRecords, AreReadInLinesOfTen) {
   EXPECT_THAT(golden_of(Parameters{}, mixed_edges()).traffic().read(Region::kPairs), IsEmpty());
 }
 
-TEST(SplitRecords, OthersLieAfterTheBoundariesUnlessRegistersSayElse) {
+TEST(SplitRecords, OtherPairsFollowBoundariesUnlessBaseIsSet) {
   Drawing d = mixed_edges();
   d.edges[1].flags = flag::kSeam;
   FrameInput input = d.input(kVectorBases);
@@ -270,8 +274,8 @@ TEST(SplitRecords, OthersLieAfterTheBoundariesUnlessRegistersSayElse) {
   EXPECT_THROW(golden.process(input), spec::CheckFailed);
 }
 
-// BOUNDARY_COUNT is not what the flags say: nine boundaries and sixteen others.
-TEST(SplitRecords, NumbersEndWithTheCounts) {
+// BOUNDARY_COUNT need not match the flags, which give nine boundaries and sixteen others.
+TEST(SplitRecords, RecordsBeyondTheCountsAreInvalid) {
   Drawing d = mixed_edges();
   for (Edge& edge : d.edges)
     if (edge.flags == 0) edge.flags = flag::kSeam;
@@ -297,8 +301,8 @@ TEST(SplitRecords, NumbersEndWithTheCounts) {
   EXPECT_THAT(invalid(10), ElementsAre(23));  // other number 15 of 15
   EXPECT_EQ(pairs(), lines(kPairs, {0, 1, 2}));
   EXPECT_THAT(invalid(15), ElementsAre(16, 17, 19, 20, 22, 23));  // from number 10 on
-  EXPECT_EQ(pairs(), lines(kPairs, {0, 2}));  // others after two lines of boundaries, no second
-  // No pair is read for what has no number.
+  EXPECT_EQ(pairs(), lines(kPairs, {0, 2}));                      // others start at line 2
+  // An edge without a valid number reads no pair.
   EXPECT_THAT(invalid(0), ElementsAre(0, 3, 6, 9, 12, 15, 18, 21, 24));
   EXPECT_EQ(pairs(), lines(kPairs, {0, 1}));
   EXPECT_EQ(invalid(25).size(), 16u);
@@ -309,15 +313,15 @@ TEST(SplitRecords, NumbersEndWithTheCounts) {
   EXPECT_NO_THROW(joined.process(input));
 }
 
-// The first ten edges are lost: they count as others, of faces 0, and shift the numbers of all that
-// follow. Boundaries 12, 15, 18, 21, 24 have numbers 0..4; others go on with 10, and 19, 20, 22, 23
-// have numbers from 16 on.
-TEST(SplitRecords, ALineOfEdgesThatIsLostShiftsTheNumbers) {
+// The line of the first ten edges is unreadable. They count as others, of faces 0, and shift the
+// numbers of all edges that follow: boundaries 12, 15, 18, 21 and 24 have the numbers 0..4, others
+// continue with 10, and 19, 20, 22 and 23 have invalid numbers from 16 on.
+TEST(SplitRecords, UnreadableEdgeLineShiftsTheNumbers) {
   const Drawing d = mixed_edges();
   const std::array<std::uint32_t, 9> boundaries = {0, 3, 6, 9, 12, 15, 18, 21, 24};
   const std::array<std::uint32_t, 16> others = {1,  2,  4,  5,  7,  8,  10, 11,
                                                 13, 14, 16, 17, 19, 20, 22, 23};
-  // The same as a joined table, without the edges that have no number.
+  // The equivalent joined table, without the edges whose numbers are invalid.
   Drawing same = d;
   same.edges.clear();
   std::uint32_t b = 0;
@@ -344,8 +348,8 @@ TEST(SplitRecords, ALineOfEdgesThatIsLostShiftsTheNumbers) {
   EXPECT_EQ(golden.traffic().read(Region::kPairs), lines(kPairs, {1, 2, 0}));
 }
 
-// Pairs that are lost have vertex 0 at both ends.
-TEST(SplitRecords, PairsThatAreLostAreZeros) {
+// An unreadable pair has vertex 0 at both ends.
+TEST(SplitRecords, UnreadablePairsAreZeros) {
   Drawing d = mixed_edges();
   const std::array<std::uint64_t, 3> records = {9, 10, 6};
   for (const std::uint32_t line : {0u, 1u, 2u}) {
@@ -357,15 +361,15 @@ TEST(SplitRecords, PairsThatAreLostAreZeros) {
     EXPECT_EQ(golden.work().lines, 25 - records[line]);
     EXPECT_EQ(golden.work().invalid_edges, 0u);
   }
-  d.vertices.clear();  // not even vertex 0 is there
+  d.vertices.clear();  // vertex 0 does not exist either
   GeometricGolden golden(split(Select::kAll));
   golden.process(d.input(kVectorBases));
   EXPECT_EQ(golden.work().invalid_edges, 25u);
 }
 
-// ---- a coarse test of depth ---------------------------------------------------------------------
+// ---- coarse depth test --------------------------------------------------------------------------
 
-TEST(CoarseDepth, EveryTileHasAPlaceOfItsOwn) {
+TEST(CoarseDepth, EveryTileHasItsOwnEntry) {
   struct Size {
     int width, height;
     std::size_t tiles;
@@ -397,21 +401,21 @@ TEST(CoarseDepth, EveryTileHasAPlaceOfItsOwn) {
   }
 }
 
-TEST(CoarseDepth, EntriesAreTheLeastOfTheirTiles) {
+TEST(CoarseDepth, EntriesAreTheMinimumOfTheirTiles) {
   Drawing d(17, 9);
   std::fill(d.depths.begin(), d.depths.end(), 0xFF000000u | (1000 * 256 + 255));
   const auto at = [](std::size_t x, std::size_t y) { return 17 * y + x; };
   d.depths[at(7, 0)] = 0xAB000000u | (999 * 256 + 255);  // the last column of a tile
   d.depths[at(8, 7)] = 255;                              // the first one, in the last row
-  d.depths[at(16, 0)] = 0xFFFFFF;                        // with other pixels of a column
+  d.depths[at(16, 0)] = 0xFFFFFF;                        // the rest of its tile is 1000
   d.depths[at(0, 8)] = 512;                              // the first column of the frame
   d.depths[at(15, 8)] = 256;
-  d.depths[at(16, 8)] = 0xFFFFFF;  // alone in the frame
+  d.depths[at(16, 8)] = 0xFFFFFF;  // the only pixel of its tile
   EXPECT_THAT(golden::geometric::coarse_entries(golden::geometric::DepthView(d.depths, 17, 9)),
               ElementsAre(999, 0, 1000, 2, 1, 0xFFFF));
 }
 
-TEST(CoarseDepth, DropsWhatLiesBehindByMoreThanTheBias) {
+TEST(CoarseDepth, DropsCandidatesBehindByMoreThanTheBias) {
   Parameters p;
   const auto limit = [&](std::uint16_t entry) {
     std::uint32_t d = 0;
@@ -430,7 +434,7 @@ TEST(CoarseDepth, DropsWhatLiesBehindByMoreThanTheBias) {
   EXPECT_EQ(limit(100), 25600u);
 }
 
-// A line down through pixels of column `x`, whose neighbours are those to the right.
+// A vertical line through column `x`; the neighbours are to its right.
 Drawing column(int x, int width, int height, std::uint32_t depth) {
   Drawing d(width, height);
   add_line(d, 256 * x + 192, 0, 256 * x + 192, 256 * height, depth);
@@ -445,9 +449,10 @@ Parameters coarse(DepthTest test = DepthTest::kFarther, CoarseLines lines = Coar
   return p;
 }
 
-// Columns 63 and 64 of 128 x 96 pixels: neighbours in another tile and another line, three lines of
-// entries one below the other, of which the third takes the first one's place among four.
-TEST(CoarseDepth, LinesAreReadOwnFirst) {
+// Columns 63 and 64 of 128 x 96 pixels: the neighbour is in another tile and another line of
+// entries. The line crosses three rows of lines of entries; in a cache of four lines the third row
+// replaces the first.
+TEST(CoarseDepth, OwnLineIsReadBeforeTheNeighbours) {
   Drawing d = column(63, 128, 96, 0xFFFFFF);
   d.edges.push_back(d.edges[0]);
   const auto reads = [](const Parameters& p, const Drawing& drawing) {
@@ -455,19 +460,19 @@ TEST(CoarseDepth, LinesAreReadOwnFirst) {
   };
   const std::uint32_t base = kVectorBases.coarse;
   EXPECT_EQ(reads(coarse(), d), lines(base, {0, 1, 2, 3, 4, 5, 0, 1, 4, 5}));
-  // Eight lines are four across and two down, sixteen are four and four.
+  // A cache of eight lines is four across and two down, one of sixteen four across and four down.
   EXPECT_EQ(reads(coarse(DepthTest::kFarther, CoarseLines::k8), d),
             lines(base, {0, 1, 2, 3, 4, 5, 0, 1, 4, 5}));
   EXPECT_EQ(reads(coarse(DepthTest::kFarther, CoarseLines::k16), d),
             lines(base, {0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(reads(coarse(DepthTest::kOwn), d), lines(base, {0, 2, 4, 0, 4}));
-  // The neighbour's tile is another one in the same line.
+  // The neighbour's tile is in the same line.
   EXPECT_EQ(reads(coarse(), column(55, 128, 96, 0xFFFFFF)), lines(base, {0, 2, 4}));
   // Without candidates nothing is looked up.
   Drawing outside(70, 50);
   add_line(outside, 0, 64, 70 * 256, 64);
   EXPECT_THAT(reads(coarse(), outside), IsEmpty());
-  // Rows 31 and 32, and a frame begins with none.
+  // Rows 31 and 32. The cache is empty when a frame starts.
   Drawing down(70, 50);
   add_line(down, 0, 32 * 256 - 64, 70 * 256, 32 * 256 - 64);
   GeometricGolden golden(coarse());
@@ -477,8 +482,8 @@ TEST(CoarseDepth, LinesAreReadOwnFirst) {
   }
 }
 
-// The engine takes an entry as it is.
-TEST(CoarseDepth, AnEntryThatIsTooLargeDropsWhatWouldPass) {
+// The engine does not compare entries with the depths.
+TEST(CoarseDepth, TooLargeEntryDropsVisibleCandidates) {
   const Drawing d = column(3, 8, 24, 1000);  // in front of depths of 0
   for (const auto detail :
        {GeometricGolden::Detail::kPixels, GeometricGolden::Detail::kEverything}) {
@@ -488,7 +493,7 @@ TEST(CoarseDepth, AnEntryThatIsTooLargeDropsWhatWouldPass) {
     input.coarse = entries;
     golden.process(input);
     EXPECT_EQ(golden.work().passed, 24u);
-    entries[1] = 4;  // of 1024, less 2
+    entries[1] = 4;  // limit 1024 - 2
     golden.process(input);
     EXPECT_EQ(golden.work().passed, 16u);
     EXPECT_EQ(golden.weights()[8 * 7 + 3], (Weights{0, 0, 0, 64}));
@@ -504,8 +509,8 @@ TEST(CoarseDepth, AnEntryThatIsTooLargeDropsWhatWouldPass) {
   }
 }
 
-// Rows 32 and on have a line of entries of their own. It is lost: there depths are looked up.
-TEST(CoarseDepth, EntriesThatAreLostDropNothing) {
+// Rows from 32 on have their own line of entries. If it is unreadable, their depths are read.
+TEST(CoarseDepth, UnreadableEntriesDropNothing) {
   Drawing d = column(3, 8, 64, 0);
   std::fill(d.depths.begin(), d.depths.end(), 1u << 20);
   GeometricGolden golden(coarse());
@@ -518,7 +523,8 @@ TEST(CoarseDepth, EntriesThatAreLostDropNothing) {
   // Own blocks (0, 8) to (0, 15) and their neighbours (1, ..).
   ASSERT_EQ(golden.traffic().read(Region::kDepth).size(), 16u);
   EXPECT_EQ(golden.traffic().read(Region::kDepth)[0], kVectorBases.depth + 256 * 4);
-  // Depths that are lost hide nothing, but the entries that were made of them do.
+  // Unreadable depths hide nothing, but the entries computed from these depths still drop
+  // candidates.
   golden.set_memory_errors([](std::uint32_t a) { return a == kVectorBases.depth; });
   golden.process(d.input(kVectorBases));
   EXPECT_EQ(golden.work().passed, 0u);
@@ -527,7 +533,7 @@ TEST(CoarseDepth, EntriesThatAreLostDropNothing) {
 
 // ---- select = mesh ------------------------------------------------------------------------------
 
-// Nor need there be any.
+// Facing bits need not exist.
 TEST(SelectMesh, ReadsNoFacingBits) {
   Drawing d = mixed_edges();
   d.edges[1].flags = flag::kSeam;
@@ -547,13 +553,13 @@ TEST(SelectMesh, ReadsNoFacingBits) {
   }
 }
 
-// ---- all of it ----------------------------------------------------------------------------------
+// ---- all options --------------------------------------------------------------------------------
 
-struct Choice {
+struct Option {
   const char* name;
   void (*make)(Parameters&);
 };
-constexpr Choice kChoices[] = {
+constexpr Option kOptions[] = {
     {"colours", [](Parameters& p) { p.colour_lines = 5; }},
     {"records", [](Parameters& p) { p.records = RecordsLayout::kSplit; }},
     {"buffer", [](Parameters& p) { p.write_buffer = 7; }},
@@ -572,9 +578,9 @@ Drawing random_drawing(std::uint64_t seed) {
   Drawing d(width, height);
   for (auto& pixel : d.colours)
     for (auto& c : pixel) c = static_cast<std::uint8_t>(random.below(256));
-  const std::uint32_t reach = random.below(1u << 24);
+  const std::uint32_t stripe_depth = random.below(1u << 24);
   for (std::size_t i = 0; i < d.depths.size(); ++i) {
-    const std::uint32_t depth = i / 7 % 5 == 0 ? reach : 12000000 + random.below(1000);
+    const std::uint32_t depth = i / 7 % 5 == 0 ? stripe_depth : 12000000 + random.below(1000);
     d.depths[i] = depth | (random.below(256) << 24);
   }
   for (std::uint32_t face = 0; face < 40; ++face) d.set_facing(face, random.chance(500));
@@ -605,8 +611,8 @@ Parameters random_configuration(tb::Random& random) {
   return p;
 }
 
-// Counts but for those of edges that are invalid: these may be of another class, and with split
-// records of both.
+// The counts without the edge classes: with split records an invalid edge may count in another
+// class, or in two.
 spec::geometric::Work without_classes(spec::geometric::Work work) {
   for (auto count :
        {&spec::geometric::Work::boundary_edges, &spec::geometric::Work::silhouette_edges,
@@ -616,10 +622,10 @@ spec::geometric::Work without_classes(spec::geometric::Work work) {
   return work;
 }
 
-TEST(LessTraffic, ChangesNoPixelAndNoCount) {
+TEST(LessTraffic, OptionsChangeNoPixelAndNoCount) {
   tb::Random random(11);
   std::uint64_t invalid_joined = 0, invalid_split = 0;
-  std::array<std::size_t, std::size(kChoices)> left_out{};
+  std::array<std::size_t, std::size(kOptions)> reduced{};
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Drawing d = random_drawing(seed);
     const Parameters plain = random_configuration(random);
@@ -630,11 +636,11 @@ TEST(LessTraffic, ChangesNoPixelAndNoCount) {
       for (const auto& list : golden.traffic().writes) sum += list.size();
       return sum;
     };
-    for (std::size_t i = 0; i < std::size(kChoices); ++i) {
+    for (std::size_t i = 0; i < std::size(kOptions); ++i) {
       Parameters p = plain;
-      kChoices[i].make(p);
+      kOptions[i].make(p);
       const GeometricGolden golden = golden_of(p, d);
-      const auto what = std::string(kChoices[i].name) + ' ' + std::to_string(seed);
+      const auto what = std::string(kOptions[i].name) + ' ' + std::to_string(seed);
       ASSERT_EQ(golden.pixels(), reference.pixels()) << what;
       ASSERT_EQ(golden.weights(), reference.weights()) << what;
       ASSERT_EQ(golden.lines(), reference.lines()) << what;
@@ -651,8 +657,8 @@ TEST(LessTraffic, ChangesNoPixelAndNoCount) {
       }
       EXPECT_EQ(work.kept_edges,
                 work.outside_edges + work.degenerate_edges + work.empty_edges + work.lines);
-      left_out[i] += reads(golden) < reads(reference) ? 1 : 0;
-      // The fast way comes to the same.
+      reduced[i] += reads(golden) < reads(reference) ? 1 : 0;
+      // The fast mode gives the same result.
       GeometricGolden fast(p, GeometricGolden::Detail::kPixels);
       EXPECT_EQ(fast.process(d.input()), reference.pixels()) << what;
       EXPECT_EQ(fast.work(), work) << what;
@@ -660,12 +666,12 @@ TEST(LessTraffic, ChangesNoPixelAndNoCount) {
   }
   EXPECT_GT(invalid_split, 100u);
   EXPECT_GT(invalid_joined, invalid_split);
-  for (std::size_t i = 0; i < std::size(kChoices); ++i)
-    EXPECT_GT(left_out[i], 10u) << kChoices[i].name;
+  for (std::size_t i = 0; i < std::size(kOptions); ++i)
+    EXPECT_GT(reduced[i], 10u) << kOptions[i].name;
 }
 
-// Classes of split records, counted again from the page's rules.
-TEST(LessTraffic, SplitRecordsCountAnInvalidEdgeInItsClassToo) {
+// Expected classes of split records, from the rules in docs/reference/geometric/memory.md.
+TEST(LessTraffic, SplitRecordsCountInvalidEdgesInTheirClass) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Drawing d = random_drawing(seed);
     for (const Select select : {Select::kAll, Select::kEdges, Select::kMesh}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the golden give the contract's numbers? The frames and lines of spec/geometric/vectors.h,
-// and every entry of the ROM (docs/reference/geometric/algorithm.md).
+// The golden model against the contract's vectors: the frames and lines of
+// spec/geometric/vectors.h, and every entry of the ROM (docs/reference/geometric/algorithm.md).
 #include "spec/geometric/vectors.h"
 
 #include <gmock/gmock.h>
@@ -56,12 +56,12 @@ FrameResult result_of(const FrameVector& v) {
 
 class Frames : public testing::TestWithParam<FrameVector> {};
 
-TEST_P(Frames, AreTheContracts) {
+TEST_P(Frames, MatchTheContract) {
   EXPECT_EQ(differences(GetParam().result, result_of(GetParam())), "");
 }
 
-// The fast way gives the same pixels, weights and work.
-TEST_P(Frames, NeedNoDetail) {
+// The fast mode gives the same pixels, weights and work.
+TEST_P(Frames, FastModeGivesTheSameResult) {
   const FrameVector& v = GetParam();
   GeometricGolden golden(parameters_of(v), GeometricGolden::Detail::kPixels);
   golden.process(tb::geometric::vector_drawing(v.frame).input(tb::geometric::kVectorBases));
@@ -83,7 +83,7 @@ TEST(FrameVectors, EachValueIsCompared) {
   tb::expect_each_value_is_compared(v.result, result_of(v));
 }
 
-TEST(FrameVectors, SetParametersThatExist) {
+TEST(FrameVectors, SettingsNameExistingParameters) {
   Parameters p;
   tb::apply_settings(p, "walkers=1 mark=true depth_bias=4");
   EXPECT_EQ(p.walkers, spec::geometric::Lanes::kOne);
@@ -98,7 +98,7 @@ TEST(FrameVectors, SetParametersThatExist) {
 
 class Lines : public testing::TestWithParam<LineVector> {};
 
-TEST_P(Lines, AreTheContracts) {
+TEST_P(Lines, MatchTheContract) {
   const LineVector& v = GetParam();
   const bool horizontal = v.axis == Axis::kHorizontal;
   const auto vertex = [&](const LineEnd& end) {
@@ -124,12 +124,12 @@ INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(spec::geometric::kLineVec
 
 // ---- tables -------------------------------------------------------------------------------------
 
-TEST(Tables, DeficitsAreWhatTheFormulaSays) {
+TEST(Tables, DeficitsMatchTheFormula) {
   for (std::uint64_t i = 0; i < 1024; ++i) {
     const std::uint64_t deficit = spec::geometric::kReciprocalDeficit[i];
     EXPECT_EQ(deficit, (std::uint64_t{1} << 26) - (std::uint64_t{1} << 36) / (1024 + i));
     EXPECT_LT(deficit, 1u << 25);
-    // A length whose low twelve bits are 0 takes the same reciprocal from the division.
+    // For a length whose low twelve bits are 0 the division gives the same reciprocal.
     EXPECT_EQ((1u << 26) - deficit,
               golden::geometric::reciprocal(static_cast<std::uint32_t>((1024 + i) << 12)));
   }

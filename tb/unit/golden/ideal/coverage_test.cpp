@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shares of pixels in real numbers: by hand, by samples, by the areas that they add up to.
+// Coverage of pixels in real arithmetic, against values worked out by hand, against samples, and
+// against the total area.
 #include "golden/ideal/coverage.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ using golden::ideal::disc_coverage;
 using golden::ideal::StepLine;
 using tb::Random;
 
-TEST(IdealCoverage, OfHalfPlanesWorkedOutByHand) {
+TEST(IdealCoverage, HalfPlanesMatchValuesByHand) {
   EXPECT_DOUBLE_EQ(coverage({1, 0, -0.25}, 0, 0), 0.75);
   EXPECT_DOUBLE_EQ(coverage({1, 1, -1}, 0, 0), 0.5);
   EXPECT_DOUBLE_EQ(coverage({-1, -1, 0.5}, 0, 0), 0.125);
@@ -27,10 +28,10 @@ TEST(IdealCoverage, OfHalfPlanesWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(coverage({0, 0, 1}, 3, 4), 1);
   EXPECT_DOUBLE_EQ(coverage({0, 0, -1}, 3, 4), 0);
   EXPECT_DOUBLE_EQ(coverage({0, 0, 0}, 3, 4), 0);  // the border itself is outside
-  EXPECT_NEAR(coverage({1, -8192, 0}, 8190, 0), 8190.5 / 8192, 1e-12);  // far out
+  EXPECT_NEAR(coverage({1, -8192, 0}, 8190, 0), 8190.5 / 8192, 1e-12);  // far from the origin
 }
 
-TEST(IdealCoverage, AgreesWithSamples) {
+TEST(IdealCoverage, HalfPlanesMatchSamples) {
   Random random(9);
   for (int i = 0; i < 200; ++i) {
     const golden::ideal::HalfPlane h{random.uniform(-1, 1), random.uniform(-1, 1),
@@ -44,22 +45,22 @@ TEST(IdealCoverage, AgreesWithSamples) {
   }
 }
 
-TEST(IdealCoverage, OfDiscsWorkedOutByHand) {
+TEST(IdealCoverage, DiscsMatchValuesByHand) {
   using std::numbers::pi;
   EXPECT_NEAR(disc_coverage({0, 0, 1}, 0, 0), pi / 4, 1e-14);
-  EXPECT_NEAR(disc_coverage({0.5, 0.5, 0.25}, 0, 0), pi / 16, 1e-14);  // all of it
+  EXPECT_NEAR(disc_coverage({0.5, 0.5, 0.25}, 0, 0), pi / 16, 1e-14);  // the whole disc
   EXPECT_NEAR(disc_coverage({0.5, 0, 0.5}, 0, 0), pi / 8, 1e-14);
   EXPECT_NEAR(disc_coverage({0.5, 0, 0.5}, 0, -1), pi / 8, 1e-14);
   EXPECT_DOUBLE_EQ(disc_coverage({0, 0, 9}, 3, 4), 1);
   EXPECT_DOUBLE_EQ(disc_coverage({0, 0, 4}, 3, 4), 0);
   EXPECT_NEAR(disc_coverage({0.5, 0.5, 0.5}, 0, 0), pi / 4, 1e-14);  // touches all sides
-  // The cap before the corners, and what lies between them.
+  // The cap of the circle, and the rectangle between the cap and the right side of the pixel.
   EXPECT_NEAR(disc_coverage({1, 0.5, 1}, 0, 0), std::sqrt(3.0) / 4 + pi / 6, 1e-14);
-  // Where the radius is large it is a half-plane.
+  // With a large radius the disc is a half-plane.
   EXPECT_NEAR(disc_coverage({-1e3, 0.5, 1e3 + 0.25}, 0, 0), 0.25, 1e-4);
 }
 
-TEST(IdealCoverage, OfDiscsAddsUpToTheirArea) {
+TEST(IdealCoverage, DiscCoveragesSumToTheArea) {
   Random random(10);
   for (int i = 0; i < 50; ++i) {
     const golden::ideal::Disc disc{random.uniform(30, 31), random.uniform(30, 31),
@@ -67,12 +68,12 @@ TEST(IdealCoverage, OfDiscsAddsUpToTheirArea) {
     double sum = 0;
     for (int y = 0; y < 60; ++y) {
       for (int x = 0; x < 60; ++x) {
-        const double share = disc_coverage(disc, x, y);
-        sum += share;
-        // A corner inside and one outside: the circle crosses.
+        const double covered = disc_coverage(disc, x, y);
+        sum += covered;
+        // If one corner is inside and one outside, the circle crosses the pixel.
         const bool a = disc.contains(x, y), b = disc.contains(x + 1, y + 1);
         if (a != b) {
-          EXPECT_TRUE(share > 0 && share < 1) << x << ", " << y;
+          EXPECT_TRUE(covered > 0 && covered < 1) << x << ", " << y;
         }
       }
     }
@@ -80,8 +81,8 @@ TEST(IdealCoverage, OfDiscsAddsUpToTheirArea) {
   }
 }
 
-// Reshetov's areas are coverages of the half-plane between line and edge.
-TEST(IdealCoverage, OfTheLineIsTheAreaThatItCutsOff) {
+// Reshetov's areas are the coverages of the half-plane between line and edge, at most 1/2.
+TEST(IdealCoverage, LineAreasMatchHalfPlaneCoverage) {
   Random random(3);
   for (int i = 0; i < 20000; ++i) {
     const int length = 1 + static_cast<int>(random.uniform(0, 40));

@@ -17,7 +17,7 @@ using golden::ideal::Ellipse;
 using golden::ideal::level_error;
 using golden::ideal::PixelFootprint;
 
-TEST(Mean, IsExactForPolynomialsOfTheThirdDegree) {
+TEST(Mean, CubicPolynomialsAreExact) {
   const auto one = [](double) { return 1.0; };
   const auto cube = [](double x) { return x * x * x; };
   for (const int pairs : {1, 2, 5}) {
@@ -26,15 +26,15 @@ TEST(Mean, IsExactForPolynomialsOfTheThirdDegree) {
   }
 }
 
-TEST(EllipseOfAFootprint, OfNothingIsAPoint) {
+TEST(EllipseOfAFootprint, EmptyFootprintIsAPoint) {
   const Ellipse point = golden::ideal::ellipse(PixelFootprint{});
   EXPECT_EQ(point.d_max, 0.0);
   EXPECT_EQ(point.d_min, 0.0);
 }
 
-// Sides of 2^4 to 2^12 texels, at angles from 0 to 45 degrees: in the middle of each of the many
-// parts that either is cut into.
-TEST(LevelError, LooksAtSidesOfAllLengthsAndAngles) {
+// Covers sides of 2^4 to 2^12 texels at angles from 0 to 45 degrees. The samples are in the middle
+// of many small intervals, so they do not reach the limits.
+TEST(LevelError, CoversAllSideLengthsAndAngles) {
   double shortest = 13, longest = 0, flattest = 1, steepest = 0;
   level_error([&](double a, double b) {
     const double level = std::log2(std::hypot(a, b)), angle = std::atan2(b, a);
@@ -54,7 +54,7 @@ TEST(LevelError, LooksAtSidesOfAllLengthsAndAngles) {
   EXPECT_LT(steepest, kEighth);
 }
 
-TEST(LevelError, OfKnownErrorsIsKnown) {
+TEST(LevelError, ConstantErrorIsReported) {
   const auto off_by = [](double error) {
     return level_error([=](double a, double b) { return std::log2(std::hypot(a, b)) + error; });
   };
@@ -69,8 +69,8 @@ TEST(LevelError, OfKnownErrorsIsKnown) {
   EXPECT_EQ(off_by(1).floor_mismatch, 1);
 }
 
-// Of a side of one texel and less there is one sample, however flat the footprint is.
-TEST(Level, AShortSideHasOneSample) {
+// If the longer side is at most one texel, there is one sample, whatever the ratio.
+TEST(Level, ShortSideTakesOneSample) {
   spec::texture::Parameters parameters;
   parameters.count_cap = spec::texture::CountCap::kNone;
   spec::texture::Descriptor descriptor;

@@ -10,7 +10,7 @@
 
 namespace deburr::golden::ideal {
 
-inline ColourFrame drawn(int width, int height, const std::function<int(int, int)>& grey) {
+inline ColourFrame grey_frame(int width, int height, const std::function<int(int, int)>& grey) {
   ColourFrame frame{{}, width, height};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -21,11 +21,11 @@ inline ColourFrame drawn(int width, int height, const std::function<int(int, int
   return frame;
 }
 
-// White over black; the border lies above row `low` left of column `step`, from there on a row
-// further down.
+// White over black. The border is above row `low` to the left of column `step`, and one row lower
+// from there on.
 inline ColourFrame one_step(int width, int height, int step, int low) {
-  return drawn(width, height,
-               [&](int x, int y) { return y < (x < step ? low : low + 1) ? 255 : 0; });
+  return grey_frame(width, height,
+                    [&](int x, int y) { return y < (x < step ? low : low + 1) ? 255 : 0; });
 }
 
 inline ColourFrame noise(int width, int height, std::uint64_t seed) {
@@ -47,7 +47,7 @@ inline ColourFrame mirrored(const ColourFrame& frame, bool left_right) {
   return result;
 }
 
-inline ColourFrame turned(const ColourFrame& frame) {
+inline ColourFrame transposed(const ColourFrame& frame) {
   ColourFrame result{frame.pixels, frame.height, frame.width};
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) result.pixels[result.index(y, x)] = frame.at(x, y);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the area tables those of the formula, and are their three layouts one table? Every entry
-// against the areas in floating point, limits of the searches, ends of every line, what the layouts
-// cost, what merging loses with subsample offsets, and corner rounding.
+// SMAA area tables: every entry compared with the areas in floating point, equality of the three
+// layouts, loss by merging with subsample offsets, line ends, borders and corner rounding.
 #include "golden/morphological/area_table.h"
 
 #include <gmock/gmock.h>
@@ -53,7 +52,7 @@ void each_entry(Visit&& visit) {
       for (int j = 0; j < 16; ++j) visit(pattern, i, j);
 }
 
-TEST(SquareRoot, IsRoundedDownUpToTheLargest) {
+TEST(SquareRoot, RoundsDownUpToLargestInput) {
   using golden::morphological::isqrt;
   constexpr std::uint64_t kLargest = (std::uint64_t{1} << 31) - 1;
   for (const std::uint64_t root :
@@ -63,7 +62,7 @@ TEST(SquareRoot, IsRoundedDownUpToTheLargest) {
   }
 }
 
-TEST(AreaTable, HoldsTheRoundedAreas) {
+TEST(AreaTable, EntriesAreRoundedAreas) {
   const FullAreaTable table;
   each_entry([&](int pattern, int i, int j) {
     const SmaaWeights area = smaa_area(pattern, i * i, j * j);
@@ -73,7 +72,7 @@ TEST(AreaTable, HoldsTheRoundedAreas) {
   });
 }
 
-TEST(AreaTable, IsTheSameInEveryLayout) {
+TEST(AreaTable, LayoutsHaveEqualEntries) {
   const FullAreaTable full;
   const MergedAreaTable merged(full);
   const MinimalAreaTable minimal;
@@ -85,11 +84,11 @@ TEST(AreaTable, IsTheSameInEveryLayout) {
         << pattern << ' ' << i << ' ' << j;
     zero += full.entry(pattern, i, j) == AreaEntry{};
   });
-  EXPECT_LT(zero, 8 * 256);  // most entries say something
+  EXPECT_LT(zero, 8 * 256);  // most entries are not 0
 }
 
-// Values of the published bytes: the areas rounded down, in all layouts alike.
-TEST(AreaTable, HoldsThePublishedBytesIfAsked) {
+// The published bytes are rounded down; all layouts have the same values.
+TEST(AreaTable, PublishedEntriesMatchAreaTexBytes) {
   using spec::morphological::AreaValues;
   const FullAreaTable full(AreaValues::kPublished), exact;
   const MergedAreaTable merged(full);
@@ -109,7 +108,7 @@ TEST(AreaTable, HoldsThePublishedBytesIfAsked) {
   EXPECT_EQ(table_weights(1, 0, 224, AreaValues::kPublished), (EdgeWeights{127, 0}));
 }
 
-TEST(AreaTable, LosesByMergingOnlyWithSubsampleOffsets) {
+TEST(AreaTable, MergingLosesOnlyWithSubsampleOffsets) {
   EXPECT_EQ(golden::ideal::loss_by_merging(0), 0);
   for (const double sign : {-1.0, 1.0}) {
     EXPECT_EQ(golden::ideal::loss_by_merging(sign * 0.125), 16);
@@ -118,14 +117,14 @@ TEST(AreaTable, LosesByMergingOnlyWithSubsampleOffsets) {
   }
 }
 
-// ---- reading it ---------------------------------------------------------------------------------
+// ---- lookup -------------------------------------------------------------------------------------
 
-TEST(AreaTable, IsReadBetweenRoots) {
+TEST(AreaTable, SquareDistancesReadOneEntry) {
   for (int d = 0; d < spec::morphological::kTableDistances; ++d) {
     const double root = 256 * std::sqrt(d);
     EXPECT_EQ(golden::morphological::table_root(d), std::floor(root)) << d;
   }
-  // At squares the weight is the entry itself, halved.
+  // At square distances nothing is interpolated: the weight is half the entry.
   const FullAreaTable table;
   for (int shape = 0; shape < 16; ++shape) {
     for (int i = 0; i < 15; ++i) {
@@ -139,10 +138,10 @@ TEST(AreaTable, IsReadBetweenRoots) {
   }
 }
 
-// ---- distances and limits -----------------------------------------------------------------------
+// ---- line ends ----------------------------------------------------------------------------------
 
-// An endless end lies beyond every limit.
-TEST(LineEnds, AreTheRunsOwnUnlessItIsEndless) {
+// An endless end is beyond every search limit.
+TEST(LineEnds, MatchRunUnlessEndless) {
   for (int endless = 0; endless < 4; ++endless) {
     RunDescriptor run;
     run.length = 9;
@@ -156,9 +155,9 @@ TEST(LineEnds, AreTheRunsOwnUnlessItIsEndless) {
   }
 }
 
-// Of an extended run they lie where its line leaves the strip: the chord of -6, -3, [0, 4] is at
-// -1/5 of a step at the start and takes 10/3 pixels a step.
-TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
+// The ends of an extended run are where its line crosses -1/2 and +1/2. The chord of -6, -3, [0, 4]
+// starts 1/5 step below the lower end and needs 10/3 pixels per step.
+TEST(LineEnds, FollowLineOfExtendedRun) {
   RunDescriptor run;
   run.length = 4;
   run.shape = 9;
@@ -173,10 +172,10 @@ TEST(LineEnds, FollowTheLineOfAnExtendedRun) {
   EXPECT_EQ(ends.last, 4);
 }
 
-// Steps above the lower end are rounded to 1/4096, pixels to whole ones, halves up; what leaves
-// S12 ends at its limits.
-TEST(LineEnds, AreRoundedAndLimited) {
-  // t = above - 2^23, which is `above` over the lower end; 2^12 of it are a step of 1/4096.
+// The height above the lower end is rounded to 1/4096 step, ends to whole pixels, halves up; ends
+// saturate at -4096 and 4095.
+TEST(LineEnds, RoundToNearestAndSaturate) {
+  // Makes t(0) = above - 2^23: `above` / 2^24 step above the lower end; 2^12 units are 1/4096 step.
   const auto ends = [](std::int32_t above, std::uint32_t inverse) {
     LineDescriptor line;
     line.scale = 0;
@@ -186,23 +185,23 @@ TEST(LineEnds, AreRoundedAndLimited) {
     const LineEnds e = line_ends(line);
     return std::pair(e.first, e.last);
   };
-  constexpr std::uint32_t kPixelAStep = 1u << 24;  // 4096 pixels for a whole one
-  EXPECT_EQ(ends(4096 * 2, kPixelAStep), std::pair(-2, 4094));
-  EXPECT_EQ(ends(4096 * 2 + 2047, kPixelAStep), std::pair(-2, 4094));
-  EXPECT_EQ(ends(4096 * 2 + 2048, kPixelAStep), std::pair(-3, 4093));
-  EXPECT_EQ(ends(4096, kPixelAStep / 2), std::pair(-1, 2048));  // 1/2, 2047 1/2
-  EXPECT_EQ(ends(4096, kPixelAStep / 2 - 1), std::pair(0, 2047));
-  EXPECT_EQ(ends(0, kPixelAStep), std::pair(0, 4095));
-  EXPECT_EQ(ends(4096, kPixelAStep), std::pair(-1, 4095));
-  EXPECT_EQ(ends(-4096 * 3, kPixelAStep), std::pair(3, 4095));
-  EXPECT_EQ(ends(4096 * 4095, kPixelAStep), std::pair(-4095, 1));
-  EXPECT_EQ(ends(4096 * 4096, kPixelAStep), std::pair(-4096, 0));
-  EXPECT_EQ(ends(4096 * 4097, kPixelAStep), std::pair(-4096, -1));
+  constexpr std::uint32_t kPixelPerUnit = 1u << 24;  // 4096 pixels per step
+  EXPECT_EQ(ends(4096 * 2, kPixelPerUnit), std::pair(-2, 4094));
+  EXPECT_EQ(ends(4096 * 2 + 2047, kPixelPerUnit), std::pair(-2, 4094));
+  EXPECT_EQ(ends(4096 * 2 + 2048, kPixelPerUnit), std::pair(-3, 4093));
+  EXPECT_EQ(ends(4096, kPixelPerUnit / 2), std::pair(-1, 2048));  // 1/2, 2047 1/2
+  EXPECT_EQ(ends(4096, kPixelPerUnit / 2 - 1), std::pair(0, 2047));
+  EXPECT_EQ(ends(0, kPixelPerUnit), std::pair(0, 4095));
+  EXPECT_EQ(ends(4096, kPixelPerUnit), std::pair(-1, 4095));
+  EXPECT_EQ(ends(-4096 * 3, kPixelPerUnit), std::pair(3, 4095));
+  EXPECT_EQ(ends(4096 * 4095, kPixelPerUnit), std::pair(-4095, 1));
+  EXPECT_EQ(ends(4096 * 4096, kPixelPerUnit), std::pair(-4096, 0));
+  EXPECT_EQ(ends(4096 * 4097, kPixelPerUnit), std::pair(-4096, -1));
 }
 
 // ---- whole frames -------------------------------------------------------------------------------
 
-TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
+TEST(AreaTable, LayoutsGiveEqualFrames) {
   for (const Frame& frame : {Frame(tb::morphological::blocks_image()),
                              Frame(tb::morphological::rendered_like(180, 120, 60))}) {
     Parameters p = preset_parameters(Preset::kSmaa);
@@ -224,7 +223,7 @@ TEST(AreaTable, GivesTheSameFramesInEveryLayout) {
 
 // ---- border -------------------------------------------------------------------------------------
 
-// A frame within a larger one, beyond whose borders its outermost edges go on.
+// The edges of a larger frame whose margin repeats the outermost edges.
 golden::morphological::EdgePlanes with_margin(const golden::morphological::EdgePlanes& edges,
                                               int margin) {
   const int width = edges.left.width(), height = edges.left.height();
@@ -241,9 +240,8 @@ golden::morphological::EdgePlanes with_margin(const golden::morphological::EdgeP
   return large;
 }
 
-// With border = clamp every edge has the weights that it has in such a frame, whose margin no
-// search crosses.
-TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
+// border = clamp gives every edge its weights in such a frame. The margin is wider than any search.
+TEST(Border, ClampMatchesMarginOfRepeatedEdges) {
   using golden::morphological::BitPlane;
   tb::Random random(21);
   int edges = 0, differing = 0;
@@ -290,7 +288,7 @@ TEST(Border, ClampedIsAFrameWhoseEdgesGoOn) {
 
 // ---- corners ------------------------------------------------------------------------------------
 
-TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
+TEST(Corners, ReduceWeightsNearSharpCorners) {
   const EdgeWeights weights{100, 60};
   const auto at = [&](int far, int stays, int k) {
     const EdgeWeights s = golden::morphological::rounded_at_corners(weights, far, stays, k, 4 - k);
@@ -308,9 +306,9 @@ TEST(Corners, KeepTheirShareOfTheWeightBesideASharpCorner) {
   }
 }
 
-// Seven at 329 / 512 are 4.498, one at 257 / 512 is 0.502, a hundred and 64 at a half are whole; a
-// run of an even number of pixels has no middle.
-TEST(Corners, RoundToTheNearestShare) {
+// 7 x 329 / 512 = 4.498 and 257 / 512 = 0.502 round to nearest, 1/2 rounds up. The middle
+// exists only in runs with an odd number of pixels.
+TEST(Corners, RoundWeightsToNearest) {
   const auto middle = [&](int weight, int stays) {
     const EdgeWeights weights{static_cast<std::uint8_t>(weight), 0};
     return int{golden::morphological::rounded_at_corners(weights, 1, stays, 1, 1).first};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Do the blender's rules, its arithmetic, the conversion of images and the predicted traffic hold?
+// The blender's choice of axis and arithmetic, conversion of images, and predicted memory traffic.
 #include "golden/morphological/blend.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ using golden::morphological::PixelWeights;
 using golden::morphological::probe_of;
 using tb::Random;
 
-TEST(Blender, DecidesTheAxisByThreeRules) {
+TEST(Blender, LongestRuleChoosesAxis) {
   EXPECT_EQ(decide_by_length({0, 0, 0, 0, 9, 9}), Decision::kNone);
   EXPECT_EQ(decide_by_length({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
   EXPECT_EQ(decide_by_length({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
@@ -36,12 +36,12 @@ TEST(Blender, DecidesTheAxisByThreeRules) {
   EXPECT_EQ(decide_by_length({3, 4, 5, 2, 7, 7}), Decision::kTie);
 }
 
-TEST(Blender, DecidesTheAxisByTheStrongestShare) {
+TEST(Blender, StrongestRuleChoosesAxis) {
   using golden::morphological::decide_by_strength;
   EXPECT_EQ(decide_by_strength({0, 0, 0, 0, 9, 9}), Decision::kNone);
   EXPECT_EQ(decide_by_strength({1, 0, 0, 0, 2, 90}), Decision::kOnlyUpDown);
   EXPECT_EQ(decide_by_strength({0, 0, 0, 1, 90, 2}), Decision::kOnlyLeftRight);
-  // Neither spans nor sums count.
+  // Spans and sums are ignored.
   EXPECT_EQ(decide_by_strength({9, 9, 10, 0, 90, 2}), Decision::kStrongerLeftRight);
   EXPECT_EQ(decide_by_strength({9, 9, 0, 10, 90, 2}), Decision::kStrongerLeftRight);
   EXPECT_EQ(decide_by_strength({9, 10, 9, 9, 2, 90}), Decision::kStrongerUpDown);
@@ -49,8 +49,8 @@ TEST(Blender, DecidesTheAxisByTheStrongestShare) {
   EXPECT_EQ(decide_by_strength({10, 0, 9, 10, 2, 90}), Decision::kTie);
 }
 
-// Two weights in proportion to their squares, for every pair; a single one as it is.
-TEST(Blender, MixesSharesBySquares) {
+// Every pair is mixed in proportion to the squares; a single weight is unchanged.
+TEST(Blender, MixesWeightsBySquares) {
   using golden::morphological::mixed_by_squares;
   using golden::morphological::Weights;
   for (int a = 0; a < 256; ++a) {
@@ -65,7 +65,7 @@ TEST(Blender, MixesSharesBySquares) {
       const Weights mixed = mixed_by_squares(probe);
       EXPECT_LE(mixed.first + mixed.second, 4096);
       const double sum = std::max(1, a + b);
-      // The rounded reciprocal is off by half of 2^-20, of up to 255^2 at most.
+      // The rounded reciprocal is off by at most 2^-21, which is scaled by 16 a^2.
       EXPECT_NEAR(mixed.first, 16 * a * a / sum, 0.5 + a * a / 131072.0) << a << ' ' << b;
       EXPECT_NEAR(mixed.second, 16 * b * b / sum, 0.5 + b * b / 131072.0) << a << ' ' << b;
       EXPECT_EQ(golden::morphological::unmixed(probe), (Weights{16 * a, 16 * b}));
@@ -77,7 +77,7 @@ TEST(Blender, MixesSharesBySquares) {
   EXPECT_EQ(mixed_by_squares({false, 64, 32, 0}), (Weights{683, 171}));
 }
 
-TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
+TEST(Blender, ProbeHasWeightsOfChosenAxis) {
   const PixelWeights s{3, 4, 5, 6, 1, 2};
   EXPECT_EQ(probe_of(s, Decision::kLongerLeftRight),
             (spec::morphological::BlendProbe{true, 5, 6, 0}));
@@ -85,8 +85,8 @@ TEST(Blender, TakesTheSharesOfTheChosenAxisOnly) {
   EXPECT_EQ(probe_of({}, Decision::kNone), spec::morphological::BlendProbe{});
 }
 
-// Against the formula in real numbers: within half a code, halves away from the pixel.
-TEST(Blender, RoundsTheMagnitude) {
+// Equals the formula in real numbers; halves round away from the pixel's own code.
+TEST(Blender, RoundsMagnitudeToNearest) {
   for (int c = 0; c < 256; c += 3) {
     for (int n = 0; n < 256; n += 5) {
       for (int w = 0; w <= 128; ++w) {
@@ -97,18 +97,18 @@ TEST(Blender, RoundsTheMagnitude) {
       }
     }
   }
-  // Weights that are mixed are no multiples of 16.
+  // Mixed weights need not be multiples of 16.
   EXPECT_EQ(blend_channel(false, 0, 1, 0, {2047, 0}), 0);
   EXPECT_EQ(blend_channel(false, 1, 0, 0, {2047, 0}), 1);
 }
 
-TEST(Blender, HalfOfBlackAndWhiteIsHalfTheLight) {
+TEST(Blender, MixesLightInsteadOfCodes) {
   EXPECT_EQ(blend_channel(true, 0, 255, 0, {2048, 0}), 188);
   EXPECT_EQ(blend_channel(false, 0, 255, 0, {2048, 0}), 128);
   EXPECT_EQ(blend_channel(true, 0, 255, 255, {2048, 2048}), 255);
 }
 
-TEST(Blender, PassesAlphaAndPixelsWithoutShares) {
+TEST(Blender, PassesAlphaAndUnweightedPixels) {
   const spec::morphological::Rgba8 pixel = {1, 2, 3, 77}, other = {255, 255, 255, 255};
   EXPECT_EQ(blend(true, pixel, other, other, {2048, 2048})[3], 77);
   for (int code = 0; code < 256; ++code) {
@@ -125,7 +125,7 @@ using golden::morphological::codes_from;
 using golden::morphological::depth_from_binary32;
 using golden::morphological::Samples;
 
-TEST(Conversion, OfUnsignedSamplesIsNearest) {
+TEST(Conversion, UnsignedSamplesRoundToNearest) {
   for (std::uint32_t v = 0; v < 65536; ++v) {
     EXPECT_EQ(code_from_unsigned(v, 16), (255 * v + 32767) / 65535);
   }
@@ -136,7 +136,7 @@ TEST(Conversion, OfUnsignedSamplesIsNearest) {
   EXPECT_EQ(code_from_unsigned(0xFFFFFFFF, 32), 255);
 }
 
-TEST(Conversion, OfBinary32IsTheRuleInRealNumbers) {
+TEST(Conversion, Binary32RoundsToNearest) {
   Random random(2);
   const auto check = [](std::uint32_t pattern) {
     const float v = std::bit_cast<float>(pattern);
@@ -154,13 +154,13 @@ TEST(Conversion, OfBinary32IsTheRuleInRealNumbers) {
   for (int i = 0; i < 200000; ++i) {
     check(std::bit_cast<std::uint32_t>(static_cast<float>(random.uniform(0, 1))));
   }
-  for (int k = 0; k < 256; ++k) {  // around the halves
+  for (int k = 0; k < 256; ++k) {  // around halves of a code
     const std::uint32_t half = std::bit_cast<std::uint32_t>((static_cast<float>(k) + 0.5f) / 255);
     for (std::uint32_t d = 0; d < 5; ++d) check(half + d - 2);
   }
 }
 
-TEST(Conversion, OfChannelsAddsAndDropsWhatIsNeeded) {
+TEST(Conversion, ChannelsAreExpandedOrDropped) {
   const std::vector<std::uint32_t> values = {10, 20, 30, 40, 50, 60};
   const auto first = [&](int channels) {
     Samples samples{values, 6 / channels, 1, channels};
@@ -190,7 +190,7 @@ TEST(FrameTraffic, WritesEveryLineOnceThenReadsItOnce) {
     EXPECT_EQ(traffic[i], (spec::morphological::FrameAccess{0x1000 + 64 * i, true}));
     EXPECT_EQ(traffic[6 + i], (spec::morphological::FrameAccess{0x1000 + 64 * i, false}));
   }
-  EXPECT_EQ(frame_traffic(0, 1920, 1080).size() * 64, 1920u * 1080 * 8);  // 8 bytes a pixel
+  EXPECT_EQ(frame_traffic(0, 1920, 1080).size() * 64, 1920u * 1080 * 8);  // 8 bytes per pixel
 }
 
 }  // namespace

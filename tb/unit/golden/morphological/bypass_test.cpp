@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are marked pixels, and with `beside` those next to one, left as they are, everything else
-// smoothed as ever, and the marks gone? One by one, and against a reference that knows nothing of
-// the golden but its frame without the rule.
+// Bypassed pixels keep their colour, all others are smoothed as without `bypass`, and delivered
+// pixels have no mark. Checked by examples and by frames derived from the golden model's frame
+// without `bypass`.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -30,7 +30,7 @@ using tb::morphological::names_of;
 constexpr Preset kAll[] = {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa, Preset::kSmaaDynamic,
                            Preset::kDeburrLine};
 
-// Marks one pixel in `rare`; other bits of alpha are random.
+// Marks one pixel in `rare` on average; the other bits of alpha are random.
 Frame marked(Frame frame, Random& random, unsigned rare) {
   for (Rgba8& pixel : frame.pixels) {
     const bool mark = random.below(rare) == 0;
@@ -43,11 +43,11 @@ bool has_mark(const Frame& frame, int x, int y) {
   return x >= 0 && y >= 0 && x < frame.width && y < frame.height && frame.at(x, y)[3] % 2 == 0;
 }
 
-bool asked_to_leave(const Frame& frame, Bypass bypass, int x, int y) {
+bool is_bypassed(const Frame& frame, Bypass bypass, int x, int y) {
   if (bypass == Bypass::kNone) return false;
-  const bool beside = has_mark(frame, x - 1, y) || has_mark(frame, x + 1, y) ||
-                      has_mark(frame, x, y - 1) || has_mark(frame, x, y + 1);
-  return has_mark(frame, x, y) || (bypass == Bypass::kBeside && beside);
+  const bool neighbour = has_mark(frame, x - 1, y) || has_mark(frame, x + 1, y) ||
+                         has_mark(frame, x, y - 1) || has_mark(frame, x, y + 1);
+  return has_mark(frame, x, y) || (bypass == Bypass::kBeside && neighbour);
 }
 
 Rgba8 mix(const Parameters& p, const Frame& frame, int x, int y, const BlendProbe& probe) {
@@ -61,9 +61,9 @@ Rgba8 mix(const Parameters& p, const Frame& frame, int x, int y, const BlendProb
                                                 : golden::morphological::unmixed(probe));
 }
 
-// The frame that the engine without the rule makes, with the pixels that are left put back, and
-// those with half a weight mixed again.
-void expect_as_put_back(Parameters p, const Frame& frame) {
+// Expects the frame of the model without `bypass`, with bypassed pixels restored and pixels with
+// halved weights blended again.
+void expect_bypassed_pixels_restored(Parameters p, const Frame& frame) {
   p.bypass = Bypass::kNone;
   MorphologicalGolden plain(p);
   plain.process(frame.view());
@@ -76,20 +76,19 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
       for (int x = 0; x < frame.width; ++x) {
         const auto i = static_cast<std::size_t>(y * frame.width + x);
         BlendProbe probe = plain.probes()[i];
-        const bool had = (probe.first | probe.second) != 0;
+        const bool had_weight = (probe.first | probe.second) != 0;
         const int dx = probe.horizontal ? 1 : 0, dy = probe.horizontal ? 0 : 1;
         if (bypass == Bypass::kHalf) {
           if (has_mark(frame, x - dx, y - dy)) probe.first /= 2;
           if (has_mark(frame, x + dx, y + dy)) probe.second /= 2;
         }
-        const bool takes =
-            (probe.first | probe.second) != 0 && !asked_to_leave(frame, bypass, x, y);
-        if (had && !takes) {
+        const bool blended = (probe.first | probe.second) != 0 && !is_bypassed(frame, bypass, x, y);
+        if (had_weight && !blended) {
           --work.blended_pixels;
           ++work.bypassed_pixels;
         }
-        if (!takes) probe = {false, 0, 0, probe.edges};
-        Rgba8 pixel = takes ? mix(p, frame, x, y, probe) : frame.pixels[i];
+        if (!blended) probe = {false, 0, 0, probe.edges};
+        Rgba8 pixel = blended ? mix(p, frame, x, y, probe) : frame.pixels[i];
         pixel[3] = static_cast<std::uint8_t>(frame.pixels[i][3] | 1);
         ASSERT_EQ(golden.pixels()[i], pixel) << x << ' ' << y;
         ASSERT_EQ(golden.probes()[i], probe) << x << ' ' << y;
@@ -100,35 +99,36 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
   }
 }
 
-TEST(Bypass, PutsBackWhatIsMarked) {
+TEST(Bypass, RestoresMarkedPixels) {
   Random random(5);
   for (const Preset preset : kAll) {
     for (const unsigned rare : {1u, 2u, 6u, 40u, 1000000u}) {
-      expect_as_put_back(preset_parameters(preset),
-                         marked(tb::morphological::rendered_like(131, 70, 60), random, rare));
+      expect_bypassed_pixels_restored(
+          preset_parameters(preset),
+          marked(tb::morphological::rendered_like(131, 70, 60), random, rare));
     }
-    expect_as_put_back(preset_parameters(preset),
-                       marked(tb::morphological::noise_image(), random, 9));
+    expect_bypassed_pixels_restored(preset_parameters(preset),
+                                    marked(tb::morphological::noise_image(), random, 9));
   }
 }
 
-TEST(Bypass, PutsBackInNarrowFrames) {
+TEST(Bypass, RestoresMarkedPixelsInNarrowFrames) {
   Random random(6);
   for (const auto& [w, h] : {std::pair(1, 50), {50, 1}, {2, 40}, {40, 2}, {64, 5}, {65, 5}}) {
     const Frame blocks(w, h, [&](int, int) { return grey(random.below(2) == 0 ? 10 : 220); });
     for (const Preset preset : kAll)
-      expect_as_put_back(preset_parameters(preset), marked(blocks, random, 8));
+      expect_bypassed_pixels_restored(preset_parameters(preset), marked(blocks, random, 8));
   }
 }
 
-// A step of 40 columns: every pixel of rows 3 and 4 but those in the middle has a weight.
+// A step edge of 40 columns: all pixels of rows 3 and 4 except the middle ones have a weight.
 Frame step() {
   return {40, 8, [](int x, int y) { return grey(y < (x < 20 ? 4 : 5) ? 230 : 20); }};
 }
 
-// Weights are halved before they are mixed by their squares: of 60 and 100 with the first neighbour
-// marked, 30 and 100 remain, which become 900 / 130 and 10000 / 130.
-TEST(Bypass, HalvesBeforeSquares) {
+// With the first neighbour marked, weights of 60 and 100 become 30 and 100, which are mixed to
+// 900 / 130 and 10000 / 130: 111 and 1231 in U0.12.
+TEST(Bypass, HalvesWeightsBeforeSquaring) {
   using golden::morphological::mixed_by_squares;
   using golden::morphological::remaining;
   constexpr golden::morphological::Marks kUp = 2, kLeft = 4, kRight = 8, kDown = 16;
@@ -144,8 +144,8 @@ TEST(Bypass, HalvesBeforeSquares) {
   EXPECT_EQ(remaining(Bypass::kMarked, kUp, vertical), vertical);
 }
 
-// A line that memory does not give back is zeros, alpha too, so its pixels are marked.
-TEST(Bypass, LinesThatCannotBeReadAreMarked) {
+// Pixels of a line that could not be read are zero including alpha, so they are marked.
+TEST(Bypass, UnreadableLinesCountAsMarked) {
   Parameters p = preset_parameters(Preset::kMlaa);
   p.storage = spec::morphological::Storage::kMemory;
   p.bypass = Bypass::kBeside;
@@ -161,8 +161,8 @@ TEST(Bypass, LinesThatCannotBeReadAreMarked) {
   EXPECT_GT(golden.work().blended_pixels, 0u);
 }
 
-// Pixels that are left have had their decision; those without one are the rest of the frame.
-TEST(BypassCoverage, DecisionsAreOfEveryPixelOnce) {
+// Bypassed pixels count with the decision made for them, pixels without weights as `none`.
+TEST(BypassCoverage, CountsOneDecisionPerPixel) {
   Random random(3);
   Parameters p = preset_parameters(Preset::kDeburrLine);
   p.bypass = Bypass::kBeside;
@@ -194,8 +194,8 @@ TEST(BypassCoverage, EveryBinCanBeReached) {
       if (bin.hits != 0) names.insert(bin.name);
     return names;
   };
-  EXPECT_THAT(hit(by_mark), testing::ElementsAre("left/marked/own"));
-  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("left/half/own", "half/up", "half/left",
+  EXPECT_THAT(hit(by_mark), testing::ElementsAre("bypass/marked/own"));
+  EXPECT_THAT(hit(half), testing::UnorderedElementsAre("bypass/half/own", "half/up", "half/left",
                                                        "half/right", "half/down", "half/nothing"));
   std::set<std::string> all = hit(beside);
   EXPECT_EQ(all.size(), 6u + 4 * 2);
@@ -206,9 +206,9 @@ TEST(BypassCoverage, EveryBinCanBeReached) {
   EXPECT_THAT(hit(beside), testing::IsEmpty());
 }
 
-// Of one pixel of a frame of 5 x 4 with marks; (2, 1) lies on no border.
-TEST(BypassCoverage, CountsWhatLeavesAPixelWhatGivesHalfAndBorders) {
-  constexpr unsigned kOwn = 1, kUp = 2, kBesideLeft = 4, kBesideRight = 8, kDown = 16, kEvery = 31;
+// Each row counts one pixel of a 5 x 4 frame; (2, 1) is not on a border.
+TEST(BypassCoverage, CountsMarkPositionHalvingAndBorder) {
+  constexpr unsigned kOwn = 1, kUp = 2, kLeft = 4, kRight = 8, kDown = 16, kEvery = 31;
   constexpr BlendProbe kVertical{false, 60, 100}, kHorizontal{true, 60, 100};
   struct Row {
     Bypass bypass;
@@ -218,49 +218,49 @@ TEST(BypassCoverage, CountsWhatLeavesAPixelWhatGivesHalfAndBorders) {
     int x = 2, y = 1;
   };
   for (const Row& row : {
-           // Without a rule nothing counts.
+           // kNone and kMasked are not counted.
            Row{Bypass::kNone, kEvery, kVertical, ""},
            Row{Bypass::kMasked, kEvery, kVertical, ""},
-           Row{Bypass::kMarked, kOwn, kVertical, "left/marked/own"},
+           Row{Bypass::kMarked, kOwn, kVertical, "bypass/marked/own"},
            Row{Bypass::kMarked, 0, kVertical, ""},
-           Row{Bypass::kHalf, kOwn, kVertical, "left/half/own"},
-           Row{Bypass::kHalf, kOwn | kUp, kVertical, "left/half/own"},
-           // Neighbours that give half are those of the tap.
+           Row{Bypass::kHalf, kOwn, kVertical, "bypass/half/own"},
+           Row{Bypass::kHalf, kOwn | kUp, kVertical, "bypass/half/own"},
+           // Only neighbours along the chosen axis are halved.
            Row{Bypass::kHalf, 0, kVertical, ""},
            Row{Bypass::kHalf, kUp, kVertical, "half/up"},
            Row{Bypass::kHalf, kDown, kVertical, "half/down"},
            Row{Bypass::kHalf, kUp | kDown, kVertical, "half/down half/up"},
-           Row{Bypass::kHalf, kBesideLeft | kBesideRight, kVertical, ""},
-           Row{Bypass::kHalf, kBesideLeft, kHorizontal, "half/left"},
-           Row{Bypass::kHalf, kBesideRight, kHorizontal, "half/right"},
+           Row{Bypass::kHalf, kLeft | kRight, kVertical, ""},
+           Row{Bypass::kHalf, kLeft, kHorizontal, "half/left"},
+           Row{Bypass::kHalf, kRight, kHorizontal, "half/right"},
            Row{Bypass::kHalf, kUp | kDown, kHorizontal, ""},
-           // What takes no weight cannot give half of it.
+           // A neighbour without a weight is not counted.
            Row{Bypass::kHalf, kUp, {false, 0, 100}, ""},
            Row{Bypass::kHalf, kDown, {false, 60, 0}, ""},
-           // Half of one is nothing, half of two is one.
+           // A weight of 1 is halved to 0, a weight of 2 to 1.
            Row{Bypass::kHalf, kUp, {false, 1, 0}, "half/nothing half/up"},
            Row{Bypass::kHalf, kDown, {false, 0, 1}, "half/down half/nothing"},
            Row{Bypass::kHalf, kUp, {false, 2, 0}, "half/up"},
            Row{Bypass::kHalf, kUp, {false, 1, 1}, "half/up"},
-           // Of several marks beside or on a pixel none is named.
+           // Several marks count as `several`.
            Row{Bypass::kBeside, 0, kVertical, ""},
-           Row{Bypass::kBeside, kOwn, kVertical, "left/beside/own"},
-           Row{Bypass::kBeside, kUp, kVertical, "left/beside/up"},
-           Row{Bypass::kBeside, kBesideLeft, kVertical, "left/beside/left"},
-           Row{Bypass::kBeside, kBesideRight, kVertical, "left/beside/right"},
-           Row{Bypass::kBeside, kDown, kVertical, "left/beside/down"},
-           Row{Bypass::kBeside, kOwn | kUp, kVertical, "left/beside/several"},
-           Row{Bypass::kBeside, kEvery, kVertical, "left/beside/several"},
+           Row{Bypass::kBeside, kOwn, kVertical, "bypass/beside/own"},
+           Row{Bypass::kBeside, kUp, kVertical, "bypass/beside/up"},
+           Row{Bypass::kBeside, kLeft, kVertical, "bypass/beside/left"},
+           Row{Bypass::kBeside, kRight, kVertical, "bypass/beside/right"},
+           Row{Bypass::kBeside, kDown, kVertical, "bypass/beside/down"},
+           Row{Bypass::kBeside, kOwn | kUp, kVertical, "bypass/beside/several"},
+           Row{Bypass::kBeside, kEvery, kVertical, "bypass/beside/several"},
            Row{Bypass::kBeside, 0, kVertical, "", 3, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/top/blended", 2, 0},
            Row{Bypass::kBeside, 0, kVertical, "border/left/blended", 0, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/right/blended", 4, 2},
            Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended", 2, 3},
            Row{Bypass::kBeside, 0, kVertical, "border/bottom/blended border/right/blended", 4, 3},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/top/left left/beside/own", 2, 0},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/left/left left/beside/own", 0, 2},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/right/left left/beside/own", 4, 2},
-           Row{Bypass::kBeside, kOwn, kVertical, "border/bottom/left left/beside/own", 2, 3},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/top/bypassed bypass/beside/own", 2, 0},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/left/bypassed bypass/beside/own", 0, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/right/bypassed bypass/beside/own", 4, 2},
+           Row{Bypass::kBeside, kOwn, kVertical, "border/bottom/bypassed bypass/beside/own", 2, 3},
        }) {
     const Frame frame(5, 4, [](int, int) { return grey(1); });
     golden::morphological::BypassCoverage coverage;

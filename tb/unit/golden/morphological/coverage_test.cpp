@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Can every functional coverage bin of the morphological engine be reached? Random rectangles,
-// lines, discs and noise hit them all.
+// Functional coverage of the morphological golden model: random rectangles, lines, discs and noise
+// hit every bin, and each bin counts the events that its name says.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ int below(Random& random, int n) {
   return static_cast<int>(random.word() % static_cast<unsigned>(n));
 }
 
-// Greys that are sometimes too near for an edge, so that crossings go missing.
+// Greys sometimes differ too little for an edge, so some crossings are missing.
 Frame rectangles(Random& random) {
   const int width = 1 + below(random, 70), height = 1 + below(random, 70);
   Frame frame(width, height, [](int, int) { return grey(128); });
@@ -130,7 +130,7 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
     p.dynamic_luma = luma;
     goldens.emplace_back(p);
   }
-  // Runs that reach the last entries of the table: a step, and a bar on a floor.
+  // Runs that are long enough for the last table entries: a step, and a bar on a floor.
   spec::morphological::Parameters far = preset_parameters(Preset::kSmaa);
   far.search_steps = 112;
   far.search_columns = 1000;
@@ -161,14 +161,13 @@ TEST(SmaaCoverage, EveryBinCanBeReached) {
   EXPECT_EQ(hits.size(), goldens[0].smaa_coverage().bins().size());  // names are unique
 }
 
-// Presets without SMAA's blocks hit nothing.
-TEST(SmaaCoverage, StaysEmptyWithoutItsBlocks) {
+TEST(SmaaCoverage, StaysEmptyWithoutSmaaBlocks) {
   MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   golden.process(Frame(tb::morphological::noise_image()).view());
   for (const CoverageBin& bin : golden.smaa_coverage().bins()) EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
-// Holes in the list of bins itself would not show as bins that nobody hits.
+// Number of bins per group: a bin missing from the list would not show up as a bin without hits.
 std::map<std::string, std::size_t> groups_of(const std::vector<CoverageBin>& bins) {
   std::map<std::string, std::size_t> sizes;
   for (const CoverageBin& bin : bins) ++sizes[bin.name.substr(0, bin.name.find('/'))];
@@ -191,7 +190,7 @@ TEST(SmaaCoverage, ListsEveryBinOfEveryGroup) {
   EXPECT_EQ(groups_of(SmaaCoverage().bins()), expected);
 }
 
-TEST(MorphologicalGolden, ForgetsCoverageWhenItIsCleared) {
+TEST(MorphologicalGolden, ClearCoverageResetsAllBins) {
   const Frame noise(tb::morphological::noise_image());
   for (const auto& [preset, bins] :
        {std::pair(
@@ -207,14 +206,14 @@ TEST(MorphologicalGolden, ForgetsCoverageWhenItIsCleared) {
   }
 }
 
-// ---- what each bin counts, one thing at a time --------------------------------------------------
+// ---- single events of RunCoverage ---------------------------------------------------------------
 
 using spec::morphological::Axis;
 using spec::morphological::RunDescriptor;
 using spec::morphological::RunPart;
 
 constexpr std::array<const char*, 2> kAxisNames = {"horizontal", "vertical"};
-std::string of_axis(const char* group, std::size_t axis) {
+std::string axis_prefix(const char* group, std::size_t axis) {
   return std::string(group) + '/' + kAxisNames[axis] + '/';
 }
 
@@ -222,7 +221,7 @@ std::string shape_name(int shape) {
   return std::string(spec::morphological::kRunShapes[static_cast<std::size_t>(shape)].name);
 }
 
-// A run that touches no border of a frame of 40 x 40.
+// A run that does not touch the border of a 40 x 40 frame.
 RunDescriptor inner_run(std::size_t axis, int length, int shape, RunPart part = RunPart::kWhole) {
   RunDescriptor run;
   run.axis = static_cast<Axis>(axis);
@@ -245,22 +244,23 @@ const std::map<int, std::string> kLengthsByName = {{1, "1"},    {2, "2"},     {3
                                                    {4, "3-4"},  {5, "5-8"},   {8, "5-8"},
                                                    {9, "9-16"}, {16, "9-16"}, {17, "17+"}};
 
-TEST(RunCoverage, RunsHaveAShapeAndALengthOrTheCrossingOfTheirEnd) {
+TEST(RunCoverage, CountsShapeLengthAndLongRunEnds) {
   const std::array<std::string, 4> ends = {"none", "first", "second", "T"};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (int shape = 0; shape < 16; ++shape)
       for (const auto& [length, name] : kLengthsByName)
         EXPECT_EQ(counted_run(inner_run(axis, length, shape)),
-                  of_axis("shape", axis) + shape_name(shape) + '/' + name);
+                  axis_prefix("shape", axis) + shape_name(shape) + '/' + name);
     for (int code = 0; code < 4; ++code) {
-      const std::string expected = of_axis("long-end", axis) + ends[static_cast<std::size_t>(code)];
+      const std::string expected =
+          axis_prefix("long-end", axis) + ends[static_cast<std::size_t>(code)];
       EXPECT_EQ(counted_run(inner_run(axis, 5, code, RunPart::kHead)), expected);
       EXPECT_EQ(counted_run(inner_run(axis, 5, 4 * code, RunPart::kTail)), expected);
     }
   }
 }
 
-TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
+TEST(RunCoverage, CountsPredictionOutcomeAndReason) {
   using golden::morphological::Outcome;
   using golden::morphological::Prediction;
   using golden::morphological::SideEnd;
@@ -278,19 +278,20 @@ TEST(RunCoverage, SidesThatWereTriedHaveAnOutcomeAndAReason) {
       for (const bool right : {false, true})
         for (const auto& [outcome, outcome_name] : outcomes)
           for (const auto& [why, reason] : reasons) {
-            if (outcome == Outcome::kEarly && length == 1) continue;  // a step of 0 is none
+            if (outcome == Outcome::kEarly && length == 1) continue;  // no steps of 0
             Prediction prediction;
             (right ? prediction.right : prediction.left).outcome = outcome;
             (right ? prediction.right : prediction.left).why = why;
             EXPECT_EQ(counted_run(inner_run(axis, length, 9), prediction),
-                      of_axis("prediction-end", axis) + reason + ' ' + of_axis("prediction", axis) +
-                          (right ? "right/" : "left/") + outcome_name + '/' + length_name + ' ' +
-                          of_axis("shape", axis) + "Z-first-second/" + length_name);
+                      axis_prefix("prediction-end", axis) + reason + ' ' +
+                          axis_prefix("prediction", axis) + (right ? "right/" : "left/") +
+                          outcome_name + '/' + length_name + ' ' + axis_prefix("shape", axis) +
+                          "Z-first-second/" + length_name);
           }
 }
 
-// In a frame of 12 x 9; a run of five pixels without a crossing.
-TEST(RunCoverage, RunsTouchTheFramesBorders) {
+// Runs of five pixels without crossings in a 12 x 9 frame.
+TEST(RunCoverage, CountsRunsAtFrameBorders) {
   struct Row {
     std::uint16_t start, line;
     std::vector<std::string> borders;
@@ -304,13 +305,14 @@ TEST(RunCoverage, RunsTouchTheFramesBorders) {
       run.line = row.line;
       std::string expected;
       for (const std::string& border : row.borders)
-        expected += of_axis("border", axis) + border + ' ';
-      EXPECT_EQ(counted_run(run, {}, 12, 9), expected + of_axis("shape", axis) + "none-none/5-8");
+        expected += axis_prefix("border", axis) + border + ' ';
+      EXPECT_EQ(counted_run(run, {}, 12, 9),
+                expected + axis_prefix("shape", axis) + "none-none/5-8");
     }
   }
 }
 
-TEST(RunCoverage, DecisionsAreCountedByThePixel) {
+TEST(RunCoverage, CountsDecisionsPerPixel) {
   using golden::morphological::Decision;
   const std::map<Decision, std::string> names = {
       {Decision::kNone, "none"},
@@ -329,7 +331,7 @@ TEST(RunCoverage, DecisionsAreCountedByThePixel) {
   }
 }
 
-// ---- SMAA's -------------------------------------------------------------------------------------
+// ---- single events of SmaaCoverage --------------------------------------------------------------
 
 using golden::morphological::SearchEnd;
 using golden::morphological::TableAddress;
@@ -346,13 +348,13 @@ std::string counted_pixel(std::size_t axis, const TableAddress& address) {
   return counted([&](SmaaCoverage& c) { c.count_pixel(static_cast<Axis>(axis), address); });
 }
 
-TEST(SmaaCoverage, PixelsHaveAShapeTheLongerDistanceAndEndsOfTheirSearch) {
+TEST(SmaaCoverage, CountsShapeDistanceAndSearchLimit) {
   const std::map<int, std::string> names = {{1, "1-3"},  {3, "1-3"},   {4, "4-8"}, {8, "4-8"},
                                             {9, "9-24"}, {24, "9-24"}, {25, "25+"}};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (int shape = 0; shape < 16; ++shape) {
       for (const auto& [distance, name] : names) {
-        const std::string expected = of_axis("table", axis) + shape_name(shape) + '/' + name;
+        const std::string expected = axis_prefix("table", axis) + shape_name(shape) + '/' + name;
         EXPECT_EQ(counted_pixel(axis, {shape, distance, 0}), expected);
         EXPECT_EQ(counted_pixel(axis, {shape, distance - 1, distance}), expected);
       }
@@ -360,18 +362,18 @@ TEST(SmaaCoverage, PixelsHaveAShapeTheLongerDistanceAndEndsOfTheirSearch) {
     const auto search = [&](SearchEnd start, SearchEnd end) {
       return counted_pixel(axis, {0, 1, 1, start, end});
     };
-    const std::string table = of_axis("table", axis) + "none-none/1-3";
+    const std::string table = axis_prefix("table", axis) + "none-none/1-3";
     EXPECT_EQ(search(kWithin, kWithin), table);
-    EXPECT_EQ(search(kAtLimit, kWithin), of_axis("search", axis) + "start/at " + table);
-    EXPECT_EQ(search(kBeyond, kWithin), of_axis("search", axis) + "start/beyond " + table);
-    EXPECT_EQ(search(kWithin, kAtLimit), of_axis("search", axis) + "end/at " + table);
-    EXPECT_EQ(search(kWithin, kBeyond), of_axis("search", axis) + "end/beyond " + table);
+    EXPECT_EQ(search(kAtLimit, kWithin), axis_prefix("search", axis) + "start/at " + table);
+    EXPECT_EQ(search(kBeyond, kWithin), axis_prefix("search", axis) + "start/beyond " + table);
+    EXPECT_EQ(search(kWithin, kAtLimit), axis_prefix("search", axis) + "end/at " + table);
+    EXPECT_EQ(search(kWithin, kBeyond), axis_prefix("search", axis) + "end/beyond " + table);
   }
 }
 
-// Of the half tile by shapes with one side or with two, of the dip tile by those that dip; a shape
-// that reads nothing has no entry.
-TEST(SmaaCoverage, EntriesOfTheTableAreTheFirstAndTheLast) {
+// U shapes read the dip tile, other shapes with a side the half tile; shapes without a side read no
+// entry.
+TEST(SmaaCoverage, CountsFirstAndLastTableEntry) {
   constexpr int kLast = 14 * 14;
   for (int shape = 0; shape < 16; ++shape) {
     const std::string name = shape_name(shape);
@@ -394,23 +396,23 @@ TEST(SmaaCoverage, EntriesOfTheTableAreTheFirstAndTheLast) {
   }
 }
 
-TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
+TEST(SmaaCoverage, CountsDiagonalCodesEndsAndLength) {
   using golden::morphological::DiagonalEnds;
   const std::array<std::string, 4> ends = {"closed", "open-1", "open-2", "open-both"};
   for (const bool rising : {false, true}) {
     const std::string direction = rising ? "rising/" : "falling/";
-    const auto diagonal = [&](const DiagonalEnds& of, bool beyond = false) {
-      return counted([&](SmaaCoverage& c) { c.count_diagonal(rising, of, beyond); });
+    const auto diagonal = [&](const DiagonalEnds& found, bool beyond = false) {
+      return counted([&](SmaaCoverage& c) { c.count_diagonal(rising, found, beyond); });
     };
     for (int e1 = 0; e1 < 4; ++e1) {
       for (int e2 = 0; e2 < 4; ++e2) {
         for (std::size_t open = 0; open < 4; ++open) {
-          const DiagonalEnds of{1, 2, e1, e2, open % 2 != 0, open / 2 != 0};
+          const DiagonalEnds found{1, 2, e1, e2, open % 2 != 0, open / 2 != 0};
           const std::string expected = "diagonal-ends/" + direction + ends[open] +
                                        " diagonal-length/" + direction + "3 diagonal/" + direction +
                                        std::to_string(e1) + '-' + std::to_string(e2);
-          EXPECT_EQ(diagonal(of), expected);
-          EXPECT_EQ(diagonal(of, true),
+          EXPECT_EQ(diagonal(found), expected);
+          EXPECT_EQ(diagonal(found, true),
                     (rising ? "diagonal-beyond/rising " : "diagonal-beyond/falling ") + expected);
         }
       }
@@ -422,7 +424,7 @@ TEST(SmaaCoverage, DiagonalsHaveCodesEndsAndALength) {
   }
 }
 
-TEST(SmaaCoverage, RecordsAreEndlessOrRepeatACrossing) {
+TEST(SmaaCoverage, CountsEndlessEndsAndRepeatedCrossings) {
   struct Row {
     std::uint8_t endless;
     int shape, extent;
@@ -432,17 +434,17 @@ TEST(SmaaCoverage, RecordsAreEndlessOrRepeatACrossing) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     for (const Row& row :
          {Row{0, 9, 40, ""}, Row{1, 8, 40, "start"}, Row{2, 1, 8, "end"}, Row{3, 0, 8, "both"},
-          Row{0, 5, 8, "repeated"}, Row{0, 5, 9, ""},  // does not meet the border
+          Row{0, 5, 8, "repeated"}, Row{0, 5, 9, ""},  // does not reach the border
           Row{0, 4, 8, "repeated", RunPart::kTail}, Row{0, 1, 8, "", RunPart::kHead}}) {
       RunDescriptor run = inner_run(axis, 5, row.shape, row.part);
       run.endless = row.endless;
       EXPECT_EQ(counted([&](SmaaCoverage& c) { c.count_descriptor(run, row.extent); }),
-                *row.bin == 0 ? "" : of_axis("endless", axis) + row.bin);
+                *row.bin == 0 ? "" : axis_prefix("endless", axis) + row.bin);
     }
   }
 }
 
-TEST(SmaaCoverage, CornersHaveANearerEndOrAreCut) {
+TEST(SmaaCoverage, CountsNearerEndOfCorners) {
   struct Row {
     TableAddress address;
     int far;
@@ -457,10 +459,10 @@ TEST(SmaaCoverage, CornersHaveANearerEndOrAreCut) {
       EXPECT_EQ(counted([&](SmaaCoverage& c) {
                   c.count_corner(static_cast<Axis>(axis), row.address, row.far);
                 }),
-                of_axis("corner", axis) + row.bin);
+                axis_prefix("corner", axis) + row.bin);
 }
 
-TEST(SmaaCoverage, ThresholdsAreFixedOrOfTheFloorOrAlpha) {
+TEST(SmaaCoverage, CountsThresholdsByMode) {
   using spec::morphological::DynamicLuma;
   const std::map<DynamicLuma, std::string> names = {{DynamicLuma::kCurrent, "current"},
                                                     {DynamicLuma::kMax, "max"},
@@ -477,9 +479,9 @@ TEST(SmaaCoverage, ThresholdsAreFixedOrOfTheFloorOrAlpha) {
   EXPECT_EQ(hits_of(fixed.bins()), (Hits{{"threshold/fixed", 9}}));
 }
 
-// The darker of a pair is black, then 150: a tenth of 0 lies below the floor of 10 codes, of 150 it
-// does not.
-TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
+// The darker pixel is black in the first pair and 150 in the second: a tenth of 0 is below the
+// floor of 10 codes, a tenth of 150 is not.
+TEST(SmaaCoverage, CountsThresholdOfEachEdgeInFrame) {
   using spec::morphological::AreaSource;
   using spec::morphological::DynamicLuma;
   const auto code = [](int i) { return grey(i == 0 ? 0 : i == 1 ? 150 : 220); };
@@ -497,7 +499,7 @@ TEST(SmaaCoverage, EdgesOfAFrameAreOfTheFloorOrAlpha) {
   p.floor = 655360;
   for (const Frame& frame : {across, down})
     EXPECT_EQ(hits(p, frame), (Hits{{"threshold/min/floor", 1}, {"threshold/min/alpha", 1}}));
-  // A fixed one is counted with SMAA's blocks: tables, or diagonals.
+  // A fixed threshold is counted only with a block of SMAA: tables or diagonals.
   p.threshold_mode = spec::morphological::ThresholdMode::kFixed;
   for (const bool diagonals : {false, true}) {
     for (const AreaSource area : {AreaSource::kAnalytic, AreaSource::kTableFull}) {
@@ -517,21 +519,21 @@ std::uint64_t sum_of(const SmaaCoverage& coverage, const std::string& group) {
   return sum;
 }
 
-// The one corner of a rectangle, of 12 and 4 pixels: each edge is read from the table, and both
-// runs that meet there have a far bit.
-TEST(SmaaCoverage, EachEdgeOfAFrameIsCountedAndThoseThatLeadToACorner) {
+// One corner of a rectangle with edges of 12 and 4 pixels: each edge reads the table, and both runs
+// at the corner have a far bit.
+TEST(SmaaCoverage, CountsEachEdgeAndCornerInFrame) {
   const Frame corner(24, 9, [](int x, int y) { return grey(x < 12 && y < 4 ? 230 : 20); });
   MorphologicalGolden golden(preset_parameters(Preset::kSmaa));
   golden.process(corner.view());
-  EXPECT_EQ(sum_of(golden.smaa_coverage(), of_axis("table", 0)), 12u);
-  EXPECT_EQ(sum_of(golden.smaa_coverage(), of_axis("table", 1)), 4u);
-  EXPECT_EQ(sum_of(golden.smaa_coverage(), of_axis("corner", 0)), 12u);
-  EXPECT_EQ(sum_of(golden.smaa_coverage(), of_axis("corner", 1)), 4u);
+  EXPECT_EQ(sum_of(golden.smaa_coverage(), axis_prefix("table", 0)), 12u);
+  EXPECT_EQ(sum_of(golden.smaa_coverage(), axis_prefix("table", 1)), 4u);
+  EXPECT_EQ(sum_of(golden.smaa_coverage(), axis_prefix("corner", 0)), 12u);
+  EXPECT_EQ(sum_of(golden.smaa_coverage(), axis_prefix("corner", 1)), 4u);
 }
 
-// Falling diagonals that end a pixel beyond the last row, or the last column, by a top edge alone:
-// the border repeats it.
-TEST(SmaaCoverage, DiagonalsAreBeyondTheFrameFromItsBorderOn) {
+// Falling diagonals that end one pixel beyond the last row or column: the border repeats their last
+// top edge.
+TEST(SmaaCoverage, CountsDiagonalsThatContinueBeyondFrame) {
   struct Case {
     int width, height;
     std::vector<std::pair<int, int>> top, left;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Are diagonals found as docs/reference/morphological/smaa.md says? Staircases of every length with
-// every code at their ends, both ways, open or not, at borders; the table against the areas of its
-// lines; and what a pixel that is taken does to the weights of its edges.
+// Diagonals of docs/reference/morphological/smaa.md: staircases of every length with every crossing
+// code at their ends, rising and falling, open and closed, and at borders; the table compared with
+// the areas of its lines; and the weights of taken pixels.
 #include "golden/morphological/diagonals.h"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ EdgePlanes empty(int width = kSize, int height = kSize) {
   return {BitPlane(width, height), BitPlane(width, height)};
 }
 
-// Steps 1..down and 1..up of the diagonal at (kX, kY), whose own two edges are set.
+// Edges of a diagonal through (kX, kY) with `down` and `up` further steps.
 EdgePlanes rising(int down, int up) {
   EdgePlanes e = empty();
   for (int i = -down; i <= up; ++i) {
@@ -61,12 +61,12 @@ EdgePlanes falling(int up, int down) {
   return e;
 }
 
-TEST(Diagonal, IsFollowedFromEachEnd) {
+TEST(Diagonal, SearchFindsBothEnds) {
   for (const int steps : {1, 2, 3, 8, 16}) {
     for (int a = 0; a <= steps + 1; ++a) {
       for (int b = 0; b <= steps + 1; ++b) {
         const DiagonalEnds up = rising_diagonal(rising(a, b), steps, kX, kY);
-        // A staircase that goes on beyond the search has the top edge that lengthens end 1.
+        // A staircase that continues past the search has the top edge of "plus 1".
         const int further = a >= steps ? 1 : 0;
         EXPECT_EQ(up.d1, std::min(a, steps - 1) + further);
         EXPECT_EQ(up.d2, std::min(b, steps - 1));
@@ -83,13 +83,13 @@ TEST(Diagonal, IsFollowedFromEachEnd) {
   }
 }
 
-// Each bit of a code alone, from the place that the contract names; an open end has none.
-TEST(Diagonal, ReadsTheCodesOfItsEnds) {
+// Sets each bit of a code at the position that the contract names; an open end has code 0.
+TEST(Diagonal, ReadsCrossingCodesOfBothEnds) {
   for (int code1 = 0; code1 < 4; ++code1) {
     for (int code2 = 0; code2 < 4; ++code2) {
       EdgePlanes e = rising(3, 4);
       if (code1 & 2) e.top.set(kX - 4, kY + 3);
-      if (code1 & 1) e.left.set(kX - 3, kY + 3);  // set already: the diagonal's own
+      if (code1 & 1) e.left.set(kX - 3, kY + 3);  // already set by the diagonal
       if (code2 & 2) e.top.set(kX + 5, kY - 4);
       if (code2 & 1) e.left.set(kX + 5, kY - 5);
       const DiagonalEnds up = rising_diagonal(e, 8, kX, kY);
@@ -106,15 +106,15 @@ TEST(Diagonal, ReadsTheCodesOfItsEnds) {
       if (code2 & 2) f.top.set(kX + 5, kY + 4);
       const DiagonalEnds down = falling_diagonal(f, 8, kX, kY);
       EXPECT_EQ(down.e1, code1);
-      EXPECT_EQ(down.e2, (code2 & 2) | 1);  // left(x + d2 + 1, y + d2) is the diagonal's own
+      EXPECT_EQ(down.e2, (code2 & 2) | 1);  // left(x + d2 + 1, y + d2) belongs to the diagonal
     }
   }
-  // With the lengthening top edge the own left edge is a pixel behind: all of e1 is free.
+  // With "plus 1" the end is one pixel further on. Only bit 1 is tested there: a left edge for bit
+  // 0 would be another step of the diagonal.
   for (int code = 0; code < 4; ++code) {
     EdgePlanes e = rising(3, 4);
     e.top.set(kX - 4, kY + 4);
     if (code & 2) e.top.set(kX - 5, kY + 4);
-    // A left edge there would make it a step of the diagonal.
     const DiagonalEnds up = rising_diagonal(e, 8, kX, kY);
     EXPECT_EQ(up.d1, 4);
     EXPECT_EQ(up.e1, code & 2);
@@ -127,9 +127,9 @@ TEST(Diagonal, ReadsTheCodesOfItsEnds) {
   }
 }
 
-// With border = end as in a larger frame without an edge in its margin, with clamp as in one whose
-// margin repeats the outermost edges.
-TEST(Diagonal, EndsAtTheBordersOrGoesOnBeyondThem) {
+// border = end matches a larger frame with an empty margin, border = clamp one whose margin repeats
+// the outermost edges.
+TEST(Diagonal, BorderOptionMatchesFrameWithMargin) {
   using spec::morphological::Border;
   constexpr int kSteps = 4, kMargin = 12;
   Random random(8);
@@ -173,9 +173,9 @@ TEST(Diagonal, EndsAtTheBordersOrGoesOnBeyondThem) {
 
 // ---- the table ----------------------------------------------------------------------------------
 
-TEST(DiagonalTable, ApproachesTheAreasBesideItsLine) {
-  // Pair (2, 2): one line from (1, 1) to (1 + n, n); its area in the pixel from (1 + d1, d1) and in
-  // the one below it, by integration over columns.
+TEST(DiagonalTable, ApproximatesAreasCutByLine) {
+  // Codes (2, 2): one line from (1, 1) to (1 + n, n); its areas in pixel (1 + d1, d1) and in the
+  // pixel below, integrated over columns.
   const auto clipped = [](double v) { return std::clamp(v, 0.0, 1.0); };
   for (int d1 = 0; d1 < 20; ++d1) {
     for (int d2 = 0; d2 < 20; ++d2) {
@@ -187,7 +187,7 @@ TEST(DiagonalTable, ApproachesTheAreasBesideItsLine) {
         above += 1 - clipped(y - d1);
         below += clipped(y - (d1 + 1));
       }
-      // Samples lie on the pixel's border, so that an area is a thirtieth off at most, and rounded.
+      // Sample points include the pixel's border, so an area is off by at most 1/30 and rounding.
       constexpr double kOff = 1.0 / 30 + 1.0 / 512 + 1.0 / kColumns;
       EXPECT_NEAR(diagonal_table().at(2, 2, d1, d2).a / 256.0, above / kColumns, kOff);
       EXPECT_NEAR(diagonal_table().at(2, 2, d1, d2).b / 256.0, below / kColumns, kOff);
@@ -195,7 +195,7 @@ TEST(DiagonalTable, ApproachesTheAreasBesideItsLine) {
   }
 }
 
-TEST(DiagonalTable, HoldsThePublishedBytesIfAsked) {
+TEST(DiagonalTable, PublishedEntriesMatchAreaTexBytes) {
   const auto& table = diagonal_table(spec::morphological::AreaValues::kPublished);
   int differing = 0;
   for (int e1 = 0; e1 < 4; ++e1)
@@ -212,7 +212,7 @@ TEST(DiagonalTable, HoldsThePublishedBytesIfAsked) {
   EXPECT_GT(differing, 3000);
 }
 
-TEST(DiagonalWeights, AddUpBothDirectionsAndSwapTheFallingOnes) {
+TEST(DiagonalWeights, AddBothDirectionsWithFallingSwapped) {
   const DiagonalEnds up{3, 1, 2, 0}, down{2, 4, 0, 3};
   const DiagonalAreas a = diagonal_table().at(2, 0, 3, 1), b = diagonal_table().at(0, 3, 2, 4);
   const DiagonalWeights both = diagonal_weights(up, down), one = diagonal_weights(up, {});
@@ -226,7 +226,7 @@ TEST(DiagonalWeights, AddUpBothDirectionsAndSwapTheFallingOnes) {
 
 // ---- frames -------------------------------------------------------------------------------------
 
-TEST(DiagonalPixels, TakeTheirSharesFromTheRuns) {
+TEST(DiagonalPixels, ReplaceWeightsOfRuns) {
   Parameters p = preset_parameters(Preset::kSmaa);
   const Frame frame = tb::morphological::noise_image();
   MorphologicalGolden with(p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are the edges those of the contract's formulas? Against a plain reading of them, pixel by pixel,
-// for every source, mode and local contrast, at widths around the 64-bit words.
+// Compares edges with a direct implementation of the contract's formulas, for every source,
+// threshold mode and local contrast, at widths around the 64-bit words of the golden model.
 #include "golden/morphological/edges.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using golden::morphological::find_edges;
 using tb::Random;
 using tb::morphological::Frame;
 
-// "Edges" of docs/reference/morphological/algorithm.md, word for word.
+// The formulas of docs/reference/morphological/algorithm.md, "Edges".
 class PlainEdges {
  public:
   PlainEdges(const spec::morphological::Parameters& p, const Frame& frame,
@@ -98,7 +98,7 @@ class PlainEdges {
     }
     return luma(p) + luma(q);
   }
-  // `across`: towards the pixel on the other side of the edge; `along`: beside the edge.
+  // `across`: from p to the pixel on the other side of the edge; `along`: direction of the edge.
   std::int64_t contrast(Pixel p, Pixel across, Pixel along) const {
     if (p_.edge_source == spec::morphological::EdgeSource::kDepth) return 0;
     const Pixel q = p + across;
@@ -126,7 +126,7 @@ class PlainEdges {
   const std::vector<std::uint32_t>& depth_;
 };
 
-// Codes near each other and far apart, so that every comparison goes both ways.
+// Neighbouring codes differ by little or much, so every comparison has both results.
 Frame random_frame(int width, int height, Random& random) {
   return Frame(width, height, [&](int x, int y) {
     const std::uint32_t r = random.word();
@@ -135,7 +135,7 @@ Frame random_frame(int width, int height, Random& random) {
     for (std::size_t i = 0; i < 4; ++i) {
       pixel[i] = static_cast<std::uint8_t>(base + static_cast<int>(r >> (6 * i) & 31));
     }
-    if (r >> 29 != 0) pixel[3] |= 1;  // else masked, at times
+    if (r >> 29 != 0) pixel[3] |= 1;  // the others are sometimes masked
     return pixel;
   });
 }
@@ -184,7 +184,7 @@ constexpr Mode kModes[] = {
      spec::morphological::DynamicLuma::kMax},
 };
 
-TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
+TEST(MorphologicalEdges, MatchFormulas) {
   Random random(1);
   constexpr int kSizes[][2] = {{1, 1},  {1, 9},  {9, 1},  {2, 2},
                                {63, 5}, {64, 5}, {65, 5}, {130, 21}};
@@ -207,8 +207,7 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
         const EdgePlanes edges = find_edges(p, frame.view(), DepthView(depth, size[0], size[1]));
         EXPECT_EQ(differences(edges, PlainEdges(p, frame, depth), size[0], size[1]), 0u)
             << size[0] << " x " << size[1];
-        // The least threshold: what is outside of the frame or masked is no step, nor is a flat
-        // one.
+        // With the smallest threshold, masked pixels, flat areas and borders still have no edge.
         p.threshold = 1;
         const Frame flat(size[0], size[1], [](int, int) { return tb::morphological::grey(93); });
         for (const Frame* least : {&frame, &flat})
@@ -224,7 +223,7 @@ TEST(MorphologicalEdges, AreThoseOfTheFormulas) {
   }
 }
 
-TEST(MorphologicalEdges, AWrongBitIsCaught) {
+TEST(MorphologicalEdges, ComparisonDetectsWrongBit) {
   Random random(2);
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   const Frame frame = random_frame(40, 30, random);
@@ -233,13 +232,13 @@ TEST(MorphologicalEdges, AWrongBitIsCaught) {
   EXPECT_EQ(differences(edges, PlainEdges(p, frame, {}), 40, 30), 1u);
 }
 
-// A step of one channel is an edge if the threshold is that step, and none if it is a unit more.
-TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
+// A step of one channel is an edge at a threshold equal to the step, but not one unit above it.
+TEST(MorphologicalEdges, FixedThresholdIsExact) {
   using spec::morphological::Parameters;
   using spec::morphological::Preset;
   struct Row {
     Preset preset;
-    std::array<int, 3> units;  // of a code of each channel
+    std::array<int, 3> units;  // U8.16 per code of each channel
     void (*set)(Parameters&, int);
   };
   const auto threshold = [](Parameters& p, int units) { p.threshold = units; };
@@ -271,8 +270,8 @@ TEST(MorphologicalEdges, ThresholdsHoldToTheUnit) {
   }
 }
 
-// Predicated by a depth edge or by none: a blue step of 255 codes is 1206660 units.
-TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
+// On and off a depth edge: a blue step of 255 codes is 1206660 in U8.16.
+TEST(MorphologicalEdges, PredicatedThresholdIsExact) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
   p.local_contrast = spec::morphological::LocalContrast::kOff;
@@ -290,8 +289,8 @@ TEST(MorphologicalEdges, PredicatedThresholdsHoldToTheUnit) {
   }
 }
 
-// A T that lies a 65536th above 254 codes needs a step of 255, one above 255 has no edge at all.
-TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
+// A threshold 1/65536 above 254 codes needs a step of 255; above 255 codes nothing is an edge.
+TEST(MorphologicalEdges, ColourThresholdRoundsUpToCode) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburr);
   for (const int step : {0, 253, 254, 255}) {
     const Frame frame(2, 1, [&](int x, int) { return tb::morphological::grey(x * step); });
@@ -302,7 +301,7 @@ TEST(MorphologicalEdges, ThresholdsOfColourAreRoundedUp) {
   }
 }
 
-TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
+TEST(MorphologicalEdges, SymmetricContrastDropsBitAtEquality) {
   auto p = golden::morphological::preset_parameters(
       spec::morphological::Preset::kDeburrLine);  // symmetric
   const auto codes = [&](int a, int b, int c) {
@@ -314,9 +313,9 @@ TEST(MorphologicalEdges, ContrastOfExactlyTwiceTheStepDropsTheBit) {
   EXPECT_TRUE(find_edges(p, codes(0, 20, 59).view()).left.at(1, 0));
 }
 
-// Each rule at equality, one unit of alpha below and above it, for the left and the top bit, the
-// brighter pixel first and last.
-TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
+// Each `dynamic_luma` at equality and one unit of alpha below and above, for left and top edges,
+// with either pixel brighter.
+TEST(MorphologicalEdges, DynamicThresholdIsExact) {
   using spec::morphological::DynamicLuma;
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
@@ -324,14 +323,14 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
   p.floor = 1;
   struct Case {
     DynamicLuma luma;
-    int q, own;  // codes of the pixel across and of the own one
-    int alpha;   // at which c is exactly alpha x luma
+    int q, own;  // codes of the pixel across the edge and of the pixel itself
+    int alpha;   // makes alpha x luma equal to the step; 0: no exact value
   };
   for (const Case& c :
        {Case{DynamicLuma::kCurrent, 48, 64, 4194304}, Case{DynamicLuma::kCurrent, 80, 64, 4194304},
         Case{DynamicLuma::kMax, 48, 64, 4194304}, Case{DynamicLuma::kMax, 64, 48, 4194304},
         Case{DynamicLuma::kMin, 80, 64, 4194304}, Case{DynamicLuma::kMin, 64, 80, 4194304},
-        // The mean is 20.5: not a whole code.
+        // The mean is 20.5, not an integer code.
         Case{DynamicLuma::kMean, 18, 23, 0}, Case{DynamicLuma::kMean, 23, 18, 0},
         Case{DynamicLuma::kMean, 56, 72, 4194304}, Case{DynamicLuma::kMean, 72, 56, 4194304}}) {
     p.dynamic_luma = c.luma;
@@ -346,7 +345,7 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
     };
     if (c.alpha != 0) {
       EXPECT_TRUE(edge(c.alpha - 1));
-      EXPECT_FALSE(edge(c.alpha));  // strict
+      EXPECT_FALSE(edge(c.alpha));  // the comparison is strict
       EXPECT_FALSE(edge(c.alpha + 1));
     } else {
       EXPECT_TRUE(edge(4092003));  // 5 / 20.5 of 2^24 is 4092003.9
@@ -355,8 +354,8 @@ TEST(MorphologicalEdges, DynamicThresholdsHoldToTheUnit) {
   }
 }
 
-// The floor of 2 codes and alpha are equal at 32 codes, of the luma that counts.
-TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
+// A floor of 2 codes equals alpha x luma at alpha = 1/16 (1048576) and a luma of 32 codes.
+TEST(MorphologicalEdges, FloorDecidesUpToEquality) {
   using golden::morphological::PixelPair;
   using spec::morphological::DynamicLuma;
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
@@ -377,12 +376,13 @@ TEST(MorphologicalEdges, TheFloorDecidesUpToEquality) {
   }
 }
 
-// Each of the six steps is the largest once, at twice the edge's own and one code on either side.
-TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) {
+// Each of the five other steps in turn is the largest: twice the edge's step, and one code less or
+// more.
+TEST(MorphologicalEdges, PaperAndSmaaContrastDifferOnlyAtEquality) {
   using spec::morphological::LocalContrast;
   constexpr int kOwn = 20;
   struct Neighbour {
-    int x, y;            // of pixel (3, 3)
+    int x, y;            // neighbour of pixel (3, 3)
     int from_x, from_y;  // the pixel that the step is taken from
   };
   // c(p, b), c(p, r), c(p, t) or c(p, l), c(t, 2t), c(l, 2l).
@@ -391,8 +391,8 @@ TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) 
                                top ? Neighbour{2, 3, 3, 3} : Neighbour{3, 2, 3, 3},
                                Neighbour{3, 1, 3, 2}, Neighbour{1, 3, 2, 3}}) {
       for (const int step : {2 * kOwn - 1, 2 * kOwn, 2 * kOwn + 1}) {
-        // Own edge between (3, 3) and the pixel left of (above) it; all else flat but for the
-        // neighbour and what lies beyond it, which continue its code.
+        // A straight edge of kOwn codes runs left of (above) pixel (3, 3); all else is flat except
+        // pixel n.
         std::array<std::array<int, 7>, 7> code{};
         for (auto& row : code) row.fill(100);
         const auto at = [&](int x, int y) -> int& {
@@ -421,14 +421,14 @@ TEST(MorphologicalEdges, LocalContrastOfThePaperAndOfSmaaDifferAtEqualityAlone) 
   }
 }
 
-TEST(MorphologicalEdges, WithoutDepthThereAreNoDepthEdges) {
+TEST(MorphologicalEdges, MissingDepthGivesNoDepthEdges) {
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.edge_source = spec::morphological::EdgeSource::kDepth;
   EXPECT_EQ(find_edges(p, Frame(tb::morphological::noise_image()).view()),
             (EdgePlanes{BitPlane(97, 61), BitPlane(97, 61)}));
 }
 
-TEST(Luma, IsExactAndSumsToOne) {
+TEST(Luma, WeightsSumToOneAndLumaIsExact) {
   EXPECT_EQ(spec::morphological::kLumaWeights[0] + spec::morphological::kLumaWeights[1] +
                 spec::morphological::kLumaWeights[2],
             65536u);

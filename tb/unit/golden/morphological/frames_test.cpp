@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the whole golden behave on frames? Symmetries and where they end, extreme frames, alpha,
-// intermediate results that agree with each other, and named errors.
+// The morphological golden model on whole frames: symmetries and their exceptions, extreme frames,
+// alpha, consistency of intermediate results, memory, and error messages.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<Frame> frames() {
           tb::morphological::blocks_image(), tb::morphological::rendered_like(180, 120, 60)};
 }
 
-std::vector<spec::morphological::Parameters> configuration() {
+std::vector<spec::morphological::Parameters> configurations() {
   std::vector<spec::morphological::Parameters> result;
   for (const auto preset :
        {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburrLine, Preset::kDeburr}) {
@@ -65,10 +65,10 @@ void expect_mirrored(const spec::morphological::Parameters& p, const Frame& fram
 
 TEST(Symmetry, MirroringTheInputMirrorsTheOutput) {
   for (const Frame& frame : frames())
-    for (const auto& p : configuration()) expect_mirrored(p, frame);
+    for (const auto& p : configurations()) expect_mirrored(p, frame);
 }
 
-TEST(Symmetry, MirroringHoldsForRulesThatLookToBothSides) {
+TEST(Symmetry, MirroringRequiresSymmetricOptions) {
   using spec::morphological::DynamicLuma;
   const Frame frame = tb::morphological::rendered_like(180, 120, 60);
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
@@ -86,7 +86,8 @@ TEST(Symmetry, MirroringHoldsForRulesThatLookToBothSides) {
   EXPECT_NE(smooth(p, mirrored_y(frame)), mirrored_y(smooth(p, frame)));
 }
 
-// Pixels whose two axes tie take up and down in either frame; all others are transposed.
+// Differences between the transposed result and the result of the transposed frame. Ties are
+// counted separately: they choose up and down in both frames.
 struct TransposedComparison {
   int ties = 0, differing_ties = 0, differing = 0;
   TransposedComparison(const spec::morphological::Parameters& p, const Frame& frame) {
@@ -109,10 +110,10 @@ struct TransposedComparison {
   }
 };
 
-TEST(Symmetry, TransposingTransposesAllButTies) {
+TEST(Symmetry, TransposingInputTransposesAllButTies) {
   int ties = 0, differing_ties = 0;
   for (const Frame& frame : frames()) {
-    for (auto p : configuration()) {
+    for (auto p : configurations()) {
       p.search_columns = golden::morphological::search_rows(p);
       for (const auto contrast :
            {p.local_contrast,
@@ -126,11 +127,11 @@ TEST(Symmetry, TransposingTransposesAllButTies) {
     }
   }
   EXPECT_GT(ties, 100);
-  EXPECT_GT(differing_ties, 0);  // so ties are really excepted
+  EXPECT_GT(differing_ties, 0);  // ties are really an exception
 }
 
-// SMAA's rules look left as they look up; its diagonals are looked for at top edges only.
-TEST(Symmetry, TransposingTransposesSmaaButItsDiagonals) {
+// SMAA treats both axes alike, except that diagonals are searched only from top edges.
+TEST(Symmetry, TransposingInputTransposesSmaaExceptDiagonals) {
   using spec::morphological::DynamicLuma;
   spec::morphological::Parameters p = preset_parameters(Preset::kSmaa);
   p.search_columns = golden::morphological::search_rows(p);
@@ -147,13 +148,13 @@ TEST(Symmetry, TransposingTransposesSmaaButItsDiagonals) {
     p.dynamic_luma = luma;
     EXPECT_EQ(differing(), 0);
   }
-  p.search_steps = 2;  // cuts most runs
+  p.search_steps = 2;  // limits most searches
   EXPECT_EQ(differing(), 0);
 }
 
-TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
+TEST(Symmetry, InvertingInputInvertsOutputInGammaSpace) {
   for (const Frame& frame : frames()) {
-    for (auto p : configuration()) {
+    for (auto p : configurations()) {
       p.linear_light = false;
       EXPECT_EQ(smooth(p, inverted(frame)), inverted(smooth(p, frame)));
       p.linear_light = true;
@@ -171,8 +172,8 @@ TEST(Symmetry, InvertingCodesInvertsInGammaSpace) {
 
 // ---- extreme frames -----------------------------------------------------------------------------
 
-TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
-  for (const auto& p : configuration()) {
+TEST(ExtremeFrames, FlatFramesPassUnchanged) {
+  for (const auto& p : configurations()) {
     for (const auto& [w, h] : {std::pair(1, 1), {1, 40}, {40, 1}, {64, 64}, {130, 7}}) {
       for (const int code : {0, 17, 255}) {
         const Frame frame(w, h, [&](int, int) { return grey(code); });
@@ -186,10 +187,10 @@ TEST(ExtremeFrames, WithoutEdgesPassUntouched) {
   }
 }
 
-TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
+TEST(ExtremeFrames, SingleRowOrColumnPassesUnchanged) {
   Random random(1);
-  for (const auto& p : configuration()) {
-    if (p.area == spec::morphological::AreaSource::kLearned) continue;  // blends them a little
+  for (const auto& p : configurations()) {
+    if (p.area == spec::morphological::AreaSource::kLearned) continue;  // blends a little
     const Frame row(200, 1, [&](int, int) { return grey(static_cast<int>(random.word() & 255)); });
     MorphologicalGolden golden(p);
     // No crossings can exist, so nothing is blended.
@@ -202,7 +203,7 @@ TEST(ExtremeFrames, OfOneRowOrColumnHaveRunsOfOne) {
   }
 }
 
-TEST(ExtremeFrames, AFrameIsTheSameWhateverCameBefore) {
+TEST(ExtremeFrames, ResultIsIndependentOfPreviousFrame) {
   const spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   MorphologicalGolden golden(p);
   const Frame big = tb::morphological::rendered_like(300, 200, 90);
@@ -212,7 +213,7 @@ TEST(ExtremeFrames, AFrameIsTheSameWhateverCameBefore) {
   EXPECT_EQ(golden.process(big.view()), smooth(p, big).pixels);
 }
 
-TEST(ExtremeFrames, RowsMayHaveGaps) {
+TEST(ExtremeFrames, InputRowsMayHavePadding) {
   const Frame frame = tb::morphological::line_image();
   std::vector<spec::morphological::Rgba8> spaced(static_cast<std::size_t>(frame.width + 9) *
                                                  static_cast<std::size_t>(frame.height));
@@ -225,9 +226,9 @@ TEST(ExtremeFrames, RowsMayHaveGaps) {
   EXPECT_EQ(golden.process(view), smooth(golden.parameters(), frame).pixels);
 }
 
-// ---- alpha, depth -------------------------------------------------------------------------------
+// ---- alpha --------------------------------------------------------------------------------------
 
-TEST(Alpha, PassesAndChangesNothing) {
+TEST(Alpha, PassesWithoutAffectingColours) {
   const Frame opaque = tb::morphological::rendered_like(120, 90, 40);
   Random random(2);
   Frame frame = opaque;
@@ -245,9 +246,9 @@ TEST(Alpha, PassesAndChangesNothing) {
 
 // ---- intermediate results -----------------------------------------------------------------------
 
-TEST(Intermediates, AgreeWithEachOther) {
+TEST(Intermediates, CountersMatchProbesAndRuns) {
   for (const Frame& frame : frames()) {
-    for (const auto& p : configuration()) {
+    for (const auto& p : configurations()) {
       MorphologicalGolden golden(p);
       golden.process(frame.view());
       const spec::morphological::Work& work = golden.work();
@@ -304,7 +305,7 @@ TEST(Intermediates, RunsComeInCanonicalOrder) {
       [&](const PredictedRun& a, const PredictedRun& b) { return key(a) < key(b); }));
 }
 
-TEST(Intermediates, FewerWhenOnlyPixelsAreAsked) {
+TEST(Intermediates, PixelDetailKeepsNoIntermediates) {
   const Frame frame = tb::morphological::blocks_image();
   const auto p = preset_parameters(Preset::kDeburrLine);
   MorphologicalGolden everything(p), pixels(p, MorphologicalGolden::Detail::kPixels);
@@ -315,7 +316,7 @@ TEST(Intermediates, FewerWhenOnlyPixelsAreAsked) {
 
 // ---- memory -------------------------------------------------------------------------------------
 
-TEST(FrameMemory, TrafficBelongsToStorageInMemoryOnly) {
+TEST(FrameMemory, TrafficRequiresMemoryStorage) {
   const Frame frame = tb::morphological::blocks_image();
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   MorphologicalGolden lines(p);
@@ -324,12 +325,12 @@ TEST(FrameMemory, TrafficBelongsToStorageInMemoryOnly) {
   p.storage = spec::morphological::Storage::kMemory;
   MorphologicalGolden memory(p);
   EXPECT_EQ(memory.process(frame.view()), lines.pixels());
-  EXPECT_EQ(memory.traffic(256).size(), 2u * 6 * 80);  // 90 pixels: 6 lines a row
+  EXPECT_EQ(memory.traffic(256).size(), 2u * 6 * 80);  // 90 pixels: 6 lines per row
   EXPECT_EQ(memory.traffic(256).front().address, 256u);
   EXPECT_EQ(memory.traffic(), memory.traffic(0));
 }
 
-TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
+TEST(FrameMemory, UnreadableLinesAreZeros) {
   const Frame frame(40, 8, [](int x, int y) { return grey(10 * x / 4 + 20 * y); });
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
@@ -352,19 +353,19 @@ TEST(FrameMemory, LinesThatCannotBeReadAreZeros) {
   }
 }
 
-TEST(FrameMemory, NoLineIsReadAfterTheLastRow) {
+TEST(FrameMemory, ReadsEachLineOncePerFrame) {
   const Frame frame(40, 8, [](int x, int y) { return grey(10 * x / 4 + 20 * y); });
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   MorphologicalGolden golden(p);
   golden.set_read_errors([](std::uint32_t) { return true; }, 1024);
   golden.process(frame.view());
-  EXPECT_EQ(golden.memory_errors(), 8u * 3);  // 40 pixels: 3 lines a row
+  EXPECT_EQ(golden.memory_errors(), 8u * 3);  // 40 pixels: 3 lines per row
   golden.process(frame.view());
   EXPECT_EQ(golden.memory_errors(), 8u * 3) << "of each frame by itself";
 }
 
-TEST(FrameViews, ThatAreTooSmallOrOfAnotherSizeAreBugs) {
+TEST(FrameViews, RejectSizeMismatch) {
   const Frame frame = tb::morphological::line_image();
   const int width = frame.width, height = frame.height;
   const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
@@ -377,7 +378,7 @@ TEST(FrameViews, ThatAreTooSmallOrOfAnotherSizeAreBugs) {
   EXPECT_THROW(with(DepthView(depth, width - 1, height)), spec::CheckFailed);
   EXPECT_THROW(with(DepthView(depth, width, height - 1)), spec::CheckFailed);
   EXPECT_THROW(with(DepthView(depth, width, height, w - 1)), spec::CheckFailed);
-  // The last row may end before its gap.
+  // The last row needs no padding.
   const std::span all(depth);
   EXPECT_NO_THROW(with(DepthView(all.first(w * h + h - 1), width, height, w + 1)));
   EXPECT_THROW(with(DepthView(all.first(w * h + h - 2), width, height, w + 1)), spec::CheckFailed);
@@ -407,10 +408,10 @@ std::string error_of(void (*change)(spec::morphological::Parameters&)) {
   }
 }
 
-TEST(NamedErrors, OfParameters) {
+TEST(NamedErrors, ParameterErrorsNameLimitAndRemedy) {
   using P = spec::morphological::Parameters;
   struct Row {
-    const char* error;  // a part of it; nothing: there is none
+    const char* error;  // part of the message; empty: accepted
     void (*change)(P&);
   };
   for (const Row& row : {
@@ -461,7 +462,7 @@ TEST(NamedErrors, OfParameters) {
   }
 }
 
-TEST(Presets, AreThoseOfTheContract) {
+TEST(Presets, MatchContract) {
   using spec::morphological::Quality;
   struct Row {
     Quality quality;
@@ -491,7 +492,7 @@ TEST(Presets, AreThoseOfTheContract) {
       EXPECT_NO_THROW(MorphologicalGolden{p});
     }
   }
-  // Of the others a quality changes nothing.
+  // Quality has no effect on other presets.
   for (const auto preset :
        {Preset::kMlaa, Preset::kMlaaSlope, Preset::kDeburrLine, Preset::kDeburr}) {
     const spec::morphological::Parameters p = preset_parameters(preset, Quality::kUltra);
@@ -502,11 +503,11 @@ TEST(Presets, AreThoseOfTheContract) {
   }
 }
 
-// ---- behind others ------------------------------------------------------------------------------
+// ---- given edges, after the geometric engine ----------------------------------------------------
 
-TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
+TEST(GivenEdges, ReproduceFrameTheyWereFoundIn) {
   for (const Frame& frame : frames()) {
-    for (const auto& p : configuration()) {
+    for (const auto& p : configurations()) {
       MorphologicalGolden found(p), given(p);
       found.process(frame.view());
       EXPECT_NE(found.pixels(), frame.pixels);
@@ -520,26 +521,26 @@ TEST(GivenEdges, GiveWhatTheyGaveWhereTheyWereFound) {
   }
 }
 
-TEST(FollowingGeometric, KeepsADynamicThresholdAndItsEdges) {
-  const spec::morphological::FollowingRules configuration;
+TEST(FollowingGeometric, KeepsDynamicThresholdAndEdgeSource) {
+  const spec::morphological::FollowingRules following;
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   const spec::morphological::Parameters fixed = golden::morphological::following_geometric(p);
-  EXPECT_EQ(fixed.bypass, configuration.bypass);
-  EXPECT_EQ(fixed.edge_source, configuration.edge_source);
-  EXPECT_EQ(fixed.threshold_on_depth_edge, configuration.threshold_on_depth_edge);
-  EXPECT_EQ(fixed.threshold_off_depth_edge, configuration.threshold_off_depth_edge);
+  EXPECT_EQ(fixed.bypass, following.bypass);
+  EXPECT_EQ(fixed.edge_source, following.edge_source);
+  EXPECT_EQ(fixed.threshold_on_depth_edge, following.threshold_on_depth_edge);
+  EXPECT_EQ(fixed.threshold_off_depth_edge, following.threshold_off_depth_edge);
   p.threshold_mode = spec::morphological::ThresholdMode::kDynamic;
-  p.threshold_on_depth_edge = configuration.threshold_on_depth_edge + 1;
+  p.threshold_on_depth_edge = following.threshold_on_depth_edge + 1;
   const spec::morphological::Parameters dynamic = golden::morphological::following_geometric(p);
-  EXPECT_NE(p.bypass, configuration.bypass);
-  EXPECT_EQ(dynamic.bypass, configuration.bypass);
-  EXPECT_NE(p.edge_source, configuration.edge_source);
+  EXPECT_NE(p.bypass, following.bypass);
+  EXPECT_EQ(dynamic.bypass, following.bypass);
+  EXPECT_NE(p.edge_source, following.edge_source);
   EXPECT_EQ(dynamic.edge_source, p.edge_source);
   EXPECT_EQ(dynamic.threshold_on_depth_edge, p.threshold_on_depth_edge);
 }
 
-// The inside of surfaces stays as it is, black beside white too.
-TEST(FollowingGeometric, HasNoEdgeOffAnEdgeOfDepth) {
+// Edges inside a surface are ignored, even black next to white.
+TEST(FollowingGeometric, FindsEdgesOnlyAtDepthEdges) {
   const spec::morphological::Parameters p =
       golden::morphological::following_geometric(preset_parameters(Preset::kDeburrLine));
   const std::vector<spec::morphological::Rgba8> pixels = {{0, 0, 0, 255}, {255, 255, 255, 255}};
@@ -551,7 +552,7 @@ TEST(FollowingGeometric, HasNoEdgeOffAnEdgeOfDepth) {
   }
 }
 
-TEST(NamedErrors, OfFramesSayWhatWouldFit) {
+TEST(NamedErrors, FrameSizeErrorsNameLimits) {
   auto p = preset_parameters(spec::morphological::Preset::kDeburrLine);
   const auto text = [&](int width, int height) -> std::string {
     try {

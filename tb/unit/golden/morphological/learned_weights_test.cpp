@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are learned weights and edges of colour what docs/reference/morphological/learned_weights.md
-// says? By its worked frames, by a reference in another language, entry by entry, and where other
-// rules meet them.
+// Learned weights and colour edges of docs/reference/morphological/learned_weights.md: worked
+// examples, a reference in Python, single table entries, and combinations with other options.
 #include "golden/morphological/learned_weights.h"
 
 #include <gmock/gmock.h>
@@ -58,7 +57,7 @@ Parameters without_extension() {
   return p;
 }
 
-// ---- the worked frames --------------------------------------------------------------------------
+// ---- worked examples ----------------------------------------------------------------------------
 
 Frame worked(std::string_view picture) {
   return {16, 8, [&](int x, int y) -> Rgba8 {
@@ -113,7 +112,7 @@ constexpr std::string_view kHues =
     "gggggggggggggggg"
     "gggggggggggggggg";
 
-// Of the edge at a position of a line, for both its pixels.
+// Table indices of both pixels of the edge at `position` of `line`.
 std::array<WeightIndices, 2> indices_at(const MorphologicalGolden& golden, Axis axis, int position,
                                         int line) {
   for (const PredictedRun& run : golden.runs()) {
@@ -151,7 +150,7 @@ constexpr Worked kWorked[] = {
     {kHues, kTop, 5, 3, {578, 513, 297}, {386, 225, 585}},
 };
 
-TEST(LearnedWeights, AreReadWhereThePageSays) {
+TEST(LearnedWeights, IndicesMatchWorkedExamples) {
   for (const Worked& w : kWorked) {
     MorphologicalGolden golden(without_extension());
     const Frame frame = worked(w.picture);
@@ -162,7 +161,7 @@ TEST(LearnedWeights, AreReadWhereThePageSays) {
   }
 }
 
-// ---- the reference ------------------------------------------------------------------------------
+// ---- Python reference ---------------------------------------------------------------------------
 
 Frame patches(int width, int height, Random& random) {
   std::vector<Rgba8> colours;
@@ -181,7 +180,7 @@ Frame patches(int width, int height, Random& random) {
           }};
 }
 
-TEST(LearnedWeights, AreThoseOfTheReference) {
+TEST(LearnedWeights, PixelsMatchPythonReference) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("deburr_shares_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
@@ -195,13 +194,13 @@ TEST(LearnedWeights, AreThoseOfTheReference) {
     p.bypass = Bypass::kMasked;
     if (i % 2 != 0) {
       p.steps = 0;
-      p.window_rows = 12;  // runs longer than the reach
+      p.window_rows = 12;  // runs longer than the search range
       p.search_columns = 7;
     }
     MorphologicalGolden golden(p);
     golden.process(frame.view());
     blended += golden.work().blended_pixels;
-    EXPECT_EQ(golden.work().bypassed_pixels, 0u);  // what is masked had no weight
+    EXPECT_EQ(golden.work().bypassed_pixels, 0u);  // masked pixels have no weight
     std::ofstream(folder / "in", std::ios::binary)
         .write(reinterpret_cast<const char*>(frame.pixels.data()),
                static_cast<std::streamsize>(4 * frame.pixels.size()));
@@ -228,10 +227,10 @@ TEST(LearnedWeights, AreThoseOfTheReference) {
   EXPECT_GT(blended, 1000u);
 }
 
-// ---- extended and learned records ---------------------------------------------------------------
+// ---- learned descriptors ------------------------------------------------------------------------
 
-// A step of 15 pixels between two others is learned, of 16 it keeps its line.
-TEST(LearnedWeights, ALongZKeepsItsLine) {
+// A clean Z of 15 pixels takes learned weights, one of 16 keeps its line.
+TEST(LearnedWeights, LongZRunKeepsItsLine) {
   for (const int length : {15, 16}) {
     const Frame frame(60, 9, [&](int x, int y) {
       return grey(y >= 6 || (y == 5 && x >= 20) || (y == 4 && x >= 20 + length) ? 220 : 20);
@@ -257,7 +256,7 @@ TEST(LearnedWeights, ALongZKeepsItsLine) {
   }
 }
 
-TEST(LearnedWeights, FollowTheTablesThatAreLoaded) {
+TEST(LearnedWeights, UseLoadedTables) {
   MorphologicalGolden golden(without_extension());
   const Frame frame = worked(kCorner);
   WeightTables tables;
@@ -278,7 +277,7 @@ TEST(LearnedWeights, FollowTheTablesThatAreLoaded) {
   EXPECT_EQ(golden.top_weights(5, 2).first, 128);
 }
 
-TEST(LearnedWeights, TheGapOfALongRunReadsItsOwnEntries) {
+TEST(LearnedWeights, GapOfLongRunReadsItsOwnEntries) {
   Parameters p = without_extension();
   p.search_columns = 6;
   MorphologicalGolden golden(p);
@@ -300,7 +299,7 @@ TEST(LearnedWeights, TheGapOfALongRunReadsItsOwnEntries) {
 }
 
 // An end that nothing crosses, or that is crossed on both sides, has class 0.
-TEST(LearnedWeights, ClassesAreOfSingleCrossings) {
+TEST(LearnedWeights, ClassIsZeroUnlessCrossedOnce) {
   using golden::morphological::AxisEdges;
   using golden::morphological::crossing_class;
   golden::morphological::EdgePlanes edges{golden::morphological::BitPlane(9, 9),
@@ -320,7 +319,7 @@ TEST(LearnedWeights, ClassesAreOfSingleCrossings) {
 
 // ---- rejections, tables, coverage ---------------------------------------------------------------
 
-TEST(LearnedWeights, RejectsWhatDoesNotGoTogether) {
+TEST(LearnedWeights, RejectsIncompatibleOptions) {
   const auto rejected = [](auto&& change) {
     Parameters p = deburr();
     change(p);
@@ -335,7 +334,7 @@ TEST(LearnedWeights, RejectsWhatDoesNotGoTogether) {
   EXPECT_NO_THROW(check_build(p));
 }
 
-TEST(LearnedWeights, TheTableOfSumsIsItsFormula) {
+TEST(LearnedWeights, WeightOfSumMatchesFormula) {
   for (int z = -128; z < 128; ++z) {
     const int weight =
         std::min(128, static_cast<int>(std::floor(256 / (1 + std::exp(-z / 16.0)) + 0.5)));
@@ -344,7 +343,7 @@ TEST(LearnedWeights, TheTableOfSumsIsItsFormula) {
   }
 }
 
-TEST(LearnedWeights, TheSumOfTheShippedTablesIsWhatTheRegisterShows) {
+TEST(LearnedWeights, ShippedTablesMatchChecksum) {
   const WeightTables tables;
   std::uint32_t sum = 0, index = 0;
   const auto add = [&](const auto& table) {
@@ -357,8 +356,8 @@ TEST(LearnedWeights, TheSumOfTheShippedTablesIsWhatTheRegisterShows) {
   EXPECT_EQ(sum, spec::morphological::kWeightsSum);
 }
 
-// Entries that no record can name: docs/reference/morphological/learned_weights.md, "Indices".
-TEST(LearnedCoverage, EveryEntryThatCanBeReachedIs) {
+// Numbers of reachable entries: docs/reference/morphological/learned_weights.md, "Indices".
+TEST(LearnedCoverage, HitsEveryReachableEntry) {
   const auto& reachable = reachable_entries();
   const auto count = [](const auto& flags) { return std::count(flags.begin(), flags.end(), true); };
   EXPECT_EQ(count(reachable.of_codes), 532);
@@ -392,15 +391,15 @@ TEST(LearnedCoverage, EveryEntryThatCanBeReachedIs) {
   EXPECT_THAT(holes, testing::IsEmpty());
 }
 
-TEST(LearnedCoverage, StaysEmptyWithoutLearnedShares) {
+TEST(LearnedCoverage, StaysEmptyWithoutLearnedWeights) {
   MorphologicalGolden golden(preset_parameters(Preset::kDeburrLine));
   golden.process(Frame(tb::morphological::noise_image()).view());
   for (const CoverageBin& bin : golden.learned_coverage().bins())
     EXPECT_EQ(bin.hits, 0u) << bin.name;
 }
 
-// A record has the classes of its ends, a part of a long run that of the one end it has.
-TEST(LearnedCoverage, NamesTheClassesOfARecordsEnds) {
+// A whole run has a class at both ends, a head only at its start, a tail only at its end.
+TEST(LearnedCoverage, CountsClassesOfDescriptorEnds) {
   using spec::morphological::RunPart;
   const auto classes = [](Axis axis, RunPart part, int start, int end) {
     golden::morphological::LearnedCoverage coverage;
@@ -426,10 +425,10 @@ TEST(LearnedCoverage, NamesTheClassesOfARecordsEnds) {
   }
 }
 
-TEST(LearnedCoverage, NamesTheEntriesOfAShare) {
+TEST(LearnedCoverage, CountsEntriesOfEachWeight) {
   golden::morphological::LearnedCoverage coverage;
   EXPECT_EQ(coverage.bins().size(), 532u + 300 + 220 + 2 * 2 * 9);
-  coverage.count_weight({645, 419, 439});  // of the page's corner
+  coverage.count_weight({645, 419, 439});  // frame `corner` of the page
   coverage.count_weight({645, 419, 439});
   coverage.count_weight({325, 131, 151});
   EXPECT_EQ(
@@ -437,9 +436,8 @@ TEST(LearnedCoverage, NamesTheEntriesOfAShare) {
       (Hits{{"A/645", 2}, {"B/419", 2}, {"C/439", 2}, {"A/325", 1}, {"B/131", 1}, {"C/151", 1}}));
 }
 
-// However many edges lie between the ends of a long run, they have one weight; a run of the reach
-// has no gap.
-TEST(LearnedCoverage, CountsTheGapOfALongRunOnce) {
+// All edges in the gap of a long run have one weight; a run as long as the search range has no gap.
+TEST(LearnedCoverage, CountsGapOfLongRunOnce) {
   for (const int length : {6, 7, 8, 15}) {
     Parameters p = without_extension();
     p.search_columns = 6;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Are runs found, shaped, cut and extended as the contract says? Runs against a walk over single
-// bits, consistent sets against a search for a line, and extensions against the lines that made the
-// pixels.
+// Runs are found, cut and extended as the contract says: runs compared with a walk over single
+// bits, consistent sets with a search for a line, and extensions with the lines that were drawn.
 #include "golden/morphological/runs.h"
 
 #include <gmock/gmock.h>
@@ -63,7 +62,7 @@ TEST(BitPlanes, TransposeAndReadZeroOutside) {
   }
 }
 
-TEST(Runs, AreThoseOfAWalkOverSingleBits) {
+TEST(Runs, MatchBitwiseWalk) {
   using spec::morphological::Ends;
   Random random(2);
   for (const int width : {1, 63, 64, 65, 128, 129, 400}) {
@@ -91,7 +90,7 @@ TEST(Runs, AreThoseOfAWalkOverSingleBits) {
   }
 }
 
-TEST(Runs, HaveTheShapeOfTheirCrossings) {
+TEST(Runs, ShapeEncodesCrossings) {
   for (int code = 0; code < 16; ++code) {
     AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(12, 6), BitPlane(12, 6)};
     for (int x = 4; x < 9; ++x) edges.along.set(x, 3);
@@ -109,7 +108,7 @@ TEST(Runs, HaveTheShapeOfTheirCrossings) {
   }
 }
 
-TEST(Runs, KnowWhichOfTheirCrossingsGoOn) {
+TEST(Runs, FarBitsMarkContinuedCrossings) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   for (int far = 0; far < 16; ++far) {
     AxisEdges edges{spec::morphological::Axis::kHorizontal, BitPlane(12, 6), BitPlane(12, 6)};
@@ -134,7 +133,7 @@ TEST(Runs, KnowWhichOfTheirCrossingsGoOn) {
   }
 }
 
-TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
+TEST(Runs, LongRunsAreCutToHeadAndTail) {
   spec::morphological::Parameters p = preset_parameters(Preset::kMlaa);
   p.search_columns = 9;
   for (int length = 1; length <= 40; ++length) {
@@ -159,7 +158,7 @@ TEST(Runs, BeyondTheReachAreCutToTheirEnds) {
   }
 }
 
-TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
+TEST(Runs, VerticalRunsMatchTransposedFrame) {
   Random random(3);
   const EdgePlanes edges{random_plane(90, 70, 60, random), random_plane(90, 70, 60, random)};
   const EdgePlanes turned{edges.top.transposed(), edges.left.transposed()};
@@ -174,8 +173,8 @@ TEST(Runs, OfTheOtherAxisAreThoseOfTheTransposedFrame) {
 
 // ---- consistent sets ----------------------------------------------------------------------------
 
-// Looks for a pitch p and a phase a with X_i = ceil(a + i p) among midpoints of all critical
-// pitches.
+// Searches for a pitch p and a phase a with X_i = ceil(a + i p), trying the midpoints between all
+// critical pitches.
 bool line_exists(const std::vector<ConsistentSet::Corner>& corners) {
   std::vector<double> critical;
   for (const auto& a : corners) {
@@ -200,12 +199,12 @@ bool line_exists(const std::vector<ConsistentSet::Corner>& corners) {
   return false;
 }
 
-TEST(ConsistentSets, AreThoseForWhichALineExists) {
+TEST(ConsistentSets, ConsistentIffLineExists) {
   Random random(4);
   int consistent = 0;
   for (int i = 0; i < 20000; ++i) {
     const int length = 1 + static_cast<int>(random.word() % 9);
-    // Now and then a step of any length, not only of those that the predictor tries.
+    // Sometimes steps of any length, not only those that the predictor tries.
     const bool any = random.word() % 8 == 0;
     ConsistentSet set(length);
     std::vector<ConsistentSet::Corner> corners = {{0, 0}, {1, length}};
@@ -232,7 +231,7 @@ TEST(ConsistentSets, AreThoseForWhichALineExists) {
   EXPECT_LT(consistent, 19000);
 }
 
-// ---- extension on pure lines --------------------------------------------------------------------
+// ---- extension on straight lines ----------------------------------------------------------------
 
 struct Line {
   double slope, start;
@@ -242,12 +241,12 @@ struct Line {
   }
 };
 
-// Rows of the frame that the line runs through, plus a margin.
+// A frame with all rows that the line crosses, plus a margin.
 Frame line_frame(double slope, double phase, int width) {
   return Line{slope, 3 + phase}.frame(width, static_cast<int>(slope * width) + 8);
 }
 
-// The complete horizontal runs of a falling line, in order.
+// The horizontal clean Z runs, in order.
 std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
   std::vector<PredictedRun> runs;
   for (const PredictedRun& run : golden.runs()) {
@@ -259,7 +258,7 @@ std::vector<PredictedRun> complete_runs(const MorphologicalGolden& golden) {
   return runs;
 }
 
-TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
+TEST(Extension, FollowsStraightLineOnBothSides) {
   Random random(5);
   spec::morphological::Parameters p = preset_parameters(Preset::kDeburrLine);
   p.search_columns = 2048;
@@ -276,7 +275,7 @@ TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
       ASSERT_EQ(run.line.right_steps, 8);
       EXPECT_EQ(run.left_end, SideEnd::kSteps);
       EXPECT_EQ(run.iterations, 8);
-      // The ends are corners of the very runs eight rows away.
+      // The outermost corners are those of the runs eight rows away.
       const int start = run.line.run.start;
       EXPECT_EQ(start + run.far_left, runs[r - 8].line.run.start);
       EXPECT_EQ(start + run.far_right, runs[r + 8].line.run.start + runs[r + 8].line.run.length);
@@ -287,7 +286,7 @@ TEST(Extension, FollowsAPureLineForAllStepsOnBothSides) {
   EXPECT_GT(inner, 5000u);
 }
 
-// Bright above a staircase that rises from the left, one step of each length.
+// Bright above a staircase that rises to the right with steps of these lengths.
 Frame staircase(const std::vector<int>& lengths) {
   const int steps = static_cast<int>(lengths.size());
   Frame frame(std::accumulate(lengths.begin(), lengths.end(), 0) + 2, steps + 5,
@@ -332,13 +331,13 @@ struct Kept {
 Kept kept(const PredictedRun& run) { return {run.line.left_steps, run.line.right_steps}; }
 void PrintTo(const Kept& k, std::ostream* out) { *out << k.left << " and " << k.right; }
 
-TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
+TEST(Trim, KeepsAllStepsAtStepOrRangeLimit) {
   const Frame frame = staircase(std::vector<int>(25, 3));
   spec::morphological::Parameters p = trimmed(Preset::kDeburrLine, true);
   const PredictedRun all = run_at(frame, p, 36);
   EXPECT_EQ(kept(all), (Kept{8, 8}));
   EXPECT_EQ(all.left_end, SideEnd::kSteps);
-  // From X = 9 on the steps of 3, 2 and 4 end at 12, 11 and 13.
+  // From X = 9, candidate steps of 3, 2 and 4 end at 12, 11 and 13.
   for (const auto& [search_range, steps, end] : {std::tuple{10, 2, SideEnd::kReach},
                                                  {11, 2, SideEnd::kReach},
                                                  {12, 3, SideEnd::kReach},
@@ -348,7 +347,7 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
     EXPECT_EQ(kept(run), (Kept{steps, steps})) << "reach " << search_range;
     EXPECT_EQ(run.right_end, end);
   }
-  // A step of 9 that could have been one of 4 within the reach is evidence.
+  // A step of 9 loses the line if the largest candidate, 4, was within the search range.
   p.search_columns = 13;
   const Frame bent = staircase({3, 3, 3, 3, 3, 3, 3, 9, 2});
   EXPECT_EQ(kept(run_at(bent, p, 12)).right, 1);
@@ -356,8 +355,8 @@ TEST(Trim, KeepsAllWhereTheStepsOrTheReachEnd) {
   EXPECT_EQ(kept(run_at(bent, p, 12)).right, 2);
 }
 
-// A naive reading of the contract over many bends, against the runs without the trim.
-TEST(Trim, LeavesWhatTheContractSays) {
+// Applies the contract's rule to untrimmed runs of many bends and expects the trimmed runs.
+TEST(Trim, KeptStepsMatchContract) {
   Random random(9);
   std::map<std::pair<SideEnd, int>, int> seen;
   const auto expected = [&](SideEnd end, int steps) {
@@ -367,7 +366,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
     return steps;
   };
   for (int i = 0; i < 600; ++i) {
-    // A parabola of random bend, and a line now and then.
+    // Parabolas of random curvature; every fourth one is a line.
     const double bend = i % 4 == 0 ? 0 : random.uniform(0.002, 0.05),
                  first = random.uniform(1, i % 3 == 0 ? 28 : 6);
     std::vector<int> lengths, corner = {0};
@@ -391,7 +390,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
         EXPECT_EQ(b.line.left_steps, expected(a.left_end, a.line.left_steps));
         EXPECT_EQ(b.line.right_steps, expected(a.right_end, a.line.right_steps));
         EXPECT_EQ(b.line.span, b.far_right - b.far_left);
-        // Every trial counts, given back or not; the side that takes more of them decides.
+        // Trials of dropped steps count too; iterations are those of the side with more trials.
         EXPECT_EQ(b.probes, a.probes);
         EXPECT_EQ(b.iterations, a.iterations);
         const auto trials = [](int steps, SideEnd end) {
@@ -407,7 +406,7 @@ TEST(Trim, LeavesWhatTheContractSays) {
         // The outermost corners are those of the staircase.
         const auto own = std::find(corner.begin(), corner.end(), b.line.run.start);
         ASSERT_NE(own, corner.end());
-        if (preset == Preset::kMlaaSlope) continue;  // it may hit what is no step
+        if (preset == Preset::kMlaaSlope) continue;  // its hits need not be steps
         EXPECT_EQ(b.far_left, *(own - b.line.left_steps) - *own);
         EXPECT_EQ(b.far_right, *(own + 1 + b.line.right_steps) - *own);
       }

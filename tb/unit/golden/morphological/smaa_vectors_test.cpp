@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the golden give the numbers of docs/reference/morphological/vectors.md? Weights of
-// every edge of the patterns, the limit of the searches, and the tables; its frames are in
-// vectors_test.cpp.
+// Compares the golden model with docs/reference/morphological/vectors.md: weights of every edge of
+// the SMAA patterns, the search limit, and the tables. vectors_test.cpp compares the frames.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -35,7 +34,7 @@ std::ostream& put(std::ostream& out, EdgeWeights s) {
   return out << int{s.first} << '/' << int{s.second};
 }
 
-// Every edge with weights: those above pixels first, then those left of them.
+// All edges with weights, as "t(x,y) first/second": top edges, then left edges (l).
 std::string weights_of(const MorphologicalGolden& golden) {
   std::ostringstream all;
   const char* comma = "";
@@ -53,7 +52,7 @@ std::string weights_of(const MorphologicalGolden& golden) {
   return all.str();
 }
 
-TEST(SmaaPatterns, HaveTheContractsShares) {
+TEST(SmaaPatterns, WeightsMatchContract) {
   for (const spec::morphological::PatternVector& v : spec::morphological::kPatternVectors) {
     SCOPED_TRACE(v.name);
     const Frame input = tb::morphological::vector_image(v);
@@ -67,9 +66,9 @@ TEST(SmaaPatterns, HaveTheContractsShares) {
   }
 }
 
-// ---- the limit of the searches ------------------------------------------------------------------
+// ---- search limit -------------------------------------------------------------------------------
 
-TEST(SmaaLimits, CutTheSearchesOfEachPixel) {
+TEST(SmaaLimits, LimitSearchOfEachPixel) {
   for (const spec::morphological::LimitVector& v : spec::morphological::kLimitVectors) {
     MorphologicalGolden golden(preset_parameters(Preset::kSmaa, Quality::kLow));
     const Frame frame = tb::morphological::vector_image(v);
@@ -109,7 +108,7 @@ std::uint64_t hash_of(const golden::morphological::DiagonalTable& table) {
   return hash.value();
 }
 
-TEST(SmaaTables, HaveTheContractsHashes) {
+TEST(SmaaTables, HashesMatchContract) {
   VectorHash roots, mix;
   for (int d = 0; d < spec::morphological::kTableDistances; ++d)
     roots.highest_first(static_cast<std::uint64_t>(golden::morphological::table_root(d)), 2);
@@ -129,10 +128,10 @@ TEST(SmaaTables, HaveTheContractsHashes) {
   tb::expect_each_value_is_compared(spec::morphological::kTableHashes, got);
 }
 
-TEST(SmaaTables, GiveTheContractsShares) {
+TEST(SmaaTables, WeightsMatchContract) {
   for (const spec::morphological::TableVector& v : spec::morphological::kTableVectors) {
     SCOPED_TRACE(testing::Message() << v.l << ' ' << v.r);
-    // L-first-none and U-first.
+    // Shapes 1 (L-first-none) and 5 (U-first).
     const EdgeWeights half = golden::morphological::table_weights(1, v.l, v.r),
                       dip = golden::morphological::table_weights(5, v.l, v.r);
     const spec::morphological::TableResult got = {half.first, dip.first};
@@ -140,7 +139,7 @@ TEST(SmaaTables, GiveTheContractsShares) {
     tb::expect_each_value_is_compared(v.result, got);
     EXPECT_EQ(half.second, 0);
     EXPECT_EQ(dip.second, 0);
-    // L-none-second: the mirror image on the other side.
+    // Shape 8 (L-none-second) is the mirror image, with the weight on the second side.
     EXPECT_EQ(golden::morphological::table_weights(8, v.r, v.l), (EdgeWeights{0, half.first}));
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests and the benchmark of the morphological golden weight: pictures from tb/stimuli as
-// its frames.
+// Helpers of the tests and the benchmark of the morphological golden model: images of tb/stimuli as
+// input frames, hit coverage bins, and smoothing of one frame.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ using stimuli::shades_image;
 using stimuli::text_image;
 using stimuli::transposed;
 
-// A picture that the golden model can look at.
+// An image with a view for the golden model.
 struct Frame : Image {
   using Image::Image;
   Frame() = default;
@@ -45,7 +45,7 @@ struct Frame : Image {
 };
 
 using Hits = std::map<std::string, std::uint64_t>;
-// The bins that were hit.
+// Hit bins whose names start with `group`.
 template <class Bins>
 Hits hits_of(const Bins& bins, const std::string& group = "") {
   Hits hits;
@@ -53,7 +53,7 @@ Hits hits_of(const Bins& bins, const std::string& group = "") {
     if (bin.hits != 0 && bin.name.starts_with(group)) hits[bin.name] = bin.hits;
   return hits;
 }
-// Their names in the order of the alphabet; how often, unless once.
+// Names of hit bins in alphabetical order, with counts other than 1.
 template <class Bins>
 std::string names_of(const Bins& bins) {
   std::string names;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the text guard leave the pixels that the contract says, and no others? Drawings by hand, the
-// definition once more pixel by pixel, and frames against the golden without the guard.
+// The text guard bypasses exactly the pixels that the contract says: drawings, a direct
+// implementation of the definition, and frames compared with the golden model without the guard.
 #include "golden/morphological/text_guard.h"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ using tb::morphological::Hits;
 
 // ---- the hash -----------------------------------------------------------------------------------
 
-TEST(ColourHash, IsTheContracts) {
+TEST(ColourHash, MatchesContract) {
   EXPECT_EQ(colour_hash({0, 0, 0, 255}), 0);
   EXPECT_EQ(colour_hash({255, 0, 0, 255}), 60);
   EXPECT_EQ(colour_hash({0, 255, 0, 255}), 57);
@@ -54,9 +54,9 @@ TEST(ColourHash, IsTheContracts) {
               colour_hash({7, 90, 201, 0}));
 }
 
-// Each bit of a code and the bits of the hash that it turns: bit i of R bit i, of G the next one,
-// of B the third from it; bits 6 and 7 as bits 0 and 1.
-TEST(ColourHash, TurnsItsBits) {
+// Bit i of R flips hash bit i, of G bit i + 1, of B bit i + 3 (mod 6); code bits 6 and 7 act as
+// bits 0 and 1.
+TEST(ColourHash, EachCodeBitFlipsOneHashBit) {
   Random random(3);
   constexpr int kTurns[3] = {0, 1, 3};
   for (std::size_t channel = 0; channel < 3; ++channel)
@@ -73,8 +73,8 @@ TEST(ColourHash, TurnsItsBits) {
 
 // ---- drawings -----------------------------------------------------------------------------------
 
-// Guarded pixels are g, others -.
-std::string drawn(const Frame& frame) {
+// Rows of the frame: g for a guarded pixel, - for others.
+std::string guarded_rows(const Frame& frame) {
   const TextGuard guard(frame.view());
   std::string text;
   for (int y = 0; y < frame.height; ++y) {
@@ -84,7 +84,7 @@ std::string drawn(const Frame& frame) {
   return text;
 }
 
-std::string turned(const std::string& rows, int width, int height) {
+std::string transposed_rows(const std::string& rows, int width, int height) {
   std::string text;
   for (int x = 0; x < width; ++x) {
     for (int y = 0; y < height; ++y) text += rows[static_cast<std::size_t>(y * (width + 1) + x)];
@@ -93,30 +93,29 @@ std::string turned(const std::string& rows, int width, int height) {
   return text;
 }
 
-TEST(TextGuard, GuardsWhatIsDrawn) {
+TEST(TextGuard, GuardedPixelsMatchDrawings) {
   std::set<char> seen;
   for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors) {
     const Frame frame = tb::morphological::vector_image(v);
     const std::string expected(v.guarded);
-    EXPECT_EQ(drawn(frame), expected) << v.name;
-    EXPECT_EQ(drawn(tb::morphological::transposed(frame)),
-              turned(expected, frame.width, frame.height))
+    EXPECT_EQ(guarded_rows(frame), expected) << v.name;
+    EXPECT_EQ(guarded_rows(tb::morphological::transposed(frame)),
+              transposed_rows(expected, frame.width, frame.height))
         << v.name;
-    EXPECT_EQ(drawn(tb::morphological::inverted(frame)), expected) << v.name;
+    EXPECT_EQ(guarded_rows(tb::morphological::inverted(frame)), expected) << v.name;
     seen.insert(expected.begin(), expected.end());
   }
   EXPECT_EQ(seen, (std::set{'g', '-', ' '}));
 }
 
 std::int64_t guarded_pixels(const Frame& frame) {
-  const std::string rows = drawn(frame);
-  EXPECT_EQ(std::ranges::count(drawn(tb::morphological::transposed(frame)), 'g'),
+  const std::string rows = guarded_rows(frame);
+  EXPECT_EQ(std::ranges::count(guarded_rows(tb::morphological::transposed(frame)), 'g'),
             std::ranges::count(rows, 'g'));
   return std::ranges::count(rows, 'g');
 }
 
-// The figures of the contract's page.
-TEST(TextGuard, GuardsBends) {
+TEST(TextGuard, GuardsBendsOfThinLines) {
   EXPECT_EQ(guarded_pixels(Frame(60, 60,
                                  [](int x, int y) {
                                    const bool v = y >= 15 && y < 40 && std::abs(x - 30) == y - 15;
@@ -131,24 +130,25 @@ TEST(TextGuard, GuardsBends) {
             4);
 }
 
-// A colour that differs in hash makes three, one of the same hash does not, whatever it looks like.
-TEST(TextGuard, GoesByHashes) {
+// A third colour with the hash of one of the two does not count, however different it looks.
+TEST(TextGuard, ComparesColoursByHash) {
   const auto grid = [](const Rgba8& spot) {
     return Frame(9, 9, [&](int x, int y) {
       if (x == 2 && y == 2) return spot;
       return grey(x % 4 == 0 || y % 4 == 0 ? 1 : 255);
     });
   };
-  EXPECT_EQ(std::ranges::count(drawn(grid(grey(255))), 'g'), 81);
-  EXPECT_EQ(std::ranges::count(drawn(grid(grey(64))), 'g'), 81);   // the hash of 1
-  EXPECT_EQ(std::ranges::count(drawn(grid(grey(190))), 'g'), 81);  // of 255: 65 from it
+  EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(255))), 'g'), 81);
+  EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(64))), 'g'), 81);   // same hash as 1
+  EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(190))), 'g'), 81);  // same hash as 255
   EXPECT_EQ(colour_hash(grey(190)), colour_hash(grey(255)));
-  EXPECT_EQ(std::ranges::count(drawn(grid(grey(254))), 'g'), 17);  // no window has the spot
+  EXPECT_EQ(std::ranges::count(guarded_rows(grid(grey(254))), 'g'),
+            17);  // pixels whose window excludes the spot
 }
 
 // ---- the definition -----------------------------------------------------------------------------
 
-// Pixels of one hash around (x, y) along (dx, dy), it included.
+// Length of the run of equal hashes through (x, y) along (dx, dy).
 int run_through(const Frame& frame, int x, int y, int dx, int dy) {
   int length = 1;
   for (const int way : {-1, 1})
@@ -194,21 +194,21 @@ class Definition {
   std::vector<bool> in_rows_, in_columns_;
 };
 
-// Bars, blocks and letters of two colours and, now and then, of more.
-Frame patches(int width, int height, Random& random, bool more = true) {
+// Random rectangles of two colours, rarely also of a third one.
+Frame patches(int width, int height, Random& random, bool third_colour = true) {
   Frame frame(width, height, [](int, int) { return grey(200); });
   for (int i = 0; i < 6 + width * height / 30; ++i) {
     const int w = 1 + static_cast<int>(random.below(5)), h = 1 + static_cast<int>(random.below(5)),
               x0 = static_cast<int>(random.below(static_cast<std::uint32_t>(width))),
               y0 = static_cast<int>(random.below(static_cast<std::uint32_t>(height)));
-    const int code = more && random.below(200) == 0 ? 90 : random.below(3) == 0 ? 200 : 20;
+    const int code = third_colour && random.below(200) == 0 ? 90 : random.below(3) == 0 ? 200 : 20;
     for (int y = y0; y < std::min(height, y0 + h); ++y)
       for (int x = x0; x < std::min(width, x0 + w); ++x) frame.at(x, y) = grey(code);
   }
   return frame;
 }
 
-TEST(TextGuard, IsItsDefinition) {
+TEST(TextGuard, MatchesDefinition) {
   Random random(11);
   int guarded = 0, all = 0;
   for (const auto& [w, h] :
@@ -235,8 +235,8 @@ TEST(TextGuard, IsItsDefinition) {
 
 // ---- frames -------------------------------------------------------------------------------------
 
-// The frame without the guard, with the guarded pixels put back.
-void expect_as_put_back(Parameters p, const Frame& frame) {
+// Expects the frame of the model without the guard, with guarded pixels restored.
+void expect_guarded_pixels_restored(Parameters p, const Frame& frame) {
   MorphologicalGolden plain(p);
   plain.process(frame.view());
   p.text_guard = true;
@@ -267,18 +267,18 @@ void expect_as_put_back(Parameters p, const Frame& frame) {
   EXPECT_TRUE(golden.edges() == plain.edges());
 }
 
-TEST(TextGuard, PutsBackWhatIsGuarded) {
+TEST(TextGuard, RestoresGuardedPixels) {
   Random random(21);
   for (const Preset preset : {Preset::kMlaa, Preset::kMlaaSlope, Preset::kSmaa,
                               Preset::kSmaaDynamic, Preset::kDeburrLine, Preset::kDeburr}) {
     const Parameters p = preset_parameters(preset);
-    expect_as_put_back(p, tb::morphological::text_image());
-    expect_as_put_back(p, tb::morphological::noise_image());
-    expect_as_put_back(p, patches(70, 40, random));
-    expect_as_put_back(p, patches(3, 40, random));
-    expect_as_put_back(p, patches(40, 2, random));
+    expect_guarded_pixels_restored(p, tb::morphological::text_image());
+    expect_guarded_pixels_restored(p, tb::morphological::noise_image());
+    expect_guarded_pixels_restored(p, patches(70, 40, random));
+    expect_guarded_pixels_restored(p, patches(3, 40, random));
+    expect_guarded_pixels_restored(p, patches(40, 2, random));
   }
-  // With marks: both rules leave a pixel, and count it once. Without them alpha passes.
+  // A pixel that is both marked and guarded counts once. With bypass = none alpha passes.
   for (const Bypass bypass :
        {Bypass::kNone, Bypass::kMarked, Bypass::kBeside, Bypass::kHalf, Bypass::kMasked}) {
     Parameters p = preset_parameters(Preset::kDeburrLine);
@@ -286,13 +286,13 @@ TEST(TextGuard, PutsBackWhatIsGuarded) {
     Frame frame = tb::morphological::text_image();
     for (Rgba8& pixel : frame.pixels)
       pixel[3] = static_cast<std::uint8_t>(random.below(128) << 1 | (random.below(6) == 0 ? 0 : 1));
-    expect_as_put_back(p, frame);
+    expect_guarded_pixels_restored(p, frame);
   }
 }
 
-// Colours come with the beats; what memory does not give back is blended as zeros, and guarded as
-// it came.
-TEST(TextGuard, IsOfPixelsAsTheyCame) {
+// The guard reads the arriving colours: a line that memory fails to return is blended as zeros, but
+// guarded as it arrived.
+TEST(TextGuard, UsesColoursOfArrivingBeat) {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.storage = spec::morphological::Storage::kMemory;
   p.text_guard = true;
@@ -306,8 +306,7 @@ TEST(TextGuard, IsOfPixelsAsTheyCame) {
   EXPECT_NE(golden.pixels(), whole.pixels());
 }
 
-// One golden, frames of other sizes one after the other.
-TEST(TextGuard, KeepsNothingOfTheFrameBefore) {
+TEST(TextGuard, KeepsNoStateBetweenFrames) {
   Parameters p = preset_parameters(Preset::kDeburr);
   p.text_guard = true;
   MorphologicalGolden golden(p);
@@ -324,31 +323,31 @@ Hits hits_of(const Frame& frame) {
   return tb::morphological::hits_of(coverage.bins());
 }
 
-// By hand, of drawings of which each pixel is known.
-TEST(GuardCoverage, NamesWhatIsMissing) {
+// Expected bins are worked out by hand.
+TEST(GuardCoverage, CountsReasonAndMargin) {
   const auto drawing = [](std::string_view name) {
     for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors)
       if (v.name == name) return Frame(tb::morphological::vector_image(v));
     throw std::out_of_range(std::string(name));
   };
-  const auto of = [&](std::string_view name) { return hits_of(drawing(name)); };
+  const auto drawing_hits = [&](std::string_view name) { return hits_of(drawing(name)); };
   EXPECT_EQ(hits_of(Frame(5, 5, [](int, int) { return grey(9); })),
             (Hits{{"text/one-colour", 25}}));
-  EXPECT_EQ(of("small"), (Hits{{"text/guarded", 12},
-                               {"text/just/24", 12},
-                               {"text-border/top", 3},
-                               {"text-border/bottom", 3},
-                               {"text-border/left", 4},
-                               {"text-border/right", 4}}));
-  EXPECT_EQ(of("too small"), (Hits{{"text/few", 9}}));  // 18
-  EXPECT_EQ(of("bars"), (Hits{{"text/few-in-columns", 81}}));
-  EXPECT_EQ(of("grid and another colour"), (Hits{{"text/guarded", 45},
-                                                 {"text/more-colours", 36},
-                                                 {"text-border/top", 9},
-                                                 {"text-border/left", 9},
-                                                 {"text-border/right", 3},
-                                                 {"text-border/bottom", 3}}));
-  // Rows 0, 7 and 8 see two of the dots; upside down rows 0, 1 and 8, on its side columns.
+  EXPECT_EQ(drawing_hits("small"), (Hits{{"text/guarded", 12},
+                                         {"text/just/24", 12},
+                                         {"text-border/top", 3},
+                                         {"text-border/bottom", 3},
+                                         {"text-border/left", 4},
+                                         {"text-border/right", 4}}));
+  EXPECT_EQ(drawing_hits("too small"), (Hits{{"text/few", 9}}));  // 18 strokes
+  EXPECT_EQ(drawing_hits("bars"), (Hits{{"text/few-in-columns", 81}}));
+  EXPECT_EQ(drawing_hits("grid and another colour"), (Hits{{"text/guarded", 45},
+                                                           {"text/more-colours", 36},
+                                                           {"text-border/top", 9},
+                                                           {"text-border/left", 9},
+                                                           {"text-border/right", 3},
+                                                           {"text-border/bottom", 3}}));
+  // Windows of rows 0, 7 and 8 hold two of the dots, upside down those of rows 0, 1 and 8.
   const Frame dots = drawing("three dots"), upside_down = tb::morphological::mirrored_y(dots);
   const Hits in_rows = {{"text/guarded", 54},     {"text/just/3-in-rows", 54},
                         {"text/few-in-rows", 27}, {"text/just/2-in-rows", 27},
@@ -360,7 +359,7 @@ TEST(GuardCoverage, NamesWhatIsMissing) {
     EXPECT_EQ(hits_of(frame), in_rows);
     EXPECT_EQ(hits_of(tb::morphological::transposed(frame)), in_columns);
   }
-  const Hits enough = of("twenty-four"), fewer = of("twenty-three");
+  const Hits enough = drawing_hits("twenty-four"), fewer = drawing_hits("twenty-three");
   EXPECT_EQ(enough.at("text/guarded"), 25u);
   EXPECT_EQ(enough.at("text/just/24"), 25u);
   EXPECT_EQ(fewer.count("text/guarded"), 0u);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Does the golden give the contract's numbers? The frames and runs of
-// spec/morphological/vectors.h, and every entry of the ROMs
-// (docs/reference/morphological/algorithm.md).
+// Compares the golden model with the contract (docs/reference/morphological/algorithm.md): frames
+// and runs of spec/morphological/vectors.h, and every entry of the ROMs.
 #include "spec/morphological/vectors.h"
 
 #include <fmt/format.h>
@@ -55,7 +54,7 @@ FrameResult result_of(const FrameVector& v, MorphologicalGolden::Detail detail) 
 
 class TestVector : public testing::TestWithParam<FrameVector> {};
 
-TEST_P(TestVector, IsReproduced) {
+TEST_P(TestVector, MatchesContract) {
   for (const auto detail :
        {MorphologicalGolden::Detail::kPixels, MorphologicalGolden::Detail::kEverything})
     EXPECT_EQ(differences(GetParam().result, result_of(GetParam(), detail)), "");
@@ -77,11 +76,10 @@ TEST(TestVectorHash, ChangesWithOneCodeOfOnePixel) {
   EXPECT_NE(hash(frame), before);
 }
 
-// ---- the table of weights
-// ------------------------------------------------------------------------
+// ---- weights of runs ----------------------------------------------------------------------------
 
 struct LineCase {
-  std::vector<int> left, right;  // corners taken, outwards
+  std::vector<int> left, right;  // corners of the steps, outwards
   int length;
 };
 
@@ -97,7 +95,7 @@ Prediction prediction_of(const LineCase& c) {
   return p;
 }
 
-// "b85 b11/a11 a85": of each pixel, before and after.
+// Weights `before` (b) and `after` (a) of each pixel: "b85 b11/a11 a85".
 std::string weights_of(const spec::morphological::LineDescriptor& line, int length) {
   std::string all;
   for (int k = 0; k < length; ++k) {
@@ -110,7 +108,7 @@ std::string weights_of(const spec::morphological::LineDescriptor& line, int leng
   return all;
 }
 
-TEST(LineAndArea, GiveTheContractsTable) {
+TEST(LineAndArea, MatchContractTable) {
   for (const spec::morphological::RunVector& v : spec::morphological::kRunVectors) {
     const auto corner = [&](int i) { return v.corners[static_cast<std::size_t>(i)]; };
     ASSERT_EQ(corner(v.start), 0);
@@ -130,7 +128,7 @@ TEST(LineAndArea, GiveTheContractsTable) {
   }
 }
 
-TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
+TEST(LineAndArea, ChordAndFitAgreeWithoutExtension) {
   for (int length = 1; length <= 2048; ++length) {
     spec::morphological::RunDescriptor run;
     run.length = static_cast<std::uint16_t>(length);
@@ -147,9 +145,9 @@ TEST(LineAndArea, ChordAndFitAgreeOnARunByItself) {
   }
 }
 
-// The rounded sums of the page at halves and one below, which side a pixel belongs to at 0, and the
-// limits of heights and weights.
-TEST(LineAndArea, IsRoundedToTheUnit) {
+// Rounding at a half and one unit below it, the side of a pixel whose line starts or ends at
+// height 0, and the limits of heights and weights.
+TEST(LineAndArea, HeightsAndAreasRoundToNearest) {
   using golden::morphological::areas;
   using golden::morphological::height_magnitude;
   EXPECT_EQ(height_magnitude(2047), 0);
@@ -172,7 +170,7 @@ TEST(LineAndArea, IsRoundedToTheUnit) {
   EXPECT_EQ(pair(2047, 2032), std::pair(0, 127));
   EXPECT_EQ(pair(4096, 4096), std::pair(0, 128));
   EXPECT_EQ(pair(-4096, -4096), std::pair(128, 0));
-  // A line that begins or ends on the edge crosses it nowhere: one trapezoid.
+  // A line that starts or ends on the edge does not cross it: one trapezoid.
   EXPECT_EQ(pair(-32, 0), std::pair(1, 0));
   EXPECT_EQ(pair(0, 32), std::pair(0, 1));
   EXPECT_EQ(std::pair(areas(-32 * 4096, 1, 0).before, areas(-32 * 4096, 1, 0).after),
@@ -188,9 +186,9 @@ TEST(LineAndArea, IsRoundedToTheUnit) {
   EXPECT_EQ(pair(-4096, 4096, 129u << 5), std::pair(128, 128));
 }
 
-// 2048 pixels in nine steps are 227 5/9 pixels a step: in 1/4096, by the table's 1/9, 932067 1/2,
-// rounded up; of 2047 in three it is 2794837 1/3; of 1167 in 23 a 16384th less than 207827 1/2.
-TEST(LineAndArea, InversesAreRoundedToTheUnit) {
+// Before rounding, `inverse` (1/4096 pixel per step) is 932067 1/2 for 2048 pixels in 9 steps with
+// the table's 1/9, 2794837 1/3 for 2047 in 3, and 1/16384 less than 207827 1/2 for 1167 in 23.
+TEST(LineAndArea, InversesRoundToNearest) {
   const auto chord = [](int steps, int pixels) {
     const int left = (steps - 1) / 2, right = steps - 1 - left, beyond = pixels - 20 * left - 100;
     LineCase c{{}, {}, 100};
@@ -206,7 +204,7 @@ TEST(LineAndArea, InversesAreRoundedToTheUnit) {
   EXPECT_EQ(chord(23, 1167), 207827u);
 }
 
-TEST(LineAndArea, EveryShapeGivesItsSharesToItsSides) {
+TEST(LineAndArea, ShapeSelectsWeightedSides) {
   for (std::size_t shape = 0; shape < 16; ++shape) {
     const spec::morphological::RunShape& s = spec::morphological::kRunShapes[shape];
     spec::morphological::RunDescriptor run;
@@ -226,7 +224,7 @@ TEST(LineAndArea, EveryShapeGivesItsSharesToItsSides) {
 
 // ---- ROMs ---------------------------------------------------------------------------------------
 
-TEST(Roms, HoldTheRoundedTransferCurves) {
+TEST(Roms, TransferCurvesRoundToNearest) {
   const auto decode = [](double v) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
   };
@@ -244,7 +242,7 @@ TEST(Roms, HoldTheRoundedTransferCurves) {
   }
 }
 
-TEST(Roms, HoldTheRoundedReciprocals) {
+TEST(Roms, ReciprocalsRoundToNearest) {
   using golden::morphological::rdiv;
   for (std::uint64_t m = 2; m <= 34; ++m) {
     EXPECT_EQ(spec::morphological::kFitInverseSlope[m],

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Third reference of learned weights: docs/reference/morphological/learned_weights.md read word by word, without the
-extension of runs (predictor = none), slow and without a thought for speed.
+"""Independent reference of learned weights, written from docs/reference/morphological/learned_weights.md only, for
+predictor = none.
 
-    weights_reference.py            the small frames of that page, and the indices of their edges
+    weights_reference.py           prints the table indices of all edges of the worked examples
     weights_reference.py WIDTH HEIGHT COLUMNS ROWS IN OUT
-                                   smooths raw R, G, B, A with reaches of so many columns and rows
-                                   and leave = masked; writes R, G, B
+                                   smooths raw R, G, B, A with bypass = masked and search ranges of COLUMNS and ROWS;
+                                   writes R, G, B
 """
 
 import pathlib
@@ -14,7 +14,7 @@ import re
 import sys
 
 SPEC = pathlib.Path(__file__).resolve().parents[4] / "spec" / "morphological"
-C_SEARCH_RANGE, R_SEARCH_RANGE = 256, 32  # of the preset
+C_SEARCH_RANGE, R_SEARCH_RANGE = 256, 32  # search ranges of preset deburr
 LONG_Z = 16
 
 
@@ -35,10 +35,10 @@ def to_code(linear):
 
 
 class Edges:
-    """Along and across planes of one axis; positions run along, lines across."""
+    """Edges of one axis as sets of (position, line), with positions along the runs."""
 
     def __init__(self, along, across):
-        self.along, self.across = along, across  # sets of (position, line)
+        self.along, self.across = along, across
 
     def code(self, position, line):
         return ((position, line - 1) in self.across) + 2 * ((position, line) in self.across)
@@ -63,11 +63,11 @@ def colour_edges(frame, threshold=13, masked=()):
                 def across(k):
                     return step(x + k * dy, y + k * dx, x + (k - 1) * dy, y + (k - 1) * dx)
 
-                def beside(px, py):
+                def parallel_steps(px, py):
                     return max(step(px, py, px - dx, py - dy), step(px, py, px + dx, py + dy))
 
                 c = across(0)
-                most = max(c, across(1), across(-1), min(beside(x, y), beside(bx, by)))
+                most = max(c, across(1), across(-1), min(parallel_steps(x, y), parallel_steps(bx, by)))
                 if c >= threshold and 2 * c > most:
                     result.add((x, y))
         return result
@@ -87,8 +87,9 @@ def away_class(n):
     return next(i for i, most in enumerate((1, 2, 3, 5, 9, 10), 1) if n <= most)
 
 
-def crossing_class(edges, line, corner, code, towards, search_range_left):
-    """Class 0..8 of the one crossing at a corner; `towards` is +1 at the start, -1 at the end."""
+def crossing_class(edges, line, corner, code, towards, remaining_range):
+    """Class 0..8 of a single crossing at a corner. `towards`: +1 at the start of the run, -1 at its end.
+    `remaining_range`: search range minus the length of the run."""
     if code not in (1, 2):
         return 0
     far = line - 1 if code == 1 else line + 1
@@ -102,15 +103,15 @@ def crossing_class(edges, line, corner, code, towards, search_range_left):
     if along(0):
         return 1
     n = 0
-    while n < min(10, search_range_left) and along(-1 - n):
+    while n < min(10, remaining_range) and along(-1 - n):
         n += 1
     return 2 + away_class(n) if n else 0
 
 
-def own_end(code, sub, side):
-    """(code, E) of an end as the pixel of that side sees it: 0 first, 1 second."""
+def own_end(code, end_class, side):
+    """(code, E) of an end, seen from the first (side 0) or second (side 1) pixel."""
     seen = (0, 1, 2, 3)[code] if side == 0 else (0, 2, 1, 3)[code]
-    return seen, (0, 2 + sub, 11 + sub, 1)[seen]
+    return seen, (0, 2 + end_class, 11 + end_class, 1)[seen]
 
 
 def indices(edges, search_range):
@@ -127,15 +128,15 @@ def indices(edges, search_range):
         left = max(0, search_range - length)
         if LONG_Z <= length <= search_range and codes in ((1, 2), (2, 1)):
             raise ValueError("a long Z keeps its line, which this reference does not have")
-        subs = (crossing_class(edges, line, start, codes[0], 1, left),
-                crossing_class(edges, line, end, codes[1], -1, left))
+        end_classes = (crossing_class(edges, line, start, codes[0], 1, left),
+                       crossing_class(edges, line, end, codes[1], -1, left))
         for x in range(start, end):
             seen = (length <= search_range or x - start < half, length <= search_range or end - 1 - x < half)
             both = []
             for side in (0, 1):
                 ends = []
                 for i, d in enumerate((x - start, end - 1 - x)):
-                    code, e = own_end(codes[i], subs[i], side) if seen[i] else (0, 0)
+                    code, e = own_end(codes[i], end_classes[i], side) if seen[i] else (0, 0)
                     ends.append((d if seen[i] else 1 << 20, -e, code))
                 (dn, en, cn), (df, ef, cf) = sorted(ends)
                 lam = length_class(length) if length <= search_range else 3
@@ -152,8 +153,8 @@ def planes(frame, masked=()):
     return Edges(top, left), Edges(swap(left), swap(top))
 
 
-def smooth(frame, masked=(), reaches=(C_SEARCH_RANGE, R_SEARCH_RANGE)):
-    """The frame as `deburr` with predictor = none gives it, R, G, B."""
+def smooth(frame, masked=(), search_ranges=(C_SEARCH_RANGE, R_SEARCH_RANGE)):
+    """R, G, B of the frame smoothed by preset deburr with predictor = none."""
     a, b, c = (table("learned_weights.h", name)
                for name in ("kWeightsOfCodes", "kWeightsOfNear", "kWeightsOfFar"))
     of_sum = table("tables.h", "kWeightOfSum")
@@ -163,7 +164,7 @@ def smooth(frame, masked=(), reaches=(C_SEARCH_RANGE, R_SEARCH_RANGE)):
         return {edge: [of_sum[min(127, max(-128, a[i] + b[j] + c[k])) + 128] for i, j, k in both]
                 for edge, both in indices(edges, search_range).items()}
 
-    h, v = weights(horizontal, reaches[0]), weights(vertical, reaches[1])
+    h, v = weights(horizontal, search_ranges[0]), weights(vertical, search_ranges[1])
     none = [0, 0]
     result = []
     for y, row in enumerate(frame):

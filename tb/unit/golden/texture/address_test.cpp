@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texel addresses: a bijection into the level's bytes for every layout, format and shape; the order
-// of tiles; what makes a descriptor valid.
+// Texel addresses: each texel has its own address within its level, for every layout, format and
+// size; the order of tiles; the checks of a descriptor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,9 @@ spec::texture::Descriptor descriptor(int width, int height, Format format, Layou
 
 using Address = std::function<std::uint32_t(const spec::texture::Descriptor&, int, int, int)>;
 
-// Texels of all levels whose address is misaligned, outside its level, or taken already.
-int faults(const Address& address, const spec::texture::Descriptor& d) {
+// Number of texels, over all levels, whose address is misaligned, outside its level, or already
+// used by another texel.
+int wrong_addresses(const Address& address, const spec::texture::Descriptor& d) {
   const std::uint32_t bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
   int count = 0;
   std::vector<bool> taken;
@@ -57,7 +58,7 @@ int faults(const Address& address, const spec::texture::Descriptor& d) {
   return count;
 }
 
-TEST(Address, IsABijectionIntoTheLevel) {
+TEST(Address, TexelsOfALevelHaveDistinctAddresses) {
   for (const Format format : kFormats) {
     for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
       for (const auto& [w, h] : {std::pair{1, 1},
@@ -77,24 +78,26 @@ TEST(Address, IsABijectionIntoTheLevel) {
                                  {200, 3},
                                  {1024, 5},
                                  {5, 1024}}) {
-        EXPECT_EQ(faults(texel_address, descriptor(w, h, format, layout)), 0)
+        EXPECT_EQ(wrong_addresses(texel_address, descriptor(w, h, format, layout)), 0)
             << w << 'x' << h << ' ' << static_cast<int>(format) << static_cast<int>(layout);
       }
     }
   }
-  EXPECT_EQ(faults(texel_address, descriptor(4096, 16, Format::kRgba8, Layout::kTiled)), 0);
-  EXPECT_EQ(faults(texel_address, descriptor(4095, 9, Format::kRgb565, Layout::kTiled)), 0);
+  EXPECT_EQ(wrong_addresses(texel_address, descriptor(4096, 16, Format::kRgba8, Layout::kTiled)),
+            0);
+  EXPECT_EQ(wrong_addresses(texel_address, descriptor(4095, 9, Format::kRgb565, Layout::kTiled)),
+            0);
 }
 
-TEST(Address, CheckFindsPlantedFaults) {
+TEST(Address, CheckFindsInjectedFaults) {
   const Address collide = [](const spec::texture::Descriptor& d, int k, int x, int y) {
     return texel_address(d, k, x, y) & ~std::uint32_t{4};
   };
-  EXPECT_GT(faults(collide, descriptor(64, 32, Format::kRgba8, Layout::kTiled)), 0);
+  EXPECT_GT(wrong_addresses(collide, descriptor(64, 32, Format::kRgba8, Layout::kTiled)), 0);
   const Address transposed = [](const spec::texture::Descriptor& d, int k, int x, int y) {
     return texel_address(d, k, y, x);
   };
-  EXPECT_GT(faults(transposed, descriptor(64, 32, Format::kRgba8, Layout::kLinear)), 0);
+  EXPECT_GT(wrong_addresses(transposed, descriptor(64, 32, Format::kRgba8, Layout::kLinear)), 0);
 }
 
 TEST(Address, LinearRowsAreRoundedTo64Bytes) {
@@ -106,7 +109,7 @@ TEST(Address, LinearRowsAreRoundedTo64Bytes) {
   EXPECT_EQ(texel_address(l8, 0, 63, 1) - l8.base[0], 127u);
 }
 
-TEST(Address, ATileIsOneBlockOf64BytesRowByRow) {
+TEST(Address, TileIs64ContiguousBytesRowByRow) {
   const auto d = descriptor(32, 32, Format::kRgba8, Layout::kTiled);
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
@@ -133,7 +136,8 @@ TEST(Address, TilesFollowTheMortonCurve) {
       EXPECT_EQ(tile(square, column, row), expected[row][column]);
     }
   }
-  // 8 x 2 tiles: one bit of each interleaves, the rest of the column stands above.
+  // 8 x 2 tiles: one bit of column and row is interleaved; the remaining bits of the column are the
+  // high bits.
   const auto wide = descriptor(32, 8, Format::kRgba8, Layout::kTiled);
   EXPECT_EQ(tile(wide, 1, 1), 3u);
   EXPECT_EQ(tile(wide, 2, 0), 4u);
@@ -141,14 +145,14 @@ TEST(Address, TilesFollowTheMortonCurve) {
   const auto tall = descriptor(8, 32, Format::kRgba8, Layout::kTiled);
   EXPECT_EQ(tile(tall, 0, 2), 4u);
   EXPECT_EQ(tile(tall, 1, 7), 15u);
-  // 5 x 3 tiles become a grid of 8 x 4.
+  // 5 x 3 tiles are padded to a grid of 8 x 4.
   const auto odd = descriptor(20, 12, Format::kRgba8, Layout::kTiled);
   EXPECT_EQ(tile(odd, 4, 0), 16u);
   EXPECT_EQ(tile(odd, 4, 2), 24u);
   EXPECT_EQ(level_bytes(odd, 0), 32u * 64u);
 }
 
-TEST(Address, OfALevelAreThoseOfItsTexelsAndNoMore) {
+TEST(Address, LevelAddressesSumToTexelAddresses) {
   for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
     const auto d = descriptor(21, 10, Format::kRgba8, layout);
     for (int k = 0; k < d.levels; ++k) {
@@ -170,7 +174,7 @@ TEST(Address, WrapsAt32Bits) {
   EXPECT_EQ(texel_address(d, 0, 16, 0), 0u);
 }
 
-TEST(Descriptor, EachFaultHasItsName) {
+TEST(Descriptor, EachInvalidFieldIsNamed) {
   const auto good = descriptor(100, 50, Format::kRgb565, Layout::kTiled);
   ASSERT_EQ(descriptor_fault(good), nullptr);
   const auto fault = [&](auto&& change) {
@@ -199,7 +203,7 @@ TEST(Descriptor, EachFaultHasItsName) {
             "unknown filter");
   EXPECT_EQ(fault([](D& d) { d.max_anisotropy_log2 = 5; }), "N_max is over 16");
   EXPECT_EQ(fault([](D& d) { d.base[6] += 32; }), "the base of a level is not a multiple of 64");
-  // Legal corners: all levels, fewer levels, a crooked base of a level that is not there.
+  // Valid: all levels, fewer levels, an unaligned base of a level that does not exist.
   EXPECT_EQ(fault([](D& d) { d.levels = 7; }), "");
   EXPECT_EQ(fault([](D& d) { d.levels = 1; }), "");
   EXPECT_EQ(fault([](D& d) { d.base[7] = 1; }), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The predicted cache, driven by tables: which lines of a sequence are fetched, for each policy.
+// CachePredictor: which lookups of a sequence hit, for each replacement policy.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -31,14 +31,15 @@ struct Step {
   const char* why;
 };
 
-void play(CachePredictor& cache, const std::vector<Step>& steps) {
+void expect_lookups(CachePredictor& cache, const std::vector<Step>& steps) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     EXPECT_EQ(cache.lookup(steps[i].line), steps[i].hit)
         << "step " << i << ", line " << steps[i].line << ": " << steps[i].why;
   }
 }
 
-// The shift register: 0xACE1 -> 0x5670 -> 0xAB38 -> 0x559C: bits by the rule of the contract.
+// The shift register that selects random victims, bit by bit from the contract's rule: 0xACE1 ->
+// 0x5670 -> 0xAB38 -> 0x559C.
 std::vector<std::uint32_t> shift_register(int steps) {
   std::vector<std::uint32_t> values;
   std::uint32_t r = 0xACE1;
@@ -50,13 +51,13 @@ std::vector<std::uint32_t> shift_register(int steps) {
   return values;
 }
 
-TEST(Cache, RandomTakesTheWaysOfTheShiftRegister) {
+TEST(Cache, RandomVictimsFollowTheShiftRegister) {
   EXPECT_EQ(shift_register(3), (std::vector<std::uint32_t>{0x5670, 0xAB38, 0x559C}));
   const auto values = shift_register(200);
   CachePredictor cache(geometry(256, 64, 4, Replacement::kRandom));  // one set of 4 ways
   std::vector<std::uint32_t> ways;
   for (std::uint32_t line = 0; line < 4; ++line) {
-    EXPECT_FALSE(cache.lookup(line));  // invalid ways first: the register does not move
+    EXPECT_FALSE(cache.lookup(line));  // invalid ways are filled first: the register does not step
     ways.push_back(line);
   }
   for (std::uint32_t i = 0; i < 200; ++i) {
@@ -64,7 +65,7 @@ TEST(Cache, RandomTakesTheWaysOfTheShiftRegister) {
     ways[values[i] % 4] = 100 + i;
     for (const std::uint32_t line : ways) ASSERT_TRUE(cache.present(line)) << i;
     if (i % 3 == 0) {
-      ASSERT_TRUE(cache.lookup(ways[i % 4]));  // hits do not move it either
+      ASSERT_TRUE(cache.lookup(ways[i % 4]));  // nor does it step on hits
     }
   }
 }
@@ -95,12 +96,12 @@ TEST(Cache, InvalidationKeepsTheRandomSequenceAndResetRestartsIt) {
   EXPECT_NE(first, second);
 }
 
-// The line that was looked up last is found without a look at its set.
-TEST(Cache, InvalidationForgetsTheLineOfTheLastLookUpToo) {
+// The predictor answers a repeated lookup of the same line without searching its set.
+TEST(Cache, InvalidationClearsTheLastLine) {
   CachePredictor cache(geometry(512, 64, 2));
-  play(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
+  expect_lookups(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
   cache.invalidate();
-  play(cache, {{5, false, "the cache is empty"}});
+  expect_lookups(cache, {{5, false, "the cache is empty"}});
 }
 
 std::vector<std::uint32_t> request(CachePredictor& cache, std::array<std::uint32_t, 4> lines) {
@@ -109,7 +110,7 @@ std::vector<std::uint32_t> request(CachePredictor& cache, std::array<std::uint32
   return fills;
 }
 
-// One of four that is another; all others are held by the random comparison of the whole unit.
+// One of the four lines differs. The random comparison in unit_test.cpp covers other combinations.
 TEST(Cache, ARequestLooksUpEachDistinctLineOnce) {
   using Lines = std::vector<std::uint32_t>;
   CachePredictor cache(geometry(512, 64, 2));
@@ -118,24 +119,25 @@ TEST(Cache, ARequestLooksUpEachDistinctLineOnce) {
   EXPECT_EQ(request(cache, {40, 40, 40, 41}), (Lines{40, 41}));
 }
 
-// Four lines of one set in two ways: the third evicts the first within the request, which the next
-// request has to fetch again.
+// Four lines of one set with two ways: the third evicts the first within the request, so the next
+// request fetches the first again.
 TEST(Cache, ARequestMayEvictItsOwnLines) {
   using Lines = std::vector<std::uint32_t>;
   CachePredictor cache(geometry(512, 64, 2));
   EXPECT_EQ(request(cache, {0, 4, 8, 12}), (Lines{0, 4, 8, 12}));
   EXPECT_EQ(request(cache, {0, 4, 8, 12}), (Lines{0, 4, 8, 12}));
   EXPECT_EQ(request(cache, {8, 12, 8, 12}), (Lines{}));
-  // The order of use inside a request decides: 12, the later hit, is the most recent.
+  // Lines are used in the order of the request: 12, which hits last, is the most recent.
   EXPECT_EQ(request(cache, {16, 16, 16, 16}), (Lines{16}));
   EXPECT_TRUE(cache.present(12));
   EXPECT_FALSE(cache.present(8));
 }
 
-TEST(Cache, DirectMappedAndFullyAssociative) {
+TEST(Cache, SupportsDirectMappedAndFullyAssociative) {
   CachePredictor direct(geometry(256, 32, 1));
   EXPECT_EQ(direct.sets(), 8u);
-  play(direct, {{0, false, ""}, {8, false, "conflict"}, {0, false, "conflict"}, {1, false, ""}});
+  expect_lookups(direct,
+                 {{0, false, ""}, {8, false, "conflict"}, {0, false, "conflict"}, {1, false, ""}});
   CachePredictor full(geometry(512, 64, 8));
   EXPECT_EQ(full.sets(), 1u);
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_FALSE(full.lookup(line * 1000));
@@ -143,8 +145,8 @@ TEST(Cache, DirectMappedAndFullyAssociative) {
   EXPECT_EQ(full.line_of(64 * 5 + 63), 5u);
 }
 
-// In the words of the hardware.
-TEST(Cache, GeometryThatCannotBeBuiltIsAConfigError) {
+// The predictor throws the same message as check_build().
+TEST(Cache, RejectsWhatCheckBuildRejects) {
   for (const spec::texture::Parameters& p :
        {geometry(1000, 64, 2), geometry(1024, 48, 2), geometry(1024, 64, 3), geometry(1024, 64, 0),
         geometry(1024, 64, 16), geometry(256, 64, 8), geometry(65536, 64, 8)}) {

@@ -17,7 +17,7 @@ namespace {
 using namespace golden::texture;
 using spec::texture::Format;
 
-// U8.4 of an n-bit channel whose high bits repeat.
+// Expands an n-bit channel to 8 bits by repeating its high bits; the result is U8.4.
 std::uint32_t widened(std::uint32_t v, int bits) {
   std::uint32_t eight = 0;
   for (int shift = 8 - bits; shift > -bits; shift -= bits) {
@@ -26,7 +26,7 @@ std::uint32_t widened(std::uint32_t v, int bits) {
   return (eight & 255) << 4;
 }
 
-TEST(Decode, EverySixteenBitTexel) {
+TEST(Decode, SixteenBitFormatsRepeatHighBits) {
   for (std::uint32_t word = 0; word < 65536; ++word) {
     ASSERT_EQ(
         decode_texel(Format::kRgb565, word),
@@ -37,7 +37,7 @@ TEST(Decode, EverySixteenBitTexel) {
   }
 }
 
-TEST(Decode, EightBitFormatsAndTheOrderOfBytes) {
+TEST(Decode, EightBitFormatsHaveRedInTheLowestByte) {
   EXPECT_EQ(decode_texel(Format::kRgba8, 0x04030201), (Texel{16, 32, 48, 64}));
   for (std::uint32_t c = 0; c < 256; ++c) {
     EXPECT_EQ(decode_texel(Format::kL8, c), (Texel{c << 4, c << 4, c << 4, 4080}));
@@ -47,7 +47,7 @@ TEST(Decode, EightBitFormatsAndTheOrderOfBytes) {
   }
 }
 
-TEST(Decode, TwoChannelFormIsTheSame) {
+TEST(Decode, TwoChannelFormMatchesOneChannelForm) {
   tb::Random random(1);
   for (int i = 0; i < 200000; ++i) {
     const std::uint32_t word = random.word();
@@ -58,7 +58,7 @@ TEST(Decode, TwoChannelFormIsTheSame) {
   }
 }
 
-TEST(Filter, LerpsAreTheRoundedRealOnes) {
+TEST(Filter, LerpsMatchRoundedRealArithmetic) {
   tb::Random random(2);
   for (int i = 0; i < 300000; ++i) {
     const std::uint32_t a = random.below(4081), b = random.below(4081), f = random.below(256);
@@ -70,14 +70,14 @@ TEST(Filter, LerpsAreTheRoundedRealOnes) {
   EXPECT_EQ(level_lerp(std::uint32_t{12345}, std::uint32_t{99999}, 0), 12345u);
 }
 
-TEST(Filter, ResultRoundsTheTieUpwards) {
+TEST(Filter, ResultRoundsTiesUpwards) {
   EXPECT_EQ(round_result(((7u << 12) + 2048) * 256 - 1), 7);
   EXPECT_EQ(round_result(((7u << 12) + 2048) * 256), 8);
   EXPECT_EQ(round_result((255u << 12) * 256), 255);
 }
 
-// An unfiltered sRGB texel leaves with the code it came with; as 8 bits of linear light 73 codes
-// are lost.
+// An unfiltered sRGB texel keeps its code. As 8 bits of linear light, 73 of the 256 codes would be
+// lost.
 TEST(Filter, EncodedOutputKeepsEveryCode) {
   std::set<int> linear, encoded;
   for (std::uint32_t c = 0; c < 256; ++c) {
@@ -116,8 +116,8 @@ TEST(Filter, EncodedLevelSumsLose24Bits) {
   EXPECT_NE(spec::texture::kLinearToSrgb[4], spec::texture::kLinearToSrgb[5]);
 }
 
-// Two channels in one word never disturb each other, extreme values included.
-TEST(Filter, TwoChannelFormIsTheSame) {
+// Two channels in one word do not affect each other, even at extreme values.
+TEST(Filter, TwoChannelFormMatchesOneChannelForm) {
   tb::Random random(3);
   const auto value = [&](std::uint32_t top) -> std::uint32_t {
     switch (random.below(4)) {
@@ -145,7 +145,7 @@ TEST(Filter, TwoChannelFormIsTheSame) {
 }
 
 TEST(Filter, TwoChannelCheckFindsALostCarry) {
-  // Without the mask the upper half's dropped bits would fall into the lower half.
+  // Without the mask, bits that leave the upper half would enter the lower half.
   const Lanes a = 255 | Lanes{255} << 32;
   const Lanes unmasked = (a * 1 + 128 * kOneInBothLanes) >> 8;
   EXPECT_NE(unmasked, vertical_lerp(a, Lanes{0}, 255));

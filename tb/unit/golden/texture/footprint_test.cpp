@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives and footprint sides: each rule against its real formula, exhaustively on a grid of
-// small sides, and at the ends of the range.
+// Derivatives and footprint sides: each rule against its formula in real arithmetic, exhaustively
+// on a grid of small sides, and at the ends of the range.
 #include "golden/ideal/footprint.h"
 
 #include <gtest/gtest.h>
@@ -44,8 +44,9 @@ double real_rule(FootprintRule rule, double a, double b) {
 
 using Side = std::function<std::uint32_t(FootprintRule, std::uint32_t, std::uint32_t)>;
 
-// Number of (s, t) in 0..bound - 1 and around the largest where `side` is not the real rule within
-// its truncations: each shift may lose almost 1, and a term that is subtracted may add it.
+// Counts the (s, t), in 0..bound - 1 and near the largest value, for which `side` differs from the
+// real rule by more than its truncations. Truncation may lose almost 1; with two_segment it may
+// also add almost 1, since the subtracted term is truncated.
 int violations(const Side& side, FootprintRule rule, std::uint32_t bound) {
   int count = 0;
   const auto check = [&](std::uint32_t s, std::uint32_t t) {
@@ -69,7 +70,7 @@ int violations(const Side& side, FootprintRule rule, std::uint32_t bound) {
   return count;
 }
 
-TEST(Footprint, SidesFollowTheirRealRuleExhaustively) {
+TEST(Footprint, SidesMatchTheRealRule) {
   for (const auto rule : {FootprintRule::kHalf, FootprintRule::kQuarter, FootprintRule::kTwoSegment,
                           FootprintRule::kExact, FootprintRule::kMax}) {
     EXPECT_EQ(violations(footprint_side, rule, 512), 0) << static_cast<int>(rule);
@@ -105,7 +106,7 @@ TEST(Footprint, SquareRootIsExact) {
   EXPECT_EQ(integer_square_root(~std::uint64_t{0}), 0xFFFFFFFFu);
 }
 
-TEST(Footprint, DerivativeIsRoundedToSixteenBits) {
+TEST(Footprint, DerivativeIsRoundedTo16FractionBits) {
   for (const std::uint32_t size : {1u, 2u, 3u, 7u, 100u, 255u, 1023u, 1024u, 4095u, 4096u}) {
     for (std::int64_t difference = -4000; difference <= 4000; ++difference) {
       const double magnitude = std::abs(static_cast<double>(difference)) * size / 256;
@@ -118,17 +119,17 @@ TEST(Footprint, DerivativeIsRoundedToSixteenBits) {
 
 TEST(Footprint, DerivativeSaturatesAtTheEndOfS15_16) {
   constexpr std::int32_t kMost = kLargest;
-  constexpr std::int64_t kTexel = 1 << 24;  // of a texture one texel wide
+  constexpr std::int64_t kTexel = 1 << 24;  // one texel, if the texture is one texel wide
   EXPECT_EQ(derivative_in_texels(8 * kTexel, 4096), (Derivative{kMost, true}));
   EXPECT_EQ(derivative_in_texels(8 * kTexel - 1, 4096), (Derivative{kMost - 15, false}));
   EXPECT_EQ(derivative_in_texels(-8 * kTexel, 4096), (Derivative{-kMost, true}));
   EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 4096), (Derivative{kMost, true}));
   EXPECT_EQ(derivative_in_texels(-std::int64_t{0xFFFFFFFF}, 4096), (Derivative{-kMost, true}));
-  // The largest itself is not saturated.
+  // The largest value does not count as saturated.
   constexpr std::int64_t kLast = ((std::int64_t{1} << 39) - 129) / 200;
   EXPECT_EQ(derivative_in_texels(kLast, 200), (Derivative{kMost, false}));
   EXPECT_EQ(derivative_in_texels(kLast + 1, 200), (Derivative{kMost, true}));
-  // Size 1: the widest difference is 256 texels, far from the end.
+  // Size 1: the largest difference is 256 texels, far from saturation.
   EXPECT_EQ(derivative_in_texels(0xFFFFFFFF, 1), (Derivative{1 << 24, false}));
 }
 
@@ -136,8 +137,8 @@ Step step(double s, double t) {
   return {std::llround(s * 65536), std::llround(t * 65536)};  // texels
 }
 
-// The paper's rule to the letter: the longer side is the major axis, of equal ones the row.
-TEST(Footprint, OfTwoAxesSortsSidesAndPrefersXOnATie) {
+// The paper's rule: the longer side is the major axis; on a tie, the side along the row.
+TEST(Footprint, TwoAxesSortSidesAndPreferXOnATie) {
   const auto two = [](const Step& p_x, const Step& p_y) {
     return footprint(Axes::kTwo, FootprintRule::kHalf, p_x, p_y);
   };
@@ -149,7 +150,8 @@ TEST(Footprint, OfTwoAxesSortsSidesAndPrefersXOnATie) {
   EXPECT_EQ(two({0, 0}, {0, 0}).major, 0);
 }
 
-// What a table of directions gives at candidate k, against cosine and sine in real arithmetic.
+// Returns the largest error of a candidate direction, relative to the length of a step, against
+// cosine and sine in real arithmetic.
 using Direction = std::function<Magnitudes(Axes, int, const Step&, const Step&)>;
 
 double largest_direction_error(const Direction& candidate) {
@@ -175,8 +177,8 @@ double largest_direction_error(const Direction& candidate) {
   return largest;
 }
 
-// Rotated by (118, 49) / 128 a step is 0.0024 too short across, by (90, 90) / 128 0.0057.
-TEST(Axes, CandidatesAreTheStepsTurnedWithinTheErrorOfTheConstants) {
+// (90, 90) / 128 has the largest error: it shortens a step by 0.0056.
+TEST(Axes, CandidatesMatchRealRotationsWithinConstantError) {
   const double error = largest_direction_error(candidate_in_texels);
   EXPECT_LE(error, 0.0058);
   EXPECT_GE(error, 0.0040);
@@ -194,7 +196,7 @@ TEST(Axes, CheckFindsASwappedSineAndALostSign) {
   EXPECT_GT(largest_direction_error(unsigned_cosine), 0.3);
 }
 
-TEST(Axes, TwoOfEveryChoiceAreTheStepsThemselves) {
+TEST(Axes, FirstAndMiddleCandidatesAreTheStepsThemselves) {
   tb::Random random(8);
   const auto any = [&] { return static_cast<std::int64_t>(random.next() >> 33) - (1 << 30); };
   for (int trial = 0; trial < 10000; ++trial) {
@@ -209,7 +211,7 @@ TEST(Axes, TwoOfEveryChoiceAreTheStepsThemselves) {
       ASSERT_EQ(candidate_in_texels(axes, half, x, y), sizes(y));
       ASSERT_EQ(candidate_in_coordinates(axes, 0, x, y), x);
       ASSERT_EQ(candidate_in_coordinates(axes, half, x, y), y);
-      // Mirrored coordinates give mirrored steps.
+      // Negated steps give negated candidates.
       for (int k = 0; k < candidates(axes); ++k) {
         const Step there = candidate_in_coordinates(axes, k, x, y);
         const Step back = candidate_in_coordinates(axes, k, {-x.s, -x.t}, {-y.s, -y.t});
@@ -217,12 +219,13 @@ TEST(Axes, TwoOfEveryChoiceAreTheStepsThemselves) {
       }
     }
   }
-  // Beyond S15.16 a turned step saturates like a derivative.
+  // Beyond S15.16 a rotated step saturates, as a derivative does.
   const Step far{kLargest, kLargest};
   EXPECT_EQ(candidate_in_texels(Axes::kFour, 1, far, far), (Magnitudes{kLargest, kLargest}));
 }
 
-// How far K axes with the area are from the true ellipse, in levels, over every direction.
+// Largest error of the axis lengths against the exact ellipse, in levels of detail, over all
+// directions.
 struct EllipseError {
   double d_max = 0, d_min = 0;
 };
@@ -249,8 +252,9 @@ AxisLogarithms exact_lengths(Axes axes, const Step& p_x, const Step& p_y) {
   return axis_logarithms(axes, Log2Rule::kExact, footprint(axes, FootprintRule::kExact, p_x, p_y));
 }
 
-// -lb cos of half the angle between candidates: 45, 22.5 and 11.25 degrees.
-TEST(Axes, LengthsAreThoseOfTheEllipseWithinHalfTheAngleBetweenCandidates) {
+// Up to rounding, the error is at most -lb cos(a), where a is half the angle between candidates:
+// 45, 22.5 and 11.25 degrees.
+TEST(Axes, LengthsMatchEllipseWithinCandidateSpacing) {
   const auto error = [](Axes axes) {
     return ellipse_error(
         [axes](const Step& p_x, const Step& p_y) { return exact_lengths(axes, p_x, p_y); });
@@ -264,14 +268,14 @@ TEST(Axes, LengthsAreThoseOfTheEllipseWithinHalfTheAngleBetweenCandidates) {
   EXPECT_LE(four.d_max, 0.125);
   EXPECT_LE(four.d_min, 0.127);
   EXPECT_NEAR(two.d_max, 0.5, 0.002);
-  EXPECT_GT(two.d_min, 4.5);  // 45 degrees beside the axes 40 : 1 looks like 1 : 1
+  EXPECT_GT(two.d_min, 4.5);  // at 45 degrees to both axes 40 : 1 looks like 1 : 1
 }
 
-TEST(Axes, CheckFindsAWrongPartnerAndALostProduct) {
+TEST(Axes, CheckFindsWrongMinorAxisAndWrongArea) {
   const auto partner = ellipse_error([](const Step& p_x, const Step& p_y) {
     const Footprint f = footprint(Axes::kEight, FootprintRule::kExact, p_x, p_y);
     const Magnitudes u =
-        candidate_in_texels(Axes::kEight, (f.major + 4) % 8, p_x, p_y);  // at right angles
+        candidate_in_texels(Axes::kEight, (f.major + 4) % 8, p_x, p_y);  // perpendicular
     return AxisLogarithms{
         log2_fixed(Log2Rule::kExact, f.d_max),
         log2_fixed(Log2Rule::kExact, footprint_side(FootprintRule::kExact, u.s, u.t))};
@@ -285,20 +289,20 @@ TEST(Axes, CheckFindsAWrongPartnerAndALostProduct) {
   EXPECT_GT(lost.d_min, 1);
 }
 
-TEST(Axes, AreaIsTheExactProductOfTheCutComponents) {
+TEST(Axes, AreaIsTheExactProductOfTruncatedComponents) {
   const auto area = [](const Step& p_x, const Step& p_y) {
     return footprint(Axes::kEight, FootprintRule::kHalf, p_x, p_y).area;
   };
   EXPECT_EQ(area(step(6, 0), step(0, 1)), 6u << 16);
   EXPECT_EQ(area(step(0, -1), step(6, 0)), 6u << 16);
   EXPECT_EQ(area(step(2, 3), step(-4, -6)), 0u);
-  EXPECT_EQ(area({511, 0}, {0, -256}), 1u);  // 511 / 65536 is cut to 1 / 256
+  EXPECT_EQ(area({511, 0}, {0, -256}), 1u);  // 511 / 65536 is truncated to 1 / 256
   const std::int64_t far = kLargest;
   EXPECT_EQ(area({far, far}, {-far, far}), std::uint64_t{2} * 0x7FFFFF * 0x7FFFFF);
 }
 
 // Paper 004, Tables 1 and 2: the printed percentages are mean squares times 100.
-TEST(Footprint, RealErrorsAreThoseOfThePapersTables) {
+TEST(Footprint, RealErrorsMatchThePaperTables) {
   namespace ideal = golden::ideal;
   EXPECT_NEAR(100 * ideal::mean_square_side_error(0.5), 1.1604, 5e-5);
   EXPECT_NEAR(100 * ideal::mean_square_side_error(0.25), 0.3842, 5e-5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The real-arithmetic references themselves: EWA against a brute-force sum, the box against areas
-// known in closed form, and the drivers over quads.
+// The references in real arithmetic: EWA against a brute-force sum, the box filter against areas
+// known in closed form, footprints of quads, and texture images.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,8 +39,8 @@ tb::texture::Pyramid ramp(int size) {
 
 // ---- footprints ---------------------------------------------------------------------------------
 
-// Of coordinates that all differ: along the row of the lane, and along its column.
-TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
+// All coordinates differ, so each difference identifies the lanes that it was taken from.
+TEST(IdealFootprint, DifferencesAreAlongTheLanesRowAndColumn) {
   spec::texture::Quad quad;
   constexpr std::int32_t kUnit = spec::texture::kCoordinateOne / 256;
   quad.s = {1 * kUnit, 3 * kUnit, 8 * kUnit, 21 * kUnit};
@@ -59,8 +59,8 @@ TEST(IdealFootprint, DifferencesAreThoseOfTheLanesNeighbours) {
   }
 }
 
-// By the rule of section 1.3 of paper 004: its figure 1, and sides that lie upon each other.
-TEST(IdealFootprint, OfThePaperHasTheLengthsOfItsSides) {
+// The rule of paper 004, section 1.3, for its figure 1 and for parallel sides.
+TEST(IdealFootprint, PaperRuleUsesTheLengthsOfTheSides) {
   spec::texture::Descriptor descriptor;
   descriptor.max_anisotropy_log2 = 4;
   spec::texture::Parameters paper;
@@ -74,7 +74,7 @@ TEST(IdealFootprint, OfThePaperHasTheLengthsOfItsSides) {
     EXPECT_EQ(level_of_detail(paper, descriptor, f).samples, 2);
 }
 
-TEST(IdealLevel, TheBiasIsAddedIn256ths) {
+TEST(IdealLevel, BiasIsAddedIn256ths) {
   spec::texture::Descriptor descriptor;
   descriptor.levels = 9;
   const spec::texture::Parameters parameters;
@@ -89,8 +89,8 @@ TEST(IdealLevel, TheBiasIsAddedIn256ths) {
 
 // ---- ellipse ------------------------------------------------------------------------------------
 
-// The farthest and the nearest point of the circle's picture, by walking around it.
-TEST(Ellipse, AxesAreTheExtremesOfTheTurnedStep) {
+// Walks around the image of the unit circle to find its farthest and its nearest point.
+TEST(Ellipse, AxesAreTheExtremesOfTheRotatedStep) {
   tb::Random random(4);
   const auto any = [&] { return random.uniform(-20, 20); };
   for (int trial = 0; trial < 500; ++trial) {
@@ -113,13 +113,13 @@ TEST(Ellipse, AxesAreTheExtremesOfTheTurnedStep) {
     ASSERT_NEAR(e.d_max, longest, 1e-5 * longest);
     ASSERT_NEAR(e.d_min, shortest, 2e-3 * longest);
     ASSERT_NEAR(std::hypot(e.major_s, e.major_t), e.d_max, 1e-9 * longest);
-    // Parallel, either way.
+    // Parallel, in either direction.
     ASSERT_NEAR(e.major_s * along_t - e.major_t * along_s, 0, 4e-3 * longest * longest);
   }
 }
 
-// As many as the footprint wants, up to 16.
-int samples_of_any_count(const PixelFootprint& f) {
+// Number of samples for count = any, up to 16, without a texel cap.
+int samples_without_cap(const PixelFootprint& f) {
   spec::texture::Parameters parameters;
   parameters.count = spec::texture::CountRule::kAny;
   parameters.count_cap = spec::texture::CountCap::kNone;
@@ -128,25 +128,25 @@ int samples_of_any_count(const PixelFootprint& f) {
   return level_of_detail(parameters, descriptor, f).samples;
 }
 
-// exp2 of the difference of two logarithms may lie above the ratio by a rounding.
-TEST(Level, AWholeRatioIsTheNumberOfSamples) {
+// exp2 of the difference of two logarithms may exceed the ratio by a rounding error.
+TEST(Level, WholeRatioIsTheSampleCount) {
   for (int n = 1; n <= 16; ++n)
     for (const double side : {0.3, 1.0, 1.5, 3.0, 5.0, 7.0}) {
       if (n * side <= 1) continue;  // within a texel
       const PixelFootprint f{0, 0, n * side, 0, 0, side};
-      EXPECT_EQ(samples_of_any_count(f), n) << side;
+      EXPECT_EQ(samples_without_cap(f), n) << side;
     }
 }
 
-TEST(Level, ABrokenRatioTakesTheNextWholeNumber) {
+TEST(Level, FractionalRatioRoundsUp) {
   for (int n = 2; n <= 16; ++n) {
     const PixelFootprint f{0, 0, n - 0.75, 0, 0, 1};
-    EXPECT_EQ(samples_of_any_count(f), n);
+    EXPECT_EQ(samples_without_cap(f), n);
   }
 }
 
-// A cap of texels is that of the count: with any count the length itself, else whole levels of it.
-TEST(Level, TheCapOfTexelsIsOfTheCount) {
+// The texel cap is lb of the longer axis: exact with count = any, rounded up with the other rules.
+TEST(Level, TexelCapFollowsTheCountRule) {
   spec::texture::Parameters parameters;
   parameters.count_cap = spec::texture::CountCap::kTexel;
   spec::texture::Descriptor descriptor;
@@ -163,17 +163,18 @@ TEST(Level, TheCapOfTexelsIsOfTheCount) {
 
 // ---- box ----------------------------------------------------------------------------------------
 
-TEST(Box, OfACheckerboardIsTheWhiteArea) {
+TEST(Box, CheckerboardMeanIsTheWhiteArea) {
   const TextureImage texture = image(tb::texture::checkerboard(64, 8));
-  // 8 x 8 texels shifted by (3, 2) over one corner of four cells: white (5 x 6 + 3 x 2) / 64.
+  // 8 x 8 texels around a common corner of four cells, offset by (3, 2): the white part is (5 x 6 +
+  // 3 x 2) / 64.
   const PixelFootprint f{7, 6, 8, 0, 0, 8};
   EXPECT_NEAR(box(texture, f, 32, Tap::kPoint)[0], 255 * 36.0 / 64, 1e-3);
   EXPECT_NEAR(box(texture, f, 64, Tap::kPoint)[0], 255 * 36.0 / 64, 1e-3);
-  // Far away: half of everything.
+  // A large footprint: half of it is white.
   EXPECT_NEAR(box(texture, {7, 6, 160, 3, -5, 160}, 64, Tap::kPoint)[0], 127.5, 3);
 }
 
-// Every texel and every channel of its own value, and positions on both sides of the origin.
+// A picture whose texels and channels all have different values.
 tb::texture::Pyramid all_different(int size) {
   return tb::texture::Pyramid(size, size, [](int x, int y) {
     const auto value = [&](int by) { return static_cast<std::uint8_t>((x * 37 + y * 101) * by); };
@@ -181,7 +182,7 @@ tb::texture::Pyramid all_different(int size) {
   });
 }
 
-// A texel of a level where the texture repeats, by its definition.
+// A texel of a level, with repeat wrapping by its definition.
 std::array<double, 4> texel_of(const TextureImage& texture, int k, int x, int y) {
   const TextureImage::Level& level = texture.level(k);
   const auto within = [](int i, int size) { return ((i % size) + size) % size; };
@@ -208,9 +209,9 @@ void expect_near(const Colour& a, const Colour& b, double error) {
   for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[c], b[c], error) << "channel " << c;
 }
 
-TEST(Box, IsTheMeanOfItsPointsInEveryChannel) {
+TEST(Box, ResultIsTheMeanOfItsPoints) {
   const TextureImage texture = image(all_different(8));
-  // No point falls on the border of a texel, where rounding would choose.
+  // No point is on the border of a texel, where rounding would decide.
   const PixelFootprint f{-1.2171, 0.3317, 2.5, 1.25, -0.75, 3.5};
   constexpr int kSide = 5;
   Colour bilinear{}, point{};
@@ -231,8 +232,9 @@ TEST(Box, IsTheMeanOfItsPointsInEveryChannel) {
   expect_near(box(texture, f, kSide, Tap::kPoint), point, 1e-3);
 }
 
-// A whole position is in the texel that begins there, on both sides of the origin.
-TEST(Box, APointOnABorderBelongsToTheTexelThatBegins) {
+// A point at an integer position belongs to the texel that starts there, on both sides of the
+// origin.
+TEST(Box, BorderPointBelongsToTheTexelStartingThere) {
   const TextureImage texture = image(all_different(8));
   for (const int at : {-9, -8, -1, 0, 1, 7, 8}) {
     const double place = at;
@@ -258,8 +260,8 @@ TEST(Ellipse, TrilinearMixesTwoLevelsInEveryChannel) {
   }
 }
 
-// N samples in the middles of N parts of the major axis.
-TEST(Ellipse, FilteringIsTheMeanOfItsSamplesInEveryChannel) {
+// The N samples are in the middle of N equal parts of the major axis.
+TEST(Ellipse, FilteringIsTheMeanOfItsSamples) {
   const TextureImage texture = image(all_different(32));
   spec::texture::Descriptor descriptor;
   descriptor.max_anisotropy_log2 = 4;
@@ -281,8 +283,7 @@ TEST(Ellipse, FilteringIsTheMeanOfItsSamplesInEveryChannel) {
 
 // ---- EWA ----------------------------------------------------------------------------------------
 
-// The definition without any trick: every texel of a large window, the conic from the inverse of
-// J J^T + V.
+// EWA by its definition: sums every texel of a large area; the conic is the inverse of J J^T + V.
 Colour brute_force_ewa(const tb::texture::Pyramid& picture, const PixelFootprint& f,
                        const EwaOptions& options) {
   const auto& base = picture.levels.front();
@@ -315,7 +316,7 @@ double largest_difference(const Colour& a, const Colour& b) {
   return largest;
 }
 
-TEST(Ewa, IsTheSumOfItsDefinition) {
+TEST(Ewa, MatchesBruteForceSum) {
   const tb::texture::Pyramid picture = tb::texture::noise(48, 40, 9);
   const TextureImage texture = image(picture);
   for (const EwaOptions& options :
@@ -333,26 +334,26 @@ TEST(Ewa, IsTheSumOfItsDefinition) {
   }
 }
 
-TEST(Ewa, ComparisonFindsAnotherShape) {
+TEST(Ewa, ComparisonFindsTransposedFootprint) {
   const tb::texture::Pyramid picture = tb::texture::noise(48, 40, 9);
   const PixelFootprint f{20.2, 17.9, 9, 4, -2, 3}, transposed{20.2, 17.9, 4, 9, 3, -2};
   EXPECT_GT(largest_difference(ewa(image(picture), f), brute_force_ewa(picture, transposed, {})),
             1);
 }
 
-TEST(Ewa, HugeEllipsesReadASmallerLevelWithAboutTheSameResult) {
+TEST(Ewa, HugeEllipsesReadASmallerLevel) {
   const TextureImage texture = image(ramp(64));
   const PixelFootprint f{32, 32, 14, 3, -4, 11};
   const Colour all = ewa(texture, f), fewer = ewa(texture, f, {.most_texels = 60});
   EXPECT_LT(largest_difference(all, fewer), 0.5);
-  // A pixel at the horizon: thousands of texels long, answered at once.
+  // A pixel at the horizon is thousands of texels long; the limit keeps this fast.
   EXPECT_NEAR(ewa(image(tb::texture::checkerboard(64, 8)), {0, 0, 9000, 20, 5, 16000})[0], 127.5,
               1);
 }
 
-// An ellipse of pi texels on every level has too many for a limit of one, so that the last level is
-// read, of one texel.
-TEST(Ewa, ALimitThatNothingMeetsReadsTheLastLevel) {
+// On every level the ellipse covers pi texels, more than the limit, so the last level is read. It
+// has one texel.
+TEST(Ewa, LimitBelowEveryLevelReadsTheLastLevel) {
   const TextureImage texture = image(all_different(8));
   ASSERT_EQ(texture.levels(), 4);
   const PixelFootprint point{2.1, 1.7, 0, 0, 0, 0};
@@ -365,9 +366,9 @@ TEST(Ewa, ALimitThatNothingMeetsReadsTheLastLevel) {
             1e-12);
 }
 
-// Without reconstruction the ellipse of a slanted footprint has pi times its area of 23 texels: a
-// limit just above that changes nothing, one just below it reads the next level.
-TEST(Ewa, TheLimitIsOfTheEllipsesArea) {
+// Without reconstruction the ellipse covers pi times the footprint's area of 23 texels. A limit
+// just above that changes nothing; a limit just below it reads the next level.
+TEST(Ewa, LimitAppliesToTheEllipseArea) {
   const TextureImage texture = image(all_different(32));
   const PixelFootprint f{12.3, 10.1, 4, 3, -1, 5};
   const double area = 3.14159265 * 23;
@@ -379,21 +380,22 @@ TEST(Ewa, TheLimitIsOfTheEllipsesArea) {
   EXPECT_GT(limited(area - 0.1), 0.1);
 }
 
-TEST(Ewa, AnEllipseWithoutTexelsReadsThePoint) {
+TEST(Ewa, EllipseWithoutTexelsReadsItsCentre) {
   const Colour c = ewa(image(ramp(64)), {20, 20, 0.01, 0, 0, 0.01}, {.reconstruction = 0});
   EXPECT_NEAR(c[0], 2 * 19.5, 1e-3);
 }
 
-// However long it is: between two rows of texels it is the mean of the four at its middle.
-TEST(Ewa, ALongEllipseWithoutTexelsReadsThePointToo) {
+// A long, thin ellipse between two rows of texels gives the mean of the four texels around its
+// centre.
+TEST(Ewa, LongEllipseWithoutTexelsReadsItsCentre) {
   const TextureImage texture = image(all_different(32));
   const PixelFootprint between{20, 20, 12, 0, 0, 0.1};
   expect_near(ewa(texture, between, {.reconstruction = 0.01}), bilinear_of(texture, 0, 20, 20),
               1e-3);
 }
 
-// On every level, of a texture whose levels shrink by another factor along each axis, with a wrap
-// mode per axis.
+// Covers every level of a texture whose levels shrink by different factors along the two axes, with
+// a different wrap mode per axis.
 TEST(Ewa, TransposedPictureAndFootprintGiveTheSameColour) {
   using spec::texture::Wrap;
   const tb::texture::Pyramid wide = tb::texture::noise(50, 23, 5);
@@ -420,8 +422,9 @@ TEST(Ewa, TransposedPictureAndFootprintGiveTheSameColour) {
 
 // ---- texture image ------------------------------------------------------------------------------
 
-// Every wrap by walking: repeat starts again, mirrored repeat turns round, a clamp stays.
-TEST(IdealTexture, WrapModesAreWhatAWalkFinds) {
+// Expected texels by stepping along an axis: repeat starts again, mirrored repeat reverses, clamp
+// stays at the edge.
+TEST(IdealTexture, WrapModesMatchAStepByStepWalk) {
   using spec::texture::Wrap;
   for (const int size : {1, 3, 5, 7, 8}) {
     for (int i = -3 * size; i < 3 * size; ++i) {
@@ -466,7 +469,7 @@ TEST(IdealTexture, SrgbIsDecodedToLinearLight) {
   EXPECT_NEAR(texture.level(0).texels[0].a, 77, 1e-6);
 }
 
-TEST(IdealTexture, WrongSizesAreConfigErrors) {
+TEST(IdealTexture, RejectsWrongSizes) {
   const std::uint8_t bytes[16] = {};
   EXPECT_THROW(TextureImage(2, 3, bytes), spec::ConfigError);
   EXPECT_THROW(TextureImage(0, 0, {}), spec::ConfigError);
@@ -478,11 +481,11 @@ TEST(IdealTexture, WrongSizesAreConfigErrors) {
       ::testing::ThrowsMessage<spec::ConfigError>("pictures of 3 and 4 pixels cannot be compared"));
 }
 
-TEST(Psnr, OfOneLevelOffEverywhere) {
+TEST(Psnr, ErrorOfOneCodeIs48Decibels) {
   const std::vector<Colour> reference(2, Colour{10, 20, 30, 40});
   const std::uint8_t equal[] = {10, 20, 30, 0, 10, 20, 30, 9},
                      off[] = {11, 19, 31, 0, 9, 21, 29, 0};
-  EXPECT_EQ(psnr(reference, equal), std::numeric_limits<double>::infinity());  // alpha is left out
+  EXPECT_EQ(psnr(reference, equal), std::numeric_limits<double>::infinity());  // alpha is ignored
   EXPECT_NEAR(psnr(reference, off), 48.13, 0.01);
 }
 

@@ -37,7 +37,7 @@ spec::texture::Descriptor descriptor(MinFilter filter, int levels = 11) {
   return d;
 }
 
-// The contract in the words of GL, in real numbers (all of which are exact here).
+// The contract as GL's formulas in real arithmetic; all values are exact here.
 LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture::Descriptor& d,
                          std::int32_t lb_max, std::int32_t lb_min) {
   LevelOfDetail r;
@@ -55,8 +55,8 @@ LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture
   }
   if (lb_d_max <= 0) e = 0;
   r.sampled = static_cast<std::int32_t>(4096 * e);
-  // The ratio that samples stand for, rounded up; its logarithm is known to half of its last place,
-  // and 72 places too many count for nothing.
+  // The ratio, rounded up to whole samples. Its logarithm is accurate to half a unit in the last
+  // place, and an excess of up to 72 units is ignored.
   r.samples = 1;
   while (4096 * std::log2(r.samples) + 72.5 < r.sampled) ++r.samples;
   const double l =
@@ -93,13 +93,14 @@ using Select =
     std::function<LevelOfDetail(const spec::texture::Parameters&, const spec::texture::Descriptor&,
                                 std::int32_t, std::int32_t)>;
 
-// Within two places of the logarithm of a whole number.
+// Whether the anisotropy is less than 2/4096 from a threshold of the sample count.
 bool near_a_count(std::int32_t anisotropy) {
   const double ratio = std::exp2((anisotropy - 72) / 4096.0);
   return std::abs(anisotropy - 72 - 4096 * std::log2(std::round(ratio))) < 2;
 }
 
-// Number of differences to the formula over every l from -3 to 14 and a fan of parameters.
+// Number of differences from the formula, over every l from -3 to 14 and many combinations of
+// parameters.
 int differences(const Select& select) {
   int count = 0;
   spec::texture::Parameters p;
@@ -134,10 +135,10 @@ int differences(const Select& select) {
   return count;
 }
 
-TEST(Level, IsGlsFormulaForEveryLevelModeAndCount) { EXPECT_EQ(differences(select_level), 0); }
+TEST(Level, MatchesGlFormulasForEveryModeAndCount) { EXPECT_EQ(differences(select_level), 0); }
 
-TEST(Level, CheckFindsPlantedFaults) {
-  // Rounding of l at 8 bits truncated, GL's rounding to the nearest level off by one step, N_max
+TEST(Level, CheckFindsInjectedFaults) {
+  // Faults: l truncated to 8 bits instead of rounded, the nearest level off by one at a tie, N_max
   // ignored.
   EXPECT_GT(differences([](const auto& p, const auto& d, std::int32_t a, std::int32_t b) {
               return select_level(p, d, a - 8, b - 8);
@@ -154,7 +155,7 @@ TEST(Level, CheckFindsPlantedFaults) {
               return select_level(p, d, a, b);
             }),
             0);
-  // A threshold of the count that is one place too high.
+  // A threshold of the sample count that is one unit too high.
   EXPECT_GT(differences([](const auto& p, const auto& d, std::int32_t a, std::int32_t b) {
               LevelOfDetail r = select_level(p, d, a, b);
               if (r.sampled == spec::texture::kLog2Count[11] + 1) r.samples = 11;
@@ -163,7 +164,7 @@ TEST(Level, CheckFindsPlantedFaults) {
             0);
 }
 
-TEST(Level, BiasAndClampsAsInTheContract) {
+TEST(Level, BiasAndClampsMatchTheFormulas) {
   tb::Random random(3);
   const auto pick = [&](int low, int high) { return random.between(low, high); };
   spec::texture::Parameters p;
@@ -173,7 +174,7 @@ TEST(Level, BiasAndClampsAsInTheContract) {
     d.max_anisotropy_log2 = static_cast<std::uint8_t>(pick(0, 4));
     d.mag_filter =
         pick(0, 1) == 0 ? spec::texture::MagFilter::kNearest : spec::texture::MagFilter::kLinear;
-    // All of S7.8 and U8.8, and often limits that bite.
+    // The full range of S7.8 and U8.8, and often limits that take effect.
     d.lod_bias = static_cast<std::int16_t>(pick(0, 1) == 0 ? pick(-32768, 32767) : pick(-900, 900));
     d.min_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 0);
     d.max_lod = static_cast<std::uint16_t>(pick(0, 2) == 0 ? pick(0, 65535) : 12 << 8);
@@ -184,7 +185,7 @@ TEST(Level, BiasAndClampsAsInTheContract) {
 }
 
 // Paper 004, Fig. 1: s_x = 6, t_x = 3, sides 3 sqrt 5 and sqrt 5.
-TEST(Level, FigureOneOfThePaperTakesTwoSamples) {
+TEST(Level, PaperFigureOneTakesTwoSamples) {
   const auto paper = spec::texture::preset_parameters(spec::texture::Preset::kPaper);
   const auto f = golden::texture::footprint(paper.axes, paper.footprint, {6 << 16, 3 << 16},
                                             {1 << 16, 2 << 16});

@@ -14,10 +14,11 @@ namespace {
 using golden::texture::log2_fixed;
 using spec::texture::Log2Rule;
 
-constexpr Log2Rule kConfiguration[] = {Log2Rule::kMitchell, Log2Rule::kCorrected,
-                                       Log2Rule::kSegments, Log2Rule::kExact};
+constexpr Log2Rule kLog2Rules[] = {Log2Rule::kMitchell, Log2Rule::kCorrected, Log2Rule::kSegments,
+                                   Log2Rule::kExact};
 
-// Every d whose bits below the 16 after the leading one are all 0 or all 1.
+// Visits every d with leading bit p whose bits below the 16 after the leading one are all 0 or all
+// 1.
 void for_each_d(int p, const std::function<void(std::uint32_t)>& visit) {
   const std::uint64_t one = std::uint64_t{1} << p;
   if (p <= 16) {
@@ -42,12 +43,12 @@ double largest_residual(const std::function<std::int32_t(std::uint32_t)>& log2) 
   return largest;
 }
 
-TEST(Log2, ResidualsAreThoseOfTheContract) {
+TEST(Log2, ResidualsMatchTheContract) {
   const double documented[] = {0.0864, 0.0228, 0.0057, 0.0006};
-  for (const Log2Rule rule : kConfiguration) {
+  for (const Log2Rule rule : kLog2Rules) {
     const double largest =
         largest_residual([rule](std::uint32_t d) { return log2_fixed(rule, d); });
-    // The contract rounds upwards.
+    // The contract gives them rounded up.
     EXPECT_LE(largest, documented[static_cast<int>(rule)]) << static_cast<int>(rule);
     EXPECT_GE(largest, documented[static_cast<int>(rule)] - 0.0001) << static_cast<int>(rule);
   }
@@ -67,14 +68,15 @@ TEST(Log2, MitchellIsTheTruncatedMantissa) {
   }
 }
 
-TEST(Log2, PowersOfTwoAreExactAndZeroCountsAsTheLeast) {
+TEST(Log2, PowersOfTwoAreExactAndZeroGivesMinus16) {
   for (int p = 0; p < 32; ++p) EXPECT_EQ(log2_fixed(Log2Rule::kExact, 1u << p), (p - 16) * 4096);
   for (const Log2Rule rule : {Log2Rule::kMitchell, Log2Rule::kExact})
     EXPECT_EQ(log2_fixed(rule, 0), -16 * 4096);
 }
 
-// By hand from the contract: what is added at the first and at the last mantissa of each segment.
-TEST(Log2, SegmentsBeginAndEndWhereTheContractSaysSo) {
+// Worked out by hand from the contract: the correction at the first and at the last mantissa of
+// each segment.
+TEST(Log2, SegmentEndsMatchTheContract) {
   constexpr std::int32_t kFirst[] = {20, 305, 356, 243}, kLast[] = {306, 361, 244, 3};
   for (std::int32_t segment = 0; segment < 4; ++segment) {
     const std::int32_t first = 1024 * segment, last = first + 1023;
@@ -86,8 +88,8 @@ TEST(Log2, SegmentsBeginAndEndWhereTheContractSaysSo) {
   }
 }
 
-// Paper 004, section 1.4 prints 3.12 %; papers-errata has what holds.
-TEST(Log2, RealErrorOfNPlusY) {
+// Paper 004, section 1.4, prints 3.12 %, which matches none of these measures.
+TEST(Log2, NPlusYErrorsMatchKnownValues) {
   const auto error = golden::ideal::logarithm_error();
   EXPECT_NEAR(100 * error.mean_square, 0.394, 5e-4);
   EXPECT_NEAR(100 * error.root_mean_square, 6.28, 5e-3);
@@ -96,7 +98,7 @@ TEST(Log2, RealErrorOfNPlusY) {
   EXPECT_NEAR(error.at, 0.4427, 5e-5);
 }
 
-TEST(Log2, AreaAndProbabilityOfAWrongLevel) {
+TEST(Log2, WrongLevelProbabilityMatchesClosedForm) {
   EXPECT_NEAR(golden::ideal::level_flip_area(), std::asinh(1.0) - 2 * std::log(1.5), 1e-9);
   EXPECT_NEAR(golden::ideal::level_flip_area(), 0.0704, 5e-5);
   EXPECT_NEAR(golden::ideal::level_flip_probability(), 0.1409, 5e-5);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Picture quality of the texture golden on a checkerboard ground plane, N_max 16, against the
-// supersampled box and against EWA: the goals of the contract, and the table behind them.
+// Image quality of the texture golden model on a checkerboard ground plane with N_max 16, against
+// the supersampled box and EWA. Checks the goals of the contract and prints a table of filters.
 //
 // Camera: 1024 x 1024 texels in 8 x 8 cells, 0.1 repeats above the plane, 0.2 radian down, field of
-// view 0.9 radian, 512 x 512 pixels, mip levels rounded to 8 bits. PSNR counts the pixels of the
-// plane only: a sky would add 1.5 dB for nothing. A second camera, the one of the scene "plane"
-// with its 16 x 16 cells, shows how much of a figure is the picture's.
+// view 0.9 radian, 512 x 512 pixels, mip levels rounded to 8 bits. PSNR counts only pixels of the
+// plane; a sky would add 1.5 dB. A second camera, that of the scene "plane" with 16 x 16 cells,
+// shows how much the result depends on the picture.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -54,7 +54,7 @@ Rule tent(const char* name, int spread) {
               spread);
 }
 
-// A camera's quads, its texture, and the references.
+// The quads of a camera, its texture, and the reference images.
 class View {
  public:
   View(const tb::texture::GroundPlane& plane, int cell)
@@ -71,7 +71,7 @@ class View {
 
   struct Frame {
     std::vector<std::uint8_t> rgba;
-    double samples = 0;  // a fragment
+    double samples = 0;  // per fragment
   };
   Frame filter(const Rule& rule) const {
     spec::texture::Descriptor descriptor = texture_.descriptor;
@@ -97,7 +97,7 @@ class View {
   std::vector<ideal::PixelFootprint> footprints_;
 };
 
-TEST(TextureQuality, GoalsOfTheContractOnTheGroundPlane) {
+TEST(TextureQuality, MeetsContractGoalsOnTheGroundPlane) {
   const View view({.height = 0.1, .pitch = 0.2, .yaw = 0, .fov_y = 0.9}, 128);
   const auto box = view.box();
   const auto gaussian = view.ewa(ideal::kEwaGaussian);
@@ -132,16 +132,16 @@ TEST(TextureQuality, GoalsOfTheContractOnTheGroundPlane) {
   }
 
   EXPECT_GE(against(box, kPaper), 40);
-  // Each Gaussian has its own best length of the tent.
+  // The best length of the tent differs for each Gaussian.
   EXPECT_GE(against(gaussian, tent("", 102)), 39);
   EXPECT_GE(against(tapered, tent("", 112)), 39);
   EXPECT_GE(against(heckbert, tent("", 128)), 39);
 
-  // The check can fail: all samples in one place are 16 times the work for nothing.
+  // The check can fail: 16 samples at the same position do not improve the image.
   Rule piled = kPaper;
   piled.parameters.spread = 0;
   EXPECT_LT(against(box, piled), 30);
-  // And more samples along the axis are better than fewer.
+  // More samples along the axis give a better result.
   double last = 0;
   for (int lb_n_max = 0; lb_n_max <= 4; ++lb_n_max) {
     Rule capped = kPaper;
@@ -152,7 +152,7 @@ TEST(TextureQuality, GoalsOfTheContractOnTheGroundPlane) {
   }
 }
 
-TEST(TextureQuality, ThePapersRuleOnTheSceneCalledPlane) {
+TEST(TextureQuality, PaperRuleReaches40DecibelsOnScenePlane) {
   const View view({.height = 0.3, .pitch = 0.2878, .yaw = 0, .fov_y = 0.5}, 64);
   const double psnr = ideal::psnr(view.box(), view.filter(kPaper).rgba);
   std::printf("scene plane, %s: %.2f dB against box\n", kPaper.name, psnr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where samples lie, what they weigh, and which texels a coordinate touches: against exact rational
+// Sample positions, sample weights and the texels that a coordinate selects, against exact rational
 // arithmetic and GL's integer formulas for wrapping.
 #include "golden/texture/sampling.h"
 
@@ -22,8 +22,8 @@ constexpr Wrap kWraps[] = {Wrap::kRepeat, Wrap::kMirroredRepeat, Wrap::kClampToE
 
 // ---- walker -------------------------------------------------------------------------------------
 
-// Largest distance of an offset from ((2 i + 1) / 2 N - 1/2) x spread / 64 x axis, in places of the
-// axis: rounding, and what is lost of 1 / N in 16 bits.
+// Counts offsets that differ from ((2 i + 1) / 2 N - 1/2) x spread / 64 x axis by more than their
+// rounding and the error of 1 / N in 16 bits.
 using Offset = std::function<std::int64_t(int i, int n, std::int32_t spread, std::int64_t axis)>;
 int wrong_offsets(const Offset& offset) {
   tb::Random random(1);
@@ -46,7 +46,7 @@ int wrong_offsets(const Offset& offset) {
   return wrong;
 }
 
-TEST(Walker, OffsetsAreTheRoundedFractionsOfTheAxis) { EXPECT_EQ(wrong_offsets(sample_offset), 0); }
+TEST(Walker, OffsetsAreRoundedFractionsOfTheAxis) { EXPECT_EQ(wrong_offsets(sample_offset), 0); }
 
 TEST(Walker, CheckFindsAWrongReciprocal) {
   EXPECT_GT(wrong_offsets([](int i, int n, std::int32_t spread, std::int64_t axis) {
@@ -71,7 +71,7 @@ TEST(Walker, WeightsAreSymmetricAndSumToOne) {
   EXPECT_EQ(sample_weight(spec::texture::Kernel::kTent, 3, 8), 7u * 8);  // 1 3 5 7 7 5 3 1
 }
 
-TEST(Walker, ATentOfFewSamplesIsABox) {
+TEST(Walker, TentOfFewSamplesIsABox) {
   using spec::texture::Kernel;
   for (int n = 1; n < 4; ++n) {
     EXPECT_EQ(spread_of(Kernel::kTent, n, 102), 64);
@@ -100,8 +100,9 @@ int gl_wrap(Wrap wrap, std::int64_t i, int size) {
   return static_cast<int>(std::clamp<std::int64_t>(i, 0, size - 1));
 }
 
-// As of so many texels as a coordinate has steps; what is clamped is clamped later, by the texel.
-TEST(Wrap, OfACoordinateIsThatOfItsSteps) {
+// A coordinate wraps as a texel index of a texture with one texel per step of the coordinate.
+// Clamping is done later, per texel.
+TEST(Wrap, CoordinatesWrapLikeTexelIndices) {
   for (std::int64_t whole = -4; whole <= 4; ++whole) {
     for (std::int64_t step = -2; step <= 2; ++step) {
       const std::int64_t p = whole * kOne + step;
@@ -117,7 +118,8 @@ using Position = std::function<TexelPosition(Wrap, std::int64_t, std::int32_t)>;
 
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-// Coordinates from -4 to 4 around every texel edge and middle, and one step to either side.
+// Visits coordinates from -4 to 4: every texel edge and centre, up to two steps to either side, and
+// an eighth of a texel after it.
 void for_each_coordinate(int size, const std::function<void(std::int64_t)>& visit) {
   for (std::int64_t i = -8 * size; i <= 8 * size; ++i) {
     const std::int64_t at = floor_divide(i * kOne, 2 * size);
@@ -132,8 +134,8 @@ int nearest_differences(const Position& position, Wrap wrap, int size) {
     const TexelPosition ours = position(wrap, p, size);
     const int gl = gl_wrap(wrap, floor_divide(p * size, kOne), size);
     if (ours.i0 == gl && ours.i1 == gl && ours.fraction == 0) return;
-    // Reflection at 2^25 - 1 - q may fall a texel aside within a step of the edge of a texel, where
-    // the size is no power of two.
+    // If the size is not a power of two, reflection at 2^25 - 1 - q may select the adjacent texel
+    // within one step of a texel edge.
     const bool power_of_two = (size & (size - 1)) == 0;
     const std::int64_t to_edge = p * size - floor_divide(p * size, kOne) * kOne;
     const bool at_edge = to_edge <= size || to_edge >= kOne - size;
@@ -146,7 +148,7 @@ int nearest_differences(const Position& position, Wrap wrap, int size) {
   return count;
 }
 
-TEST(Wrapping, NearestIsGlsForAllSmallSizes) {
+TEST(Wrapping, NearestMatchesGlForSmallSizes) {
   for (const Wrap wrap : kWraps) {
     for (int size = 1; size <= 33; ++size) {
       EXPECT_EQ(nearest_differences(nearest_position, wrap, size), 0)
@@ -175,7 +177,7 @@ int linear_differences(const Position& position, Wrap wrap, int size) {
     std::map<int, double> difference = gl_weights(wrap, p, size);
     difference[ours.i0] -= (256 - ours.fraction) / 256.0;
     difference[ours.i1] -= ours.fraction / 256.0;
-    // The fraction is rounded to 1/256; a reflected coordinate is a step off.
+    // The fraction is rounded to 1/256; a reflected coordinate is off by one step.
     const double tolerance = 0.5 / 256 + 2.0 * size / static_cast<double>(kOne);
     for (const auto& [texel, weight] : difference) {
       if (std::abs(weight) > tolerance) {
@@ -187,7 +189,7 @@ int linear_differences(const Position& position, Wrap wrap, int size) {
   return count;
 }
 
-TEST(Wrapping, LinearWeightsAreGlsForAllSmallSizes) {
+TEST(Wrapping, LinearWeightsMatchGlForSmallSizes) {
   for (const Wrap wrap : kWraps) {
     for (int size = 1; size <= 33; ++size) {
       EXPECT_EQ(linear_differences(linear_position, wrap, size), 0)
@@ -198,7 +200,7 @@ TEST(Wrapping, LinearWeightsAreGlsForAllSmallSizes) {
   }
 }
 
-TEST(Wrapping, ChecksFindPlantedFaults) {
+TEST(Wrapping, ChecksFindInjectedFaults) {
   const Position half_texel = [](Wrap wrap, std::int64_t p, std::int32_t size) {
     return linear_position(wrap, p + kOne / 2 / size, size);
   };
@@ -217,7 +219,7 @@ TEST(Wrapping, ChecksFindPlantedFaults) {
   EXPECT_GT(nearest_differences(mirror_off_by_one, Wrap::kMirroredRepeat, 8), 0);
 }
 
-TEST(Wrapping, EndsOfTheSampleRangeStayInside) {
+TEST(Wrapping, ExtremeCoordinatesSelectValidTexels) {
   for (const Wrap wrap : kWraps) {
     for (const int size : {1, 2, 3, 4095, 4096}) {
       for (const std::int64_t p : {-(std::int64_t{1} << 33), (std::int64_t{1} << 33) - 1}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests and the benchmark of the texture golden share: textures encoded into a memory
-// image, and fragments of surfaces that need no rasteriser.
+// Helpers of the tests and the benchmark of the texture golden model: textures encoded into a
+// memory image, and fragments of surfaces that need no rasteriser.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ namespace deburr::tb::texture {
 
 using Rgba = std::array<std::uint8_t, 4>;
 
-// A picture with its whole mip chain, each level the rounded mean of 2 x 2 (or fewer) texels.
+// A picture with its full mip chain. Each texel is the rounded mean of 2 x 2 (or fewer) texels of
+// the previous level.
 struct Pyramid {
   struct Level {
     int width, height;
@@ -86,8 +87,8 @@ inline Pyramid noise(int width, int height, unsigned seed) {
   });
 }
 
-// Gives the levels of a descriptor places from `first` on, each on the next multiple of 64. Returns
-// the address behind the last.
+// Assigns base addresses to the levels of a descriptor, from `first` on, each at the next multiple
+// of 64. Returns the end of the last level, rounded up to a multiple of 64.
 inline std::uint32_t place_levels(spec::texture::Descriptor& descriptor, std::uint32_t first = 0) {
   std::uint64_t next = (first + 63u) / 64 * 64;
   for (int k = 0; k < descriptor.levels; ++k) {
@@ -98,7 +99,7 @@ inline std::uint32_t place_levels(spec::texture::Descriptor& descriptor, std::ui
   return static_cast<std::uint32_t>(next);
 }
 
-// Writes the levels of the picture to where the descriptor has them, in its format. `memory` must
+// Writes the levels of the picture to the addresses in the descriptor, in its format. `memory` must
 // be large enough.
 inline void encode(const Pyramid& picture, const spec::texture::Descriptor& descriptor,
                    std::span<std::uint8_t> memory) {
@@ -132,7 +133,7 @@ inline void encode(const Pyramid& picture, const spec::texture::Descriptor& desc
   }
 }
 
-// A descriptor with all levels of the picture, and the memory that holds it.
+// A descriptor with all levels of the picture, and the memory that holds their texels.
 struct EncodedTexture {
   spec::texture::Descriptor descriptor;
   std::vector<std::uint8_t> memory;
@@ -152,10 +153,11 @@ struct GroundPlane {
   int size = 512;       // pixels each way
   double height = 0.5;  // of the camera
   double pitch = 0.5;   // downwards from the horizon, radian
-  double yaw = 0.3;     // so that the major axis is neither s nor t
+  double yaw = 0.3;     // radian; the major axis is then neither s nor t
   double fov_y = 0.9;   // radian
 
-  // Coordinates of a point of the picture (pixels); false: sky or out of the coordinates' range.
+  // Texture coordinates at a point of the picture (in pixels). False: sky, or beyond the range of
+  // coordinates.
   bool hit(double px, double py, double& s, double& t) const {
     const double half = std::tan(fov_y / 2);
     const double x = (2 * px / size - 1) * half, y = (1 - 2 * py / size) * half;
@@ -190,7 +192,7 @@ struct GroundPlane {
       double s = 0, t = 0;
       const bool seen = hit(x + static_cast<double>(lane & 1) + 0.5,
                             y + static_cast<double>(lane >> 1) + 0.5, s, t);
-      if (!seen) return;  // quads at the horizon are left out whole
+      if (!seen) return;  // a quad is dropped if one of its lanes hits nothing
       quad.s[lane] = static_cast<std::int32_t>(std::lround(s * spec::texture::kCoordinateOne));
       quad.t[lane] = static_cast<std::int32_t>(std::lround(t * spec::texture::kCoordinateOne));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every entry of the texture unit's tables is what its formula gives.
+// Compares every entry of the texture unit's tables with its formula.
 #include "spec/texture/tables.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ int first_wrong(const Table& table, Formula&& formula) {
 
 double log2_entry(int i) { return 4096 * std::log2(1 + i / 64.0); }
 
-// Middle of the range of lb(1 + y) - y, concave with its top at 1 / ln 2 - 1, in eighth i.
+// Middle of the range of lb(1 + y) - y over eighth i of [0, 1]. The function is concave, with its
+// maximum at 1 / ln 2 - 1.
 double correction_entry(int i) {
   const auto gap = [](double y) { return std::log2(1 + y) - y; };
   const double from = i / 8.0, to = (i + 1) / 8.0, top = 1 / std::log(2.0) - 1;
@@ -49,8 +50,8 @@ double srgb_code(int i) {
 double count_entry(int n) { return n == 0 ? 0 : 4096 * std::log2(n) + 72; }
 double reciprocal_entry(int n) { return n == 0 ? 0 : 65536.0 / n; }
 
-// The weights of one kernel and N are what docs/reference/texture/formats.md, "Sample walker",
-// says.
+// Whether the weights of one kernel and N follow docs/reference/texture/formats.md, "Sample
+// walker".
 bool right_weights(std::size_t kernel, int n, const std::array<std::uint16_t, 16>& weights) {
   const auto shape = [&](int i) {
     return kernel == 1 && n >= 4 ? std::min(2 * i + 1, 2 * (n - i) - 1) : 1;
@@ -70,7 +71,7 @@ bool right_weights(std::size_t kernel, int n, const std::array<std::uint16_t, 16
   return true;
 }
 
-TEST(TextureTables, AreWhatTheirFormulasGive) {
+TEST(TextureTables, EntriesMatchTheirFormulas) {
   EXPECT_EQ(first_wrong(spec::texture::kLinearToSrgb, srgb_code), -1);
   EXPECT_EQ(first_wrong(spec::texture::kLog2Count, count_entry), -1);
   EXPECT_EQ(first_wrong(spec::texture::kReciprocal, reciprocal_entry), -1);
@@ -84,9 +85,9 @@ TEST(TextureTables, AreWhatTheirFormulasGive) {
   EXPECT_EQ(first_wrong(spec::texture::kSrgbToLinear, srgb_entry), -1);
 }
 
-// How far each choice of cosine and sine is from the angle and the length that it stands for
+// Error of each pair of cosine and sine against its exact angle and unit length
 // (docs/reference/texture/formats.md, "Axes").
-TEST(TextureTables, AxesAreWithinTheirErrors) {
+TEST(TextureTables, AxisConstantsAreWithinTheirErrors) {
   for (std::size_t i = 0; i < spec::texture::kAxes.size(); ++i) {
     const spec::texture::Axis& axis = spec::texture::kAxes[i];
     const double cosine = axis.cosine / 128.0, sine = axis.sine / 128.0;
@@ -106,7 +107,7 @@ TEST(TextureTables, TilesAre64Bytes) {
 }
 
 template <class Table, class Formula>
-void expect_each_bit_is_seen(const Table& table, Formula&& formula) {
+void expect_wrong_entries_are_found(const Table& table, Formula&& formula) {
   for (std::size_t i = 0; i < table.size(); ++i) {
     auto changed = table;
     changed[i] ^= 1;
@@ -114,12 +115,12 @@ void expect_each_bit_is_seen(const Table& table, Formula&& formula) {
   }
 }
 
-TEST(TextureTables, CheckFindsOneWrongBitAnywhere) {
-  expect_each_bit_is_seen(spec::texture::kLog2Table, log2_entry);
-  expect_each_bit_is_seen(spec::texture::kLog2Correction, correction_entry);
-  expect_each_bit_is_seen(spec::texture::kLog2Count, count_entry);
-  expect_each_bit_is_seen(spec::texture::kReciprocal, reciprocal_entry);
-  expect_each_bit_is_seen(spec::texture::kSrgbToLinear, srgb_entry);
+TEST(TextureTables, CheckFindsAWrongBitInEveryEntry) {
+  expect_wrong_entries_are_found(spec::texture::kLog2Table, log2_entry);
+  expect_wrong_entries_are_found(spec::texture::kLog2Correction, correction_entry);
+  expect_wrong_entries_are_found(spec::texture::kLog2Count, count_entry);
+  expect_wrong_entries_are_found(spec::texture::kReciprocal, reciprocal_entry);
+  expect_wrong_entries_are_found(spec::texture::kSrgbToLinear, srgb_entry);
   for (std::size_t kernel = 0; kernel < 2; ++kernel) {
     for (std::size_t n = 1; n <= 16; ++n) {
       for (std::size_t i = 0; i < 16; ++i) {

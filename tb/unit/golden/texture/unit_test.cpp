@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole texture golden: its fast path against the blocks strung together plainly, its traffic,
-// counters, invalid descriptors, memory errors.
+// The whole texture golden model: its fast path against a plain composition of its blocks, its
+// traffic and counters, invalid descriptors and memory errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 using namespace golden::texture;
 using tb::texture::EncodedTexture;
 
-// ---- a plain second stringing-together of the blocks --------------------------------------------
+// ---- plain composition of the blocks ------------------------------------------------------------
 
 struct PlainResult {
   std::array<std::uint8_t, 4> rgba{};
@@ -114,7 +114,7 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
   return result;
 }
 
-// A cache in other words: sets as lists in the order of replacement.
+// A second model of the cache: each set is a list in the order of replacement.
 class PlainCache {
  public:
   PlainCache(std::uint32_t sets, std::uint32_t ways, bool lru)
@@ -205,8 +205,8 @@ bool same(const BilinearRequest& a, const BilinearRequest& b) {
          a.addresses == b.addresses && a.misses == b.misses;
 }
 
-// Runs random work on both; returns the number of lanes, fills and counters that differ. `spoil`
-// may change a colour of the golden.
+// Runs random work on both models. Returns the number of differences in colours, requests, fills
+// and counters. `spoil` may change a colour of the golden model.
 int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>& spoil) {
   RandomWork work(seed);
   const spec::texture::Parameters p = work.parameters();
@@ -266,7 +266,7 @@ int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>
   return count;
 }
 
-TEST(TextureGolden, IsItsBlocksStrungTogether) {
+TEST(TextureGolden, MatchesPlainCompositionOfBlocks) {
   for (unsigned seed = 1; seed <= 400; ++seed) {
     ASSERT_EQ(differences(seed, [](spec::texture::Colour&) {}), 0) << "seed " << seed;
   }
@@ -300,14 +300,14 @@ spec::texture::Quad flat_quad(double s, double t, double step_s, double step_t) 
   return q;
 }
 
-TEST(TextureGolden, FillsGoToTheSinkAndEndWithTheCacheOrTheReset) {
+TEST(TextureGolden, FillsGoToTheSinkAndRepeatAfterInvalidation) {
   const EncodedTexture texture(tb::texture::noise(64, 64, 1), {});
   TextureGolden golden(preset_parameters(spec::texture::Preset::kPaper), texture.memory);
   golden.set_texture(0, texture.descriptor);
   std::vector<std::uint32_t> sunk;
   golden.set_fill_sink([&](std::uint32_t line) { sunk.push_back(line); });
   golden.record_fills(true);
-  // 1.5 texels a pixel, halfway between two levels: at each of their corners four tiles meet.
+  // 1.5 texels per pixel, between two levels. On each level the four texels are in four tiles.
   spec::texture::Quad quad = flat_quad(0, 0, 1.5 / 64, 1.5 / 64);
   quad.coverage = 1;
   golden.process(quad);
@@ -316,7 +316,7 @@ TEST(TextureGolden, FillsGoToTheSinkAndEndWithTheCacheOrTheReset) {
   EXPECT_EQ(golden.work().by_level[0], 1u);
   EXPECT_EQ(golden.work().by_level[1], 1u);
   golden.process(quad);
-  EXPECT_EQ(golden.work().line_fills, 8u);  // all present
+  EXPECT_EQ(golden.work().line_fills, 8u);  // all lines hit
   golden.invalidate_cache();
   golden.process(quad);
   EXPECT_EQ(golden.work().line_fills, 16u);
@@ -324,10 +324,10 @@ TEST(TextureGolden, FillsGoToTheSinkAndEndWithTheCacheOrTheReset) {
   EXPECT_EQ(golden.work(), TextureWork{});
   EXPECT_TRUE(golden.fills().empty());
   golden.process(quad);
-  EXPECT_EQ(golden.work().line_fills, 8u);  // the texture stayed
+  EXPECT_EQ(golden.work().line_fills, 8u);  // the texture was kept
 }
 
-TEST(TextureGolden, CountsClampedSaturatedMagnifiedAndN) {
+TEST(TextureGolden, CountsClampedSaturatedAndMagnifiedFragments) {
   spec::texture::Descriptor sampler;
   sampler.max_anisotropy_log2 = 4;
   const EncodedTexture texture(tb::texture::checkerboard(1024, 8), sampler);
@@ -471,7 +471,7 @@ TEST(TextureGolden, FragmentsOfAnInvalidDescriptorAreZeroAndCounted) {
   spec::texture::Descriptor bad = texture.descriptor;
   bad.levels = 9;
   golden.set_texture(1, bad);
-  for (const int handle : {1, 2, 16, 255}) {  // bad, never set, no such handle
+  for (const int handle : {1, 2, 16, 255}) {  // invalid, never set, out of range
     golden.clear_work();
     spec::texture::Quad quad = flat_quad(0, 0, 100, 0.1);
     quad.texture = static_cast<std::uint8_t>(handle);
@@ -492,7 +492,7 @@ TEST(TextureGolden, FragmentsOfAnInvalidDescriptorAreZeroAndCounted) {
   EXPECT_THROW(golden.set_texture(-1, texture.descriptor), spec::ConfigError);
 }
 
-TEST(TextureGolden, AValidDescriptorMayReplaceAnInvalidOneAndBack) {
+TEST(TextureGolden, ValidAndInvalidDescriptorsReplaceEachOther) {
   const EncodedTexture texture(tb::texture::noise(8, 8, 1), {});
   TextureGolden golden({}, texture.memory);
   for (const auto& descriptor : {texture.descriptor, {}, texture.descriptor}) {
@@ -502,7 +502,7 @@ TEST(TextureGolden, AValidDescriptorMayReplaceAnInvalidOneAndBack) {
   EXPECT_EQ(golden.work().invalid_fragments, 4u);
 }
 
-// Texels of 255 without any filter.
+// A texture with every channel at 255, read without filtering.
 EncodedTexture white(int width, int height, spec::texture::Descriptor sampler = {}) {
   sampler.min_filter = spec::texture::MinFilter::kNearest;
   sampler.mag_filter = spec::texture::MagFilter::kNearest;
@@ -522,7 +522,7 @@ TEST(TextureGolden, ErrorLinesReadAsZeroBytesAndEachFillCounts) {
     TextureGolden golden({}, texture.memory);
     golden.set_texture(0, texture.descriptor);
     const std::uint32_t bad = texel_address(texture.descriptor, 0, 0, 0);
-    golden.set_error_ranges({{bad + 5, bad + 6}});  // one byte spoils its line
+    golden.set_error_ranges({{bad + 5, bad + 6}});  // an error of one byte affects its whole line
     const spec::texture::Quad quad = flat_quad(0.5 / 32, 0.5 / 32, 16.0 / 32, 16.0 / 32);
     const tb::texture::Rgba all = {255, 255, 255, 255};
     const std::uint8_t alpha = format == spec::texture::Format::kRgba8 ? 0 : 255;
@@ -538,9 +538,9 @@ TEST(TextureGolden, ErrorLinesReadAsZeroBytesAndEachFillCounts) {
   }
 }
 
-// A range ends before its second address: of a line from `first` on, its bytes are first to
-// first + 63.
-TEST(TextureGolden, ErrorRangesSpoilTheLinesThatTheyMeet) {
+// The second address of a range is exclusive. The line at `first` has the bytes first to first +
+// 63.
+TEST(TextureGolden, ErrorRangesAffectEveryLineTheyOverlap) {
   const EncodedTexture texture = white(32, 32);
   const auto errors = [&](std::uint32_t low, std::uint32_t high) {
     TextureGolden golden({}, texture.memory);
@@ -558,9 +558,9 @@ TEST(TextureGolden, ErrorRangesSpoilTheLinesThatTheyMeet) {
   EXPECT_EQ(errors(first + 64, first + 128), 0u);
 }
 
-// Each of the four rows is a line of memory. The last one is no error, whoever asks for it, and the
-// one after it is.
-TEST(TextureGolden, MemoryEndsWithItsLastLine) {
+// Each of the four rows is one line of memory. A read of the last line is an error only if memory
+// ends within it, with or without error ranges.
+TEST(TextureGolden, IncompleteLastLineIsAnError) {
   spec::texture::Descriptor sampler;
   sampler.layout = spec::texture::Layout::kLinear;
   EncodedTexture texture = white(16, 4, sampler);
@@ -573,7 +573,7 @@ TEST(TextureGolden, MemoryEndsWithItsLastLine) {
         texture.descriptor.base[0] = base;
         TextureGolden golden({}, memory);
         golden.set_texture(0, texture.descriptor);
-        if (ask) golden.set_error_ranges({{0, 1}});  // each line is asked for
+        if (ask) golden.set_error_ranges({{0, 1}});  // every line is checked
         const QuadColours colours = golden.process(quad);
         EXPECT_EQ(colours.colours[0].rgba[0], 9);
         EXPECT_EQ(colours.colours[2].rgba[0], whole ? 9 : 0);
@@ -581,14 +581,14 @@ TEST(TextureGolden, MemoryEndsWithItsLastLine) {
       }
     }
   }
-  // No memory at all, and addresses that wrap.
+  // Empty memory, and addresses that wrap.
   TextureGolden empty({}, {});
   texture.descriptor.base[0] = 0xFFFFFFC0;
   empty.set_texture(0, texture.descriptor);
   EXPECT_EQ(empty.process(quad).colours[3].rgba, tb::texture::Rgba{});
 }
 
-TEST(TextureGolden, PresetsAreTheirRows) {
+TEST(TextureGolden, PresetsSelectTheirParameters) {
   const spec::texture::Parameters paper = preset_parameters(spec::texture::Preset::kPaper);
   EXPECT_EQ(paper.axes, spec::texture::Axes::kTwo);
   EXPECT_EQ(paper.footprint, spec::texture::FootprintRule::kHalf);
@@ -604,7 +604,7 @@ TEST(TextureGolden, PresetsAreTheirRows) {
   EXPECT_THROW(preset_parameters(static_cast<spec::texture::Preset>(9)), spec::ConfigError);
 }
 
-TEST(TextureGolden, AGeometryThatCannotBeIsAConfigError) {
+TEST(TextureGolden, RejectsImpossibleCacheGeometry) {
   spec::texture::Parameters p;
   p.cache_ways = 3;
   EXPECT_THROW(TextureGolden(p, {}), spec::ConfigError);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds of a frame's cycles, as docs/reference/geometric/hardware.md has them.
+// The bounds on the cycles of a frame from docs/reference/geometric/hardware.md.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ using spec::geometric::Edge;
 using spec::geometric::Lanes;
 namespace flag = spec::geometric::flag;
 
-// The bounds of the page, from what was drawn and what went over the port.
+// The bounds of the page, computed from the drawn scene and the traffic at the memory port.
 class Bounds {
  public:
   Bounds(const EngineBench& b, const Scene& scene) : b_(b), w_(b.engine.work()) {
@@ -65,11 +65,11 @@ class Bounds {
                                b_.engine.resolver.lines_written.value();
     return std::max({scan, blend, port});
   }
-  // What the page allows above a bound.
+  // The largest number of cycles that the page allows for a bound.
   static std::uint64_t most(std::uint64_t bound, int part = 20) {
     return bound + bound / static_cast<std::uint64_t>(part) + 8 * 20 + 150;
   }
-  // Of the edges phase, where second pixels' look-ups wait for each other.
+  // The same for the edge phase, where the lookups of second pixels wait for each other.
   std::uint64_t most_of_edges() const {
     return most(begin() + edges(), b_.p.coverage == spec::geometric::CoverageRule::kArea ? 12 : 20);
   }
@@ -84,7 +84,7 @@ class Bounds {
   static int count_of(Lanes lanes) {
     return spec::geometric::kLaneCount[static_cast<std::size_t>(lanes)];
   }
-  // Beats of edges, and look-ups of vertices that both miss.
+  // Counts beats of edges, and pairs of vertex lookups that both miss.
   void read_edges(const Scene& scene) {
     const std::size_t lanes = static_cast<std::size_t>(count_of(b_.p.edge_lanes));
     golden::geometric::DirectMapped cache;
@@ -112,7 +112,7 @@ class Bounds {
       beats_ += std::max<std::uint64_t>(1, kept);
     }
   }
-  // Groups, their lines of depth in pairs, and which of these miss.
+  // Counts groups, their lines of depth in pairs, and the misses among them.
   void walk(const spec::geometric::LineRecord& l) {
     const bool vertical = l.axis == spec::geometric::Axis::kVertical;
     const int walkers = count_of(b_.p.walkers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The WeightCombiner by itself, with memory: nothing comes out of it but what goes there.
+// The WeightCombiner on its own, with memory. Its only outputs are memory accesses.
 #pragma once
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -47,7 +47,7 @@ struct CombinerBench : Frame {
   rtl::Link<rtl::geometric::WeightToken> in;
   Source<rtl::geometric::WeightToken> source;
 };
-// Weights of pixel (x, y), once its block has left the cache.
+// The weights of pixel (x, y); its block must have left the cache.
 inline spec::geometric::Weights weights_at(CombinerBench& b, int x, int y) {
   const std::vector<std::uint8_t> bytes = b.memory.dump(
       static_cast<std::uint64_t>(64 * (y / 4 * 512 + x / 4) + 4 * (y % 4 * 4 + x % 4)), 4);

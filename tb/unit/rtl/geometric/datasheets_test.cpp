@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The datasheets of the geometric engine: every unit has one, and their numbers are the contract's.
+// Datasheets of the geometric engine: every unit has one, and the numbers match the contract.
 #include "rtl_model/geometric/datasheets.h"
 
 #include "tb/unit/rtl/datasheets.h"
@@ -8,7 +8,7 @@
 namespace deburr::tb::geometric_rtl::datasheets_test {
 namespace {
 
-TEST(GeometricDatasheets, AreTheContracts) {
+TEST(GeometricDatasheets, DatasheetsMatchTheContract) {
   expect_contract(rtl::geometric::datasheets(), {{"FrameSequencer", 0, 1},
                                                  {"FacingStore", 2, 1},
                                                  {"EdgeReader", 2, 1},
@@ -29,7 +29,7 @@ TEST(GeometricDatasheets, AreTheContracts) {
                                                  {"MemoryArbiter", 1, 1}});
 }
 
-TEST(GeometricDatasheets, EveryUnitHasOne) {
+TEST(GeometricDatasheets, EveryUnitHasADatasheet) {
   Parameters split;
   split.records = spec::geometric::RecordsLayout::kSplit;
   split.coarse_lines = spec::geometric::CoarseLines::k4;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine as a whole: refusals and registers, bad input, empty frames; the cycles of a
-// frame between the bounds of docs/reference/geometric/hardware.md, and near the one that is the
-// largest.
+// The geometric engine as a whole: rejections and registers, invalid input, empty frames; the
+// cycles of a frame lie between the bounds of docs/reference/geometric/hardware.md and near the
+// largest lower bound.
 #include <fmt/format.h>
 
 #include <map>
@@ -38,7 +38,7 @@ void add_line(Scene& scene, int x0, int y0, int x1, int y1) {
   scene.edges.push_back({v, v + 1, 0, 0, flag::kBoundary});
 }
 
-// Short lines everywhere.
+// Short lines at random positions.
 Scene short_lines(int width, int height, int lines, int length) {
   Scene scene = blank(width, height);
   std::uint32_t s = 7;
@@ -56,7 +56,7 @@ Scene short_lines(int width, int height, int lines, int length) {
 
 // ---- registers
 
-// Which frames are rejected: parameter_store_test.cpp.
+// parameter_store_test.cpp tests which frames are rejected.
 TEST(Registers, RejectedStartReadsAndWritesNothing) {
   EngineBench b;
   b.load(contract_scene());
@@ -79,7 +79,7 @@ TEST(Registers, StartWithoutEnableIsRejected) {
   EXPECT_EQ(b.bus.read(reg::kRejection), 0u);
   EXPECT_EQ(b.pixel_hash(), configuration('a').pixels);
 }
-TEST(Registers, WritesOfAFrameUnderWayAreIgnored) {
+TEST(Registers, WritesDuringAFrameAreIgnored) {
   EngineBench b;
   b.load(contract_scene());
   b.start();
@@ -91,7 +91,7 @@ TEST(Registers, WritesOfAFrameUnderWayAreIgnored) {
       b.bus.write(info.offset, ~value);
       EXPECT_EQ(b.bus.read(info.offset), value) << info.name;
     }
-  b.bus.write(reg::kControl, reg::kControlStart);  // enable goes, the frame goes on
+  b.bus.write(reg::kControl, reg::kControlStart);  // clears enable; the frame continues
   b.bench->run([&] { return b.engine.idle(); }, 20'000);
   EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFrameDone |
                                           reg::kStatusWrittenWhileBusy | reg::kStatusInvalidEdge);
@@ -111,8 +111,8 @@ TEST(Registers, FrameCyclesCountFromStartToIdle) {
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), again) << "of the last frame alone";
   EXPECT_EQ(b.bus.read(reg::kEdgeCycles) + b.bus.read(reg::kResolveCycles), again);
 }
-// One engine, told the rules of each configuration between frames.
-TEST(Registers, RulesAreThoseOfTheNextFrame) {
+// One engine, reconfigured between frames.
+TEST(Registers, ConfigurationAppliesToTheNextFrame) {
   EngineBench b;
   const std::uint32_t built = b.bus.read(reg::kConfiguration);
   for (const char name : {'f', 'a', 'g', 'e', 'b', 'h', 'a'}) {
@@ -137,7 +137,7 @@ TEST(Registers, CountersAddUpUntilCleared) {
   EXPECT_EQ(b.bus.read(reg::kEdges), 0u);
   EXPECT_EQ(b.bus.read(reg::kFrameCycles), 0u);
 }
-TEST(Parameters, RejectsWhatCannotBeBuilt) {
+TEST(Parameters, RejectsUnbuildableParameters) {
   EXPECT_THAT(in_child([] {
                 Parameters p;
                 p.reciprocal_table = 8;
@@ -147,9 +147,9 @@ TEST(Parameters, RejectsWhatCannotBeBuilt) {
               HasSubstr("reciprocal_table"));
 }
 
-// ---- what a default build is made of
+// ---- memories of a default build ---
 
-TEST(Memories, NoneIsNotImplementable) {
+TEST(Memories, EveryMemoryIsImplementable) {
   for (const bool largest : {false, true}) {
     const std::string got = in_child([largest] {
       Parameters p;
@@ -176,8 +176,8 @@ TEST(Memories, NoneIsNotImplementable) {
   }
 }
 
-// By docs/reference/statistics.md, with the memories of the port left out:
-// kind, words x bits, ports, latency of a read, physical bits.
+// Memories in the format of docs/reference/statistics.md, without those of the port: kind, words x
+// bits, ports, read latency, physical bits.
 std::set<std::string> memories_of(const Parameters& p) {
   std::set<std::string> built;
   const std::string text = in_child([&p] {
@@ -197,7 +197,7 @@ std::set<std::string> memories_of(const Parameters& p) {
   for (std::string line; std::getline(lines, line);) built.insert(line);
   return built;
 }
-TEST(Memories, AreThoseOfThePage) {
+TEST(Memories, MemoriesMatchThePage) {
   const std::set<std::string> built = memories_of({});
   EXPECT_EQ(built, (std::set<std::string>{
                        "block_fetch.latency_fifo sram 108 x 35 1R1W in 1, 3780",
@@ -228,7 +228,7 @@ TEST(Memories, AreThoseOfThePage) {
                        "weight_combiner.weight_data sram 128 x 512 1R1W in 1, 65536",
                        "weight_combiner.weight_fills sram 108 x 512 1R1W in 1, 55296",
                        "weight_combiner.weight_tags sram 128 x 23 1R1W in 1, 2944"}));
-  Parameters p;  // all that a build may have besides
+  Parameters p;  // all optional memories
   p.colour_lines = 100;
   p.write_buffer = 40;
   p.pipelined = false;
@@ -255,8 +255,8 @@ TEST(Memories, AreThoseOfThePage) {
                                    "weight_combiner.write_buffer sram 40 x 512 1R1W in 1, 20480",
                                    "weight_combiner.write_tags flops 40 x 23 40R1W in 0, 920"}));
 }
-// The page's copy_buffer: sram above 16 384 bits.
-TEST(Memories, AFewLinesOfACopyAreFlipFlops) {
+// The page's copy_buffer: SRAM above 16 384 bits.
+TEST(Memories, SmallCopyBufferUsesFlipFlops) {
   for (const auto& [lines, kind] : {std::pair{32, "flops"}, {33, "sram"}}) {
     const std::string got = in_child([lines = lines] {
       Parameters p;
@@ -272,7 +272,7 @@ TEST(Memories, AFewLinesOfACopyAreFlipFlops) {
     EXPECT_EQ(got, kind) << lines;
   }
 }
-// What the page's formulas say of other builds: rows of any length are rounded up.
+// The page's formulas for other builds: rows of any length are rounded up.
 TEST(Memories, RowsOfAnyLengthFit) {
   for (const auto& [pixels, above, originals] : {std::tuple{64, 1u, 16u},
                                                  {512, 1u, 128u},
@@ -293,9 +293,9 @@ TEST(Memories, RowsOfAnyLengthFit) {
   }
 }
 
-// ---- places that are sized from the latency of memory
+// ---- buffers whose size follows from the memory latency
 
-TEST(Sizes, AreThoseOfThePage) {
+TEST(Sizes, BufferSizesMatchThePage) {
   const auto text = [](const Parameters& p, const rtl::MemoryCycles& memory) {
     const Parameters s = rtl::geometric::sized(p, memory);
     return std::to_string(s.fills) + " " + std::to_string(s.resolve_lines) + " " +
@@ -305,7 +305,7 @@ TEST(Sizes, AreThoseOfThePage) {
   EXPECT_EQ(text({}, {20, 1}), "28 56 14");
   EXPECT_EQ(text({}, {21, 1}), "29 58 15");
   EXPECT_EQ(text({}, {20, 4}), "31 62 16");
-  // As few as can be built, as many as the port has transactions, as many as there may be.
+  // The smallest size, the number of outstanding transactions of the port, the largest size.
   EXPECT_EQ(text({}, {1, 1}), "9 18 5");
   EXPECT_EQ(text({}, {121, 1}), "128 258 65");
   Parameters p;
@@ -317,9 +317,9 @@ TEST(Sizes, AreThoseOfThePage) {
   EXPECT_EQ(text(p, {1000, 1}), "8 16 2");
 }
 
-// Cycles of a frame near its bounds at 100 cycles: more places save nothing to speak of, a quarter
-// of either costs a tenth at least.
-TEST(Sizes, CoverTheLatency) {
+// At a latency of 100 cycles, the default sizes keep a frame near its bounds: larger ones gain at
+// most 2 %, while a quarter of either size costs at least 10 %.
+TEST(Sizes, DefaultsCoverTheLatency) {
   const auto cycles = [](std::int32_t fills, std::int32_t resolve_lines) {
     return std::stod(in_child([&] {
       Parameters p;
@@ -342,9 +342,9 @@ TEST(Sizes, CoverTheLatency) {
   EXPECT_GE(cycles(108, 54), 1.1 * by_default);
 }
 
-// ---- frames with little in them
+// ---- nearly empty frames ------
 
-TEST(Frames, WithoutEdgesReadFacingBitsAndCopyAlone) {
+TEST(Frames, EmptyFrameReadsOnlyFacingBitsAndCopies) {
   Configuration c = configuration('e');
   EngineBench b(c.p);
   Scene scene = contract_scene();
@@ -358,7 +358,7 @@ TEST(Frames, WithoutEdgesReadFacingBitsAndCopyAlone) {
   EXPECT_EQ(b.memory.dump(b.bases.colour, 64 * lines), b.memory.dump(b.bases.copy, 64 * lines));
   EXPECT_EQ(b.memory.dump(b.bases.colour, 0x4000), before);
 }
-TEST(Frames, OfAPixelOrTwo) {
+TEST(Frames, TinyFramesAreDrawn) {
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 5}, {8192, 1}, {4, 9}}) {
     const std::string got = in_child([width = width, height = height] {
       Parameters p;
@@ -375,10 +375,10 @@ TEST(Frames, OfAPixelOrTwo) {
   }
 }
 
-// ---- what each unit did
+// ---- cycle classes of each unit
 
-// "busy 3, depth 20, idle 5" by unit; what is 0 is left out.
-std::map<std::string, std::string> accounts_of(const EngineBench& b) {
+// "busy 3, depth 20, idle 5" per unit, without zeros.
+std::map<std::string, std::string> cycle_classes_of(const EngineBench& b) {
   std::map<std::string, std::string> accounts;
   const nlohmann::ordered_json units = statistics(b.clock, "engine")["units"];
   for (const auto& [name, unit] : units.items()) {
@@ -392,8 +392,8 @@ std::map<std::string, std::string> accounts_of(const EngineBench& b) {
   }
   return accounts;
 }
-// A line of eight pixels, M = 20; 303 cycles in all.
-TEST(Accounts, OfOneLine) {
+// A line of eight pixels, M = 20; 303 cycles in total.
+TEST(CycleClasses, CyclesOfOneLineMatch) {
   Parameters p;
   p.frame_copy = true;
   EngineBench b(p);
@@ -402,11 +402,11 @@ TEST(Accounts, OfOneLine) {
   b.load(scene);
   EXPECT_EQ(b.run(), 303u);
   const std::map<std::string, std::string> wanted = {
-      // The caches' tags take the begin: 128 of depth and weights, 64 of vertices. Then the edge
-      // and the end, or two groups and the end, clock by clock through the stages.
+      // The begin phase lasts for the caches' tags: 128 of depth and weights, 64 of vertices. Then
+      // the edge and the end, or two groups and the end, pass the stages cycle by cycle.
       {"frame_sequencer", "busy 303"},
-      {"facing_store", "busy 2, memory 24, idle 277"},  // a line asked for, a line that comes
-      {"edge_reader", "busy 4, facing 127, idle 172"},  // the same of edges; a beat, the end
+      {"facing_store", "busy 2, memory 24, idle 277"},  // one line requested, one received
+      {"edge_reader", "busy 4, facing 127, idle 172"},  // the same for edges; one beat, the end
       {"edge_classifier", "busy 4, idle 299"},
       {"vertex_fetch", "busy 71, vertices 25, idle 207"},
       {"line_setup", "busy 23, idle 280"},
@@ -414,29 +414,29 @@ TEST(Accounts, OfOneLine) {
       {"coverage_unit", "busy 5, idle 298"},
       {"depth_test", "busy 141, depth 22, idle 140"},
       {"weight_combiner", "busy 135, idle 168"},
-      // Eight lines there and back: 32 beats, of which six meet another one in their clock.
+      // Eight lines read and written: 32 beats, six of them in a cycle with another one.
       {"frame_copier", "busy 26, downstream 2, memory 34, idle 241"},
-      // Both blocks, each a line to read and to write.
+      // Two blocks, each with one line read and one written.
       {"block_scanner", "busy 5, idle 298"},
       {"block_fetch", "busy 9, idle 294"},
       {"resolver", "busy 6, colours 26, idle 271"},
       {"memory_arbiter", "busy 46, idle 257"},
       {"memory_port", "busy 48, memory 102, idle 153"}};
-  EXPECT_EQ(accounts_of(b), wanted);
-  // Latencies of 3, 31, 22, 1, 3, 33 and 5 from unit to unit, and a clock for the second group.
+  EXPECT_EQ(cycle_classes_of(b), wanted);
+  // Latencies of 3, 31, 22, 1, 3, 33 and 5 from unit to unit, and one cycle for the second group.
   EXPECT_EQ(b.engine.edge_latency.count(), 1u);
   EXPECT_EQ(b.engine.edge_latency.sum(), 99u);
 }
-// Nothing but the begin, and the end on its way through all units and through the resolve: who has
-// nothing to read waits for nothing.
-TEST(Accounts, OfAFrameWithoutEdges) {
+// Only the begin, and the end passing through all units and the resolve: a unit without reads does
+// not wait.
+TEST(CycleClasses, CyclesOfEmptyFrameMatch) {
   EngineBench b;
   b.load(blank(16, 8));
   EXPECT_EQ(b.run(), 195u);
   const std::map<std::string, std::string> wanted = {
       {"frame_sequencer", "busy 195"},
       {"facing_store", "busy 2, memory 24, idle 169"},
-      // Tags are cleared, and the end goes clock by clock through the stages.
+      // Tags are cleared, and the end passes the stages cycle by cycle.
       {"edge_reader", "busy 1, idle 194"},
       {"edge_classifier", "busy 3, idle 192"},
       {"vertex_fetch", "busy 68, idle 127"},
@@ -449,12 +449,12 @@ TEST(Accounts, OfAFrameWithoutEdges) {
       {"block_scanner", "busy 4, idle 191"},
       {"block_fetch", "busy 4, idle 191"},
       {"resolver", "busy 1, idle 194"},
-      // A line of facing bits.
+      // One line of facing bits.
       {"memory_arbiter", "busy 2, idle 193"},
       {"memory_port", "busy 2, memory 20, idle 173"}};
-  EXPECT_EQ(accounts_of(b), wanted);
+  EXPECT_EQ(cycle_classes_of(b), wanted);
 }
-// The same line among edges of every other kind.
+// The same line together with edges of every other kind.
 Scene lines_among_others() {
   Scene scene = blank(16, 8);
   const auto add = [&](int y, std::uint32_t depth) {
@@ -468,27 +468,27 @@ Scene lines_among_others() {
   add(100, 2000);                                         // no neighbour above
   add(512 + 100, 2000);
   scene.edges.push_back({2, 2, 0, 0, flag::kBoundary});  // degenerate
-  add(512 + 100, 10);                                    // behind
+  add(512 + 100, 10);                                    // behind the surface
   add(20 * 256, 2000);                                   // empty
   add(3 * 256 + 180, 2000);
   return scene;
 }
-// None of the others is counted.
-TEST(Accounts, LatencyIsThatOfLinesWithAPixelThatPasses) {
+// Only the two lines with a passing pixel are measured.
+TEST(CycleClasses, LatencyCountsOnlyLinesWithAPassingPixel) {
   EngineBench b;
   b.load(lines_among_others());
   b.run();
   EXPECT_EQ(b.engine.work().kept_edges, 6u);
   EXPECT_EQ(b.engine.work().lines, 4u);
   EXPECT_EQ(b.engine.work().passed, 16u);
-  // As above, behind one or two edges more.
+  // As above, after one or two more edges.
   EXPECT_EQ(b.engine.edge_latency.count(), 2u);
   EXPECT_EQ(b.engine.edge_latency.min(), 101u);
   EXPECT_EQ(b.engine.edge_latency.max(), 103u);
 }
-// Nor with split records, where the flat edge is dropped before its vertices are known, and the
-// invalid one after that. One edge a clock: no two leave together.
-TEST(Accounts, LatencyWithSplitRecordsIsThatOfTheSameLines) {
+// The same with split records, which drop the flat edge before its vertices are known and the
+// invalid one after that. With one edge per cycle, two edges never leave together.
+TEST(CycleClasses, SplitRecordsMeasureTheSameLines) {
   using spec::geometric::RecordsLayout;
   const auto latencies = [](RecordsLayout records) {
     return forked<std::array<Cycle, 3>>([&] {
@@ -505,14 +505,14 @@ TEST(Accounts, LatencyWithSplitRecordsIsThatOfTheSameLines) {
   };
   const std::array<Cycle, 3> joined = latencies(RecordsLayout::kJoined);
   EXPECT_EQ(joined[0], 2u);
-  // A unit more on their way, which waits for its line as that of the vertices does.
+  // One more unit on the path, which waits for its line as VertexFetch does.
   const Cycle more = rtl::geometric::PairFetch::datasheet().latency.cycles + 26;
   EXPECT_EQ(latencies(RecordsLayout::kSplit),
             (std::array<Cycle, 3>{2, joined[1] + more, joined[2] + more}));
 }
-// Few places everywhere and a single divider, so that units wait for each other, for every cause
-// that there is but `fills`, and `downstream` of the Resolver.
-TEST(Accounts, OfAFrameThatWaits) {
+// Small buffers everywhere and a single divider, so that units wait for each other, with every
+// stall cause except `fills` and the Resolver's `downstream`.
+TEST(CycleClasses, CyclesOfStalledFrameMatch) {
   Parameters p;
   p.coverage = spec::geometric::CoverageRule::kDistance;
   p.layout = spec::geometric::Layout::kRaster;
@@ -544,16 +544,16 @@ TEST(Accounts, OfAFrameThatWaits) {
       {"resolver", "busy 292, colours 1018, idle 1210"},
       {"memory_arbiter", "busy 1085, downstream 990, idle 445"},
       {"memory_port", "busy 1013, outstanding 1160, memory 326, idle 21"}};
-  EXPECT_EQ(accounts_of(b), wanted);
+  EXPECT_EQ(cycle_classes_of(b), wanted);
   EXPECT_EQ(b.engine.edge_latency.count(), 40u);
   EXPECT_EQ(b.engine.edge_latency.sum(), 20401u);
 }
 
 // ---- cycles
 
-// Blocks that spill wait for the answers of their writes: no bound from above for their edges.
+// Blocks that spill wait for the responses to their writes, so their edges have no upper bound.
 class PageCycles : public ::testing::TestWithParam<char> {};
-TEST_P(PageCycles, LieAboveTheBounds) {
+TEST_P(PageCycles, FramesOfThePageLieAboveTheBounds) {
   EngineBench b(configuration(GetParam()).p);
   const Scene scene = contract_scene();
   b.load(scene);
@@ -563,7 +563,7 @@ TEST_P(PageCycles, LieAboveTheBounds) {
 INSTANTIATE_TEST_SUITE_P(Page, PageCycles, ::testing::Range('a', 'o'));
 
 class Cycles : public ::testing::TestWithParam<Lanes> {};
-TEST_P(Cycles, OfShortLinesAreNearTheBound) {
+TEST_P(Cycles, ShortLinesAreNearTheBound) {
   Parameters p;
   p.walkers = GetParam();
   p.weight_blocks = CacheLines::k1024;
@@ -577,9 +577,9 @@ TEST_P(Cycles, OfShortLinesAreNearTheBound) {
 INSTANTIATE_TEST_SUITE_P(Walkers, Cycles,
                          ::testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour));
 
-// Any edges and builds; blocks that spill and few places for lines have no bound from above.
+// Random edges and builds. Blocks that spill and small buffers have no upper bound.
 class RandomCycles : public ::testing::TestWithParam<int> {};
-TEST_P(RandomCycles, LieBetweenTheBounds) {
+TEST_P(RandomCycles, RandomFramesLieBetweenTheBounds) {
   std::uint32_t s = static_cast<std::uint32_t>(GetParam()) * 2654435761u + 1;
   const auto below = [&s](int bound) {
     s = 1664525u * s + 1013904223u;
@@ -614,7 +614,7 @@ TEST_P(RandomCycles, LieBetweenTheBounds) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCycles, ::testing::Range(0, 40));
 
-TEST(CyclesOf, FlatEdges) {
+TEST(CyclesOf, FlatEdgesTakeOneCyclePerBeat) {
   for (const auto& [lanes, count] :
        {std::pair{Lanes::kOne, 1u}, {Lanes::kTwo, 2u}, {Lanes::kFour, 4u}}) {
     const std::string got = in_child([lanes = lanes, count = count] {
@@ -626,14 +626,15 @@ TEST(CyclesOf, FlatEdges) {
       scene.edges.assign(4000, Edge{0, 1, 0, 0, 0});
       b.load(scene);
       b.run();
-      // Beside the beats: 128 tags are cleared, and the end takes 50 cycles through all units.
+      // In addition to the beats: 128 tags are cleared, and the end takes 50 cycles through all
+      // units.
       return std::to_string(b.bus.read(reg::kEdgeCycles) - 4000 / count);
     });
     EXPECT_EQ(got, "178") << count;
   }
 }
-// The begin clears a word of touched bits a clock, or waits for the last facing bits.
-TEST(CyclesOf, TheBegin) {
+// The begin clears one word of touched bits per cycle, or waits for the last facing bits.
+TEST(CyclesOf, BeginClearsOneWordPerCycle) {
   for (const auto& [height, faces, cycles] :
        {std::tuple{512, 1, 128}, {516, 1, 129}, {1200, 1, 300}, {64, 512 * 64, 128}}) {
     const std::string got = in_child([height = height, faces = faces] {
@@ -650,7 +651,7 @@ TEST(CyclesOf, TheBegin) {
     EXPECT_EQ(got, std::to_string(cycles + 50)) << height << " " << faces;
   }
 }
-TEST(CyclesOf, OneLongLine) {
+TEST(CyclesOf, LongLineTakesOneCyclePerGroup) {
   Parameters p;
   p.line_pixels = 8192;
   p.walkers = Lanes::kOne;
@@ -663,10 +664,11 @@ TEST(CyclesOf, OneLongLine) {
   b.load(scene);
   b.run();
   EXPECT_EQ(b.engine.work().groups, 2000u);
-  // 1024 tags; the end's way, a vertex, a line of depth and the answer of the last write.
+  // 1024 tags; the path of the end, one vertex, one line of depth and the response to the last
+  // write.
   EXPECT_EQ(b.bus.read(reg::kEdgeCycles), 2000u + 1024 + 122);
 }
-TEST(CyclesOf, Dividers) {
+TEST(CyclesOf, DividedLinesStayWithinBounds) {
   for (const int dividers : {1, 3}) {
     const std::string got = in_child([dividers] {
       Parameters p;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What lies in memory beside what docs/reference/geometric/memory.md gives a meaning
-// to: bits of their records that are ignored, records after the last one, what lies between rows
-// and tiles, room for weights and for the copy before a frame; bits of registers that no field has,
-// and registers that a build has no use for. Whatever is there, a frame is the same, in pixels,
-// accesses and cycles; and each of the other bits counts, or the noise would prove nothing.
+// Memory contents and register bits without a meaning by docs/reference/geometric/memory.md:
+// ignored bits of records, records after the last one, bytes between rows and tiles, the regions of
+// weights and of the copy before a frame, unused register bits, and registers that a build does not
+// use. With any values there, a frame has the same pixels, accesses and cycles. As a control,
+// changing the other bits must change the frame.
 #include <bit>
 #include <functional>
 #include <ostream>
@@ -17,10 +17,10 @@ namespace {
 
 using spec::geometric::Region;
 
-// Of each word of a region the bits that have a meaning.
+// The bits with a meaning in each word of a region.
 using Meaning = std::vector<std::uint32_t>;
 
-// An engine of the contract's vectors, and what is set beside that.
+// An engine of the contract's vectors, with additional settings.
 struct Build {
   char configuration;
   const char* settings = "";
@@ -36,8 +36,8 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     apply_settings(p, GetParam().settings);
     return p;
   }
-  // Neither table ends with a line of memory, nor do the rows and tiles of the frame; a fifth of
-  // the vertices is not usable.
+  // Neither the tables nor the rows and tiles of the frame end with a line of memory; one fifth of
+  // the vertices is unusable.
   static Scene scene_of_the_frame() {
     Scene scene = contract_scene();
     scene.edges.resize(47);
@@ -49,7 +49,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
   bool is_split() const { return b.p.records == spec::geometric::RecordsLayout::kSplit; }
   bool is_screened() const { return b.p.coarse_lines != spec::geometric::CoarseLines::kNone; }
 
-  // Bits of a record of six bytes, of which a line of memory has ten.
+  // Marks bits of a record of six bytes; a line of memory holds ten records.
   static void mean(Meaning& words, std::size_t record, std::size_t low, std::size_t high) {
     const std::size_t first = 8 * (64 * (record / 10) + 6 * (record % 10));
     for (std::size_t bit = first + low; bit <= first + high; ++bit)
@@ -67,7 +67,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     const std::uint64_t boundaries = platform::boundaries_of(scene.edges),
                         others = scene.edges.size() - boundaries;
     for (std::size_t i = 0; i < boundaries; ++i) mean(words, i, 0, 47);
-    // The second array begins with a line.
+    // The second array starts with a new line.
     for (std::size_t i = 0; i < others; ++i) mean(words, (boundaries + 9) / 10 * 10 + i, 0, 47);
   }
   void mean_tiles(Meaning& words) const {
@@ -131,13 +131,13 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
       case Region::kCoarse:
         if (is_screened()) mean_tiles(words);
         break;
-      default:  // weights, copy: room
+      default:  // weights, copy: written by the engine only
         break;
     }
     return words;
   }
 
-  // A frame in which these bits of a region are inverted beforehand.
+  // Runs a frame in which these bits of a region are inverted first.
   Trail run(Region region, const std::function<std::uint32_t(std::uint32_t meaning)>& inverted) {
     b.reset(40);
     b.load(scene);
@@ -155,7 +155,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
   const Scene scene = scene_of_the_frame();
 };
 
-TEST_P(IgnoredBits, ChangeNothing) {
+TEST_P(IgnoredBits, MemoryNoiseChangesNothing) {
   b.reset(40);
   b.load(scene);
   b.run();
@@ -177,10 +177,10 @@ TEST_P(IgnoredBits, ChangeNothing) {
   EXPECT_GT(ignored, 10'000u);
 }
 
-// The highest bit of each word that has a meaning; of faces any of them, since with cull = none
-// only those count that differ from their neighbours, and of split records, of whose flags the
-// highest does not always count.
-TEST_P(IgnoredBits, AreNoOthers) {
+// Inverts the highest meaningful bit of each word. Random bits are used for faces, because with
+// cull = none only faces that differ from their neighbours matter, and for split records, whose
+// highest flag does not always matter.
+TEST_P(IgnoredBits, MeaningfulBitsChangeTheFrame) {
   b.reset(40);
   b.load(scene);
   b.run();
@@ -199,8 +199,8 @@ TEST_P(IgnoredBits, AreNoOthers) {
   }
 }
 
-// Bits of every register that no field has, in the write that starts a frame, too.
-TEST_P(IgnoredBits, OfRegistersChangeNothing) {
+// Writes noise to the unused bits of every register, including the write that starts a frame.
+TEST_P(IgnoredBits, RegisterNoiseChangesNothing) {
   b.reset(40);
   b.load(scene);
   b.run();
@@ -229,11 +229,11 @@ TEST_P(IgnoredBits, OfRegistersChangeNothing) {
   EXPECT_GT(ignored, 200u);
 }
 
-// Registers that this build, or its rules, have no use for; each of the others counts, a little
-// more or less of it.
-TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
+// Registers that this build or its configuration does not use. Each other register matters when it
+// is changed a little.
+TEST_P(IgnoredBits, UnusedRegistersAreIgnored) {
   using spec::geometric::DepthTest;
-  const auto of_no_use = [&](std::uint32_t offset) {
+  const auto is_unused = [&](std::uint32_t offset) {
     switch (offset) {
       case reg::kFaceCount:
       case reg::kFaceBase:
@@ -266,7 +266,7 @@ TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
   for (const spec::RegisterInfo& info : spec::geometric::kRegisters) {
     if (info.written() == 0 || info.offset == reg::kControl) continue;
     SCOPED_TRACE(info.name);
-    if (of_no_use(info.offset)) {
+    if (is_unused(info.offset)) {
       for (const std::uint32_t value : {0u, 1u, ~0u}) {
         EXPECT_EQ(frame_difference(fresh, run_with(info.offset, value)), "") << value;
         EXPECT_EQ(b.driver.rejection(), spec::geometric::Rejection::kNone);
@@ -285,8 +285,8 @@ TEST_P(IgnoredBits, AreWholeRegistersOfWhatIsNotUsed) {
   }
 }
 
-// In tiles and in rows; of chosen edges and of all of them; blended in place and from a copy;
-// without a depth test; with records in two arrays and with coarse depth.
+// Tiles and rows; selected edges and all edges; blending in place and from a copy; no depth test;
+// records in two arrays, and coarse depth.
 INSTANTIATE_TEST_SUITE_P(
     Configurations, IgnoredBits,
     ::testing::Values(Build{'a'}, Build{'d'}, Build{'f'}, Build{'h'}, Build{'l'},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Colours that are kept: in which clock a line that is kept can be used, as
-// docs/reference/geometric/memory.md has it. Which lines the resolve reads is compared with the
-// golden model by tb/system/geometric_system_test.cpp.
+// Kept colours: the cycle in which a kept line can be used, by docs/reference/geometric/memory.md.
+// tb/system/geometric_system_test.cpp compares the lines that the resolve reads with the golden
+// model.
 #include <deque>
 #include <set>
 
@@ -42,12 +42,12 @@ struct Store {
     ASSERT_TRUE(filler.can_order_kept(cycle));
     filler.order_kept(cycle, *place);
   }
-  // What memory answers to the oldest miss.
+  // The response to the oldest miss.
   void fill(rtl::Cycle cycle, std::uint8_t value) {
     filler.fill(cycle, places.front(), line_of(value));
     places.pop_front();
   }
-  // The reader's clock: takes a line if it is there, else gives -1.
+  // One cycle of the reader: takes a line if it is ready, otherwise returns -1.
   int take(rtl::Cycle cycle) {
     int value = -1;
     if (reader.ready(cycle)) {
@@ -63,7 +63,7 @@ struct Store {
   std::deque<std::uint32_t> places;
 };
 
-TEST(ColourStore, AHitIsThereInTheSecondClockAfterItsLookUp) {
+TEST(ColourStore, HitIsReadyTwoCyclesAfterItsLookup) {
   Store s(keeping(2));
   s.miss(1, kA);
   s.fill(10, 7);
@@ -74,8 +74,8 @@ TEST(ColourStore, AHitIsThereInTheSecondClockAfterItsLookUp) {
   EXPECT_EQ(s.take(21), -1);
   EXPECT_EQ(s.take(22), 7);
 }
-// A miss, a hit of it that is ordered while it is on its way, an older hit, a miss: one a clock.
-TEST(ColourStore, ALineAClockHitOrMiss) {
+// A miss, a hit on it while it is in flight, an older hit, a miss: one per cycle.
+TEST(ColourStore, OneLinePerCycleHitOrMiss) {
   Store s(keeping(2));
   s.miss(1, kA);
   s.fill(2, 1);
@@ -93,7 +93,7 @@ TEST(ColourStore, ALineAClockHitOrMiss) {
   EXPECT_EQ(s.take(35), 3);
 }
 // Eight entries, and one that is being taken.
-TEST(ColourStore, WithoutAnEntryNothingIsOrdered) {
+TEST(ColourStore, FullOrderQueueBlocksHitsAndMisses) {
   Store s(keeping(1));
   s.miss(1, kA);
   for (rtl::Cycle c = 2; c < 10; ++c) {
@@ -109,7 +109,7 @@ TEST(ColourStore, WithoutAnEntryNothingIsOrdered) {
   EXPECT_EQ(s.take(12), 1);
   EXPECT_FALSE(s.filler.can_order_kept(12));
   EXPECT_TRUE(s.filler.can_order_kept(13));
-  // Misses need a place besides.
+  // A miss also needs a line in the store.
   Store m(keeping(8));
   for (std::uint32_t i = 0; i < 8; ++i) {
     m.miss(1 + i, 200 + i);
@@ -118,7 +118,7 @@ TEST(ColourStore, WithoutAnEntryNothingIsOrdered) {
   EXPECT_TRUE(m.filler.can_order_kept(10));
   EXPECT_FALSE(m.filler.can_order_read(10));
 }
-TEST(ColourStore, AFrameAndAResetBeginWithNothingKept) {
+TEST(ColourStore, FrameAndResetStartEmpty) {
   for (const bool reset : {false, true}) {
     Store s(keeping(3));
     s.miss(1, kA);
@@ -138,7 +138,7 @@ TEST(ColourStore, AFrameAndAResetBeginWithNothingKept) {
     EXPECT_FALSE(s.filler.find(kB).has_value());
     s.places.clear();
     for (rtl::Cycle c = 12; c < 15; ++c) EXPECT_EQ(s.take(c), -1);
-    // The first place again.
+    // The first line of the store again.
     s.miss(20, kC);
     s.miss(21, kD);
     EXPECT_EQ(s.filler.find(kC), 0);
@@ -149,7 +149,7 @@ TEST(ColourStore, AFrameAndAResetBeginWithNothingKept) {
     EXPECT_EQ(s.take(25), 4);
   }
 }
-TEST(ColourStore, ATagIsOneLineOfItsLayout) {
+TEST(ColourStore, EachLineHasItsOwnTag) {
   std::set<std::uint32_t> tags;
   for (const std::uint32_t u : {0u, 1u, 511u})
     for (const std::uint32_t v : {0u, 1u, 511u, 2047u, 4095u, 8191u}) {
@@ -176,14 +176,14 @@ Parameters kept(int lines) {
   return p;
 }
 
-// A block whose only line is kept, behind a block whose line came long before: the line is taken in
-// the second clock after its look-up, in stage 1 of the Resolver.
-TEST(KeptColours, LatencyOfABlockThatReadsNothing) {
+// The only line of the second block is kept, and the previous block's line came long before. The
+// line is taken in the second cycle after its lookup, in stage 1 of the Resolver.
+TEST(KeptColours, LatencyOfAKeptBlockMatchesDatasheets) {
   ResolveBench b(kept(4), 256, 64);
-  // Block (1, 1) takes from the right and reads both lines; block (2, 1) needs its own.
+  // Block (1, 1) takes from the right and reads both lines; block (2, 1) needs only its own.
   b.touch(1, 1, 1u << 7, true, true);
   b.touch(2, 1, 1u << 5);
-  b.before_clock = [&b] {
+  b.before_cycle = [&b] {
     if (b.touched.pops() == 1 && !b.at["touched"].empty() &&
         b.clock.cycle() < b.at["touched"][0] + 100)
       b.touched.hold_pop(b.clock.cycle());
@@ -197,8 +197,8 @@ TEST(KeptColours, LatencyOfABlockThatReadsNothing) {
   expect_latency(Resolver::datasheet(), b.at["writes"][1] - b.at["hits"][0] - 2 + 1);
 }
 
-// A clock for each line of a block, hit or miss.
-TEST(KeptColours, AClockForEachLine) {
+// One cycle for each line of a block, hit or miss.
+TEST(KeptColours, OneCyclePerLine) {
   for (const int lines : {0, 128}) {
     const std::string got = in_child([lines] {
       ResolveBench b(kept(lines), 256, 64);
@@ -216,8 +216,8 @@ TEST(KeptColours, AClockForEachLine) {
   }
 }
 
-// Hits need no place of a line that is on its way, but an entry in the order of lines.
-TEST(KeptColours, StallsWithoutAnEntry) {
+// Hits do not need a free line of the store, but they need an entry in the order of lines.
+TEST(KeptColours, StallsWithoutAFreeEntry) {
   const auto waits = [](int lines) {
     return in_child([lines] {
       Parameters p = kept(lines);
@@ -231,7 +231,7 @@ TEST(KeptColours, StallsWithoutAnEntry) {
              std::to_string(cycles / 100);
     });
   };
-  // Eight lines in a round trip of some 208 cycles: 80 of them, or 41 of 80.
+  // Eight lines per round trip of about 208 cycles, for 80 lines, or 41 of 80 with kept colours.
   EXPECT_EQ(waits(0), "stalls 20");
   EXPECT_EQ(waits(128), "stalls 18");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The geometric engine for the suites of every engine (tb/harness/engine_kit.h).
+// The geometric engine for the test suites that every engine runs (tb/harness/engine_kit.h).
 #pragma once
 
 #include "rtl_model/geometric/common/frame_configuration.h"
@@ -12,11 +12,11 @@ namespace deburr::tb::geometric_rtl {
 
 class Kit : public EngineKit {
  public:
-  // An engine of the contract's vectors with little room, and what is set beside that.
+  // An engine of the contract's vectors with small buffers, and additional settings.
   struct Build {
     char configuration;
     const char* settings = "";
-    int right = 0;  // how far its frames are moved to the right, which makes them as much wider
+    int right = 0;  // shifts the frames to the right by this many pixels, which widens them
   };
   static const std::array<Build, 18> kBuilds;
   static std::string text_of(const Build& build) {
@@ -50,7 +50,7 @@ class Kit : public EngineKit {
   }
   bool done() const { return b_.engine.idle(); }
   Outcome outcome() {
-    Outcome outcome = came_of(b_);
+    Outcome outcome = outcome_of(b_);
     outcome.cycles.emplace_back("cycles", std::array{b_.clock.cycle() - begin_});
     return outcome;
   }
@@ -65,7 +65,7 @@ class Kit : public EngineKit {
   static constexpr bool kPrograms = true;
   void reset(Cycle cycles) { b_.reset(cycles); }
 
-  // --- resets: a late write of before would spoil what is loaded next ---
+  // --- resets: long enough that no late write of the previous frame overwrites the next input ---
   static constexpr Cycle kStep = 3;
   static constexpr Cycle short_reset() { return 40; }
   static constexpr Cycle long_reset() { return 40; }
@@ -87,7 +87,7 @@ class Kit : public EngineKit {
     b_.memory.fail_request(b_.memory.reads() + b_.memory.writes() + 9);
     b_.start();
     b_.clock.run(50);
-    b_.bus.write(reg::kSize, 1);  // while a frame is inside
+    b_.bus.write(reg::kSize, 1);  // during a frame
     EXPECT_TRUE(b_.clock.run_until([this] { return done(); }, 50'000));
     b_.bus.write(reg::kSize, 0);
     b_.start();
@@ -102,7 +102,7 @@ class Kit : public EngineKit {
     EXPECT_EQ(b_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register noise: starts with garbage among it ---
+  // --- register noise: includes starts with random register values ---
   static constexpr std::uint32_t kMostOffset = 0x200, kCycles = 60;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
@@ -123,7 +123,7 @@ class Kit : public EngineKit {
   static constexpr const char* kTables = "reference/geometric/hardware.md";
   static constexpr const char* kHeader = "rtl_model/geometric/geometric_engine.h";
   static constexpr const char* kFigure = "reference/geometric/hardware.md";
-  // The last one: with all that an engine can be built with.
+  // The last build has every option of the engine.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters one, split, all;
     one.edge_lanes = one.walkers = spec::geometric::Lanes::kOne;
@@ -172,7 +172,7 @@ class Kit : public EngineKit {
 
 inline void PrintTo(const Kit::Build& build, std::ostream* out) { *out << Kit::text_of(build); }
 
-// Wide frames have two words of touched blocks a row.
+// Wide frames have two words of touched blocks per row.
 inline constexpr std::array<Kit::Build, 18> Kit::kBuilds = {{
     {'c'},
     {'e'},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reset, register noise, stress and tokens of the geometric engine, by its kit.
+// Runs the suites for reset, register noise, stress and tokens with the geometric engine.
 #include "tb/unit/rtl/geometric/kit.h"
 
 #include "tb/unit/rtl/engine_suites.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The LineCache by itself, cycle by cycle: what is looked up, requested and used, and when.
+// The LineCache on its own, cycle by cycle: lookups, requests and uses.
 #include "rtl_model/geometric/common/line_cache.h"
 
 #include <string>
@@ -17,7 +17,7 @@ using rtl::MemoryKind;
 
 constexpr Activity kNoLine{5}, kNoFill{6};
 
-// Eight lines of a byte. Line n has index n mod 8 and address 100 + n.
+// Eight lines of one byte. Line n has index n mod 8 and address 100 + n.
 struct CacheBench {
   explicit CacheBench(MemoryKind kind = MemoryKind::kSram, std::int32_t fills = 8)
       : cache({.lines = 8,
@@ -36,7 +36,8 @@ struct CacheBench {
     for (std::size_t port = 0; port < lines.size(); ++port)
       cache.find(cycle, port, lines[port] % 8, 0x80 | lines[port]);
   }
-  // "idle 2, 1 decided": lookups that have missed so far, and those decided in this cycle.
+  // "idle 2, 1 decided": a bit mask of lookups that have missed so far, and the number decided in
+  // this cycle.
   std::string look_up(Cycle cycle) {
     const Activity did = cache.look_up(cycle, memory, [&](auto port) { return 100 + lines[port]; });
     return std::string(did == kIdle     ? "idle "
@@ -46,11 +47,11 @@ struct CacheBench {
            std::to_string(cache.missed()) + ", " + std::to_string(cache.decided(cycle)) +
            " decided";
   }
-  // The address that memory takes; 0: there is no request.
+  // The address that memory takes; 0 without a request.
   std::uint64_t taken(Cycle cycle) {
     return requests.can_pop(cycle) ? requests.take(cycle).address : 0;
   }
-  // Taken by finish() in the next cycle.
+  // finish() takes it in the next cycle.
   void answer(Cycle cycle, std::uint32_t entry, std::uint8_t byte) {
     rtl::MemoryResponse& response = responses.emplace(cycle);
     response.tag = entry;
@@ -73,8 +74,8 @@ struct CacheBench {
   std::array<int, 2> installed{};  // by port
 };
 
-// A tag is compared in the cycle after its address, in flip-flops in the same one; it is the new
-// one where it is written in the cycle of its address.
+// A tag is compared in the cycle after its address, or in the same cycle with flip-flops. If it is
+// written in the cycle of its address, the new value is read.
 TEST(LineCache, ComparesTagsAfterTheirLatency) {
   CacheBench b;
   b.find(10, {3});
@@ -91,7 +92,7 @@ TEST(LineCache, ComparesTagsInFlipFlopsAtOnce) {
   b.find(11, {3});
   EXPECT_EQ(b.look_up(11), "idle 0, 1 decided");
 }
-// A token per cycle, one more where both of its lookups miss.
+// One token per cycle, plus one cycle if both of its lookups miss.
 TEST(LineCache, RequestsOneLinePerCycle) {
   CacheBench b;
   Cycle cycle = 10;
@@ -108,11 +109,11 @@ TEST(LineCache, RequestsOneLinePerCycle) {
   EXPECT_EQ(next({4, 1}), "idle 1, 2 decided 104");
   EXPECT_EQ(next({1, 4}), "idle 0, 2 decided");
   EXPECT_EQ(next({9}), "idle 1, 1 decided 109") << "another line of an index";
-  // The line of the second is there when the tags are compared, but the first one replaces it.
+  // The second one's line is present when the tags are compared, but the first one replaces it.
   EXPECT_EQ(next({1, 9}), "busy 1, 2 decided; idle 3, 0 decided 101 109");
   EXPECT_EQ(next({9, 1}), "idle 2, 2 decided 101");
 }
-// Nothing is decided or changes until memory has room; a lookup that hits needs none.
+// Nothing is decided or changed until memory has room; a lookup that hits does not need room.
 TEST(LineCache, WaitsForMemory) {
   CacheBench b;
   b.find(9, {7});
@@ -129,8 +130,8 @@ TEST(LineCache, WaitsForMemory) {
   b.find(15, {1, 3});
   EXPECT_EQ(b.look_up(16), "idle 0, 2 decided");
 }
-// A line that arrives in cycle t is used from t + 2 on, one per cycle, in the order of requests;
-// its entry is free, and its word there, a cycle later.
+// A line that arrives in cycle t can be used from t + 2 on, one per cycle, in the order of
+// requests. One cycle later its fill entry is free and its word is readable.
 TEST(LineCache, InstallsOneLinePerCycleInTheOrderOfRequests) {
   CacheBench b(MemoryKind::kSram, 2);
   b.find(10, {1, 2});
@@ -158,7 +159,8 @@ TEST(LineCache, InstallsOneLinePerCycleInTheOrderOfRequests) {
   EXPECT_EQ(b.cache.word(27, 0, 2), 22);
   EXPECT_EQ(b.cache.word(27, 1, 1), 11);
 }
-// Tags change ahead: a line stays in the data until the token that replaces it uses its own.
+// Tags are updated early: a line stays in the data until the token that replaces it uses its own
+// line.
 TEST(LineCache, DataChangeInTheOrderOfTokens) {
   CacheBench b(MemoryKind::kFlops);
   const std::vector<std::uint32_t> tokens = {1, 1, 9, 9, 1};
@@ -190,14 +192,14 @@ TEST(LineCache, DataChangeInTheOrderOfTokens) {
   }
   EXPECT_EQ(words, "30 31, 30 31, 32 31, 32 31, 33 31, ");
 }
-// SRAM in a cycle per tag, flip-flops in one.
+// SRAM is cleared in one cycle per tag, flip-flops in one cycle.
 TEST(LineCache, EmptiesTagsBeforeAFrame) {
   for (const Cycle clears : {8, 1}) {
     CacheBench b(clears == 1 ? MemoryKind::kFlops : MemoryKind::kSram);
     rtl::Wire<bool> wire("wire", false);
     rtl::WireOut<bool> cleared("cleared");
     cleared(wire);
-    // Of each lookup whether the tag is empty; its line takes it.
+    // For each lookup, whether the tag is empty; its line then fills it.
     const auto empty = [&](Cycle cycle) {
       std::string text;
       for (std::uint32_t line = 0; line < 8; ++line) {
@@ -222,8 +224,9 @@ TEST(LineCache, EmptiesTagsBeforeAFrame) {
     EXPECT_EQ(b.cache.clear(80), kBusy) << "after a reset from the first one on";
   }
 }
-// Busy where either half worked or an answer came, else the stall of the data, else of the tags.
-TEST(LineCache, SaysWhatItsUnitDid) {
+// Busy if either half worked or a response came; otherwise the stall of the data, or else that of
+// the tags.
+TEST(LineCache, ReportsTheActivityOfItsUnit) {
   CacheBench b;
   EXPECT_EQ(b.finish(10, kIdle, kIdle), kIdle);
   EXPECT_EQ(b.finish(11, kNoLine, kBusy), kBusy);

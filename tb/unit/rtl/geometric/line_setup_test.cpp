@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LineSetup: lines against the golden model with every way to a reciprocal; latency and intervals.
+// LineSetup: lines against the golden model with every kind of reciprocal; latency and intervals.
 #include "rtl_model/geometric/lines/line_setup.h"
 
 #include "golden/geometric/line.h"
@@ -39,7 +39,7 @@ struct SetupBench : Frame {
 };
 
 VertexFields vertex(int x, int y, std::uint32_t depth) { return {x, y, depth, true}; }
-// From major, minor and depth of both ends.
+// Major and minor coordinate and depth of both ends.
 EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
   const auto make = [&](const std::array<int, 3>& e) {
     return vertex(horizontal ? e[0] : e[1], horizontal ? e[1] : e[0],
@@ -50,9 +50,10 @@ EdgeEnds edge(bool horizontal, std::array<int, 3> a, std::array<int, 3> b) {
 
 class Reciprocals : public ::testing::TestWithParam<int> {};
 
-// Ends apart by all powers of two, in a frame with odd sides; a table of n bits. Ends on borders of
-// the frame and on centres of its pixels, in one place, and out of the guard band.
-TEST_P(Reciprocals, SetsUpLinesAsGolden) {
+// Distances between the ends of all powers of two, in a frame with odd sides, with a table of n
+// bits. Also ends on borders of the frame, on pixel centres, at the same position, and outside the
+// guard band.
+TEST_P(Reciprocals, LinesMatchGolden) {
   using golden::geometric::LineFate;
   constexpr int kWidth = 1021, kHeight = 333;
   Parameters p;
@@ -126,7 +127,7 @@ EdgeEnds some_line(int length = 5000) {
   return edge(true, {1000, 1000, 1}, {1000 + length, 2000, 7});
 }
 
-TEST(LineSetup, LatencyOfTheDatasheet) {
+TEST(LineSetup, LatencyMatchesDatasheet) {
   Parameters p;
   for (const bool pipelined : {true, false}) {
     p.pipelined = pipelined;
@@ -138,7 +139,7 @@ TEST(LineSetup, LatencyOfTheDatasheet) {
   }
 }
 
-// Cycles between the first and the last of so many lines.
+// Cycles between the first and the last line.
 std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
   return in_child([&] {
     SetupBench b(p);
@@ -148,7 +149,7 @@ std::string spread(const Parameters& p, const std::vector<EdgeEnds>& edges) {
   });
 }
 
-// So many intervals of the datasheet.
+// Cycles of this number of intervals of the datasheet.
 std::string after(std::uint64_t lines, const Parameters& p) {
   return std::to_string(lines * rtl::geometric::LineSetup::datasheet(p).interval.cycles);
 }
@@ -156,7 +157,7 @@ std::string after(std::uint64_t lines, const Parameters& p) {
 TEST(LineSetup, IntervalIsOneIfPipelined) {
   EXPECT_EQ(spread({}, std::vector<EdgeEnds>(101, some_line())), after(100, {}));
 }
-TEST(LineSetup, IntervalIsThirteenADivider) {
+TEST(LineSetup, IntervalIsThirteenPerDivider) {
   Parameters p;
   p.pipelined = false;
   const std::string ten_lines = after(10, p);
@@ -166,16 +167,16 @@ TEST(LineSetup, IntervalIsThirteenADivider) {
     EXPECT_EQ(spread(p, std::vector<EdgeEnds>(lines, some_line())), ten_lines) << dividers;
   }
 }
-TEST(LineSetup, LinesOfTheTableWaitForNoDivider) {
+TEST(LineSetup, TableLinesDoNotWaitForADivider) {
   Parameters p;
   p.pipelined = false;
   p.reciprocal_table = 10;
   EXPECT_EQ(spread(p, std::vector<EdgeEnds>(101, some_line(1023))), "100");
   EXPECT_EQ(spread(p, std::vector<EdgeEnds>(11, some_line(1024))), "130");
 }
-// Of every length that a table has, a 256th of a pixel too: none of them takes a divider, which is
-// busy with the line before them.
-TEST(LineSetup, NoLengthOfATableWaitsForADivider) {
+// All lengths of a table, also those of 1/256 pixel: none of them uses a divider, which is busy
+// with the line before them.
+TEST(LineSetup, EveryTableLengthAvoidsTheDivider) {
   Parameters p;
   p.pipelined = false;
   for (int bits = 1; bits <= spec::geometric::kMaxReciprocalBits; ++bits) {
@@ -184,7 +185,7 @@ TEST(LineSetup, NoLengthOfATableWaitsForADivider) {
     const std::string got = in_child([&] {
       SetupBench b(p);
       std::vector<EdgeEnds> edges = {some_line()};
-      // From the centre of a pixel on, so that each has a column.
+      // Starting at the centre of a pixel, so that each line has a column.
       for (int length = 1; length <= lengths; ++length)
         edges.push_back(edge(true, {128, 1000, 1}, {128 + length, 1000, 7}));
       b.run(edges);
@@ -198,7 +199,7 @@ TEST(LineSetup, NoLengthOfATableWaitsForADivider) {
         << bits;
   }
 }
-TEST(LineSetup, ADroppedEdgeTakesAClock) {
+TEST(LineSetup, DroppedEdgeTakesOneCycle) {
   std::vector<EdgeEnds> edges(100, some_line());
   for (std::size_t i = 1; i < 99; i += 2) edges[i].vertex[0].usable = false;
   EXPECT_EQ(spread({}, edges), "99");

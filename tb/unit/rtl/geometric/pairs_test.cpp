@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// records = split: the EdgeClassifier that counts where the vertices of each edge are, and the
-// PairFetch. Memory answers 20 cycles after a request.
+// records = split: the EdgeClassifier that numbers the vertex pairs of the edges, and the
+// PairFetch. Memory responds 20 cycles after a request.
 #include <algorithm>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -40,7 +40,8 @@ struct PairBench : Frame {
     bus.write(reg::kOtherPairBase, kOthers);
     begin(64, 64);
   }
-  // Pair n of the boundaries is (2 n, 2 n + 1), of the others (500 + n, 499 - n), but for `odd`.
+  // Pair n is (2 n, 2 n + 1) for boundaries and (500 + n, 499 - n) for other edges, except number
+  // `odd`.
   void fill(std::uint32_t pairs, std::uint32_t odd = ~0u, std::uint32_t v0 = 0,
             std::uint32_t v1 = 0) {
     for (const bool other : {false, true})
@@ -71,23 +72,24 @@ struct PairBench : Frame {
   Ends<PairNumber, KeptEdge> ends;
 };
 
-TEST(PairFetch, LatencyOfTheDatasheetOrWaitsForALine) {
+TEST(PairFetch, LatencyMatchesDatasheetUnlessALineIsMissing) {
   PairBench b;
-  // M + 6 cycles more.
+  // M + 6 cycles more than a hit.
   EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
   b.clock.run(10);
-  const std::string there = b.latency(b.ends, PairBench::number(9));
-  expect_notices_a_clock(PairFetch::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, there); });
+  const std::string hit_latency = b.latency(b.ends, PairBench::number(9));
+  expect_notices_a_clock(
+      PairFetch::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10)), "29");
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10, true)), "29");
-  EXPECT_EQ(b.latency(b.ends, PairBench::number(12)), there) << "each array has its own line";
+  EXPECT_EQ(b.latency(b.ends, PairBench::number(12)), hit_latency) << "each array has its own line";
   EXPECT_EQ(b.unit.lookups.value(), 5u);
   EXPECT_EQ(b.unit.boundary_lookups.value(), 4u);
   EXPECT_EQ(b.unit.lines_read.value(), 3u);
   EXPECT_EQ(b.unit.boundary_lines.value(), 2u);
 }
-TEST(PairFetch, LinesAreToldApartByAllTheirBits) {
+TEST(PairFetch, LinesAreDistinguishedByAllBits) {
   PairBench b;
   std::string read;
   for (const std::uint32_t line : {0x123456u, 0x123456u, 0x3456u, 0x103456u}) {
@@ -96,7 +98,7 @@ TEST(PairFetch, LinesAreToldApartByAllTheirBits) {
   }
   EXPECT_EQ(read, "1 1 2 3 ");
 }
-TEST(PairFetch, AnEdgeAClockHitOrMissed) {
+TEST(PairFetch, OneEdgePerCycleHitOrMiss) {
   for (const std::uint32_t step : {1u, 3u, 10u}) {
     const std::string got = in_child([step] {
       PairBench b;
@@ -108,8 +110,8 @@ TEST(PairFetch, AnEdgeAClockHitOrMissed) {
     EXPECT_EQ(got, std::to_string(59 * PairFetch::datasheet().interval.cycles) + " " + lines);
   }
 }
-// 24 bits each; the last vertex is one, the count itself is none.
-TEST(PairFetch, VerticesEndBeforeTheirCount) {
+// 24 bits each; vertex numbers end at the count minus one.
+TEST(PairFetch, RejectsVerticesBeyondTheCount) {
   struct Row {
     std::uint32_t v0, v1;
     bool kept;
@@ -129,9 +131,9 @@ TEST(PairFetch, VerticesEndBeforeTheirCount) {
     EXPECT_EQ(got, row.kept ? "0-1 " + edge + "4-5 0 3" : "0-1 4-5 1 2 sticky");
   }
 }
-// What the classifier found to have no pair reads nothing, is counted there, and leaves nothing;
-// the place of its number is of no account.
-TEST(PairFetch, AnEdgeWithoutAPairEndsHere) {
+// An edge that the classifier has found to have no pair is counted there. It reads and outputs
+// nothing, and its number is ignored.
+TEST(PairFetch, EdgeWithoutPairIsDropped) {
   PairBench b;
   b.fill(4);
   PairNumber none = PairBench::number(77);
@@ -147,9 +149,9 @@ TEST(PairFetch, AnEdgeWithoutAPairEndsHere) {
   EXPECT_EQ(b.unit.invalid_edges.value(), 0u);
   EXPECT_EQ(b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge, 0u);
 }
-// The output takes nothing: two wait in its link and one in stage 3; what is dropped in front of
-// them goes, what stands after them does not.
-TEST(PairFetch, WhatIsDroppedNeedsNoOutput) {
+// While the output is blocked, two edges wait in its link and one in stage 3. Edges dropped before
+// them leave the pipeline, those after them do not.
+TEST(PairFetch, DroppedEdgesIgnoreABlockedOutput) {
   PairBench b;
   b.fill(10, 2, 5000, 0);
   b.latency(b.ends, PairBench::number(0));
@@ -160,25 +162,25 @@ TEST(PairFetch, WhatIsDroppedNeedsNoOutput) {
   b.clock.run(50);
   EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
   EXPECT_EQ(b.unit.kept_edges.value(), 3u);
-  // Taken in from + 1 .. from + 6; the fifth is to leave in from + 7.
+  // Taken in from + 1 to from + 6; the fifth would leave in from + 7.
   EXPECT_EQ(stalls(b.unit, "downstream"), 50u - 7);
   b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
   b.clock.run(5);
   EXPECT_EQ(b.taken(), "0-1 6-7 8-9 10-11 ");
-  // The link has room from the clock after the sink's first on.
+  // The link has room from the cycle after the sink's first one.
   EXPECT_EQ(b.ends.sink.taken[3].cycle, from + 100 + 2);
   EXPECT_EQ(stalls(b.unit, "downstream"), 101u - 7);
 }
-// Cycles in which a line is waited for, and in which no place is free, are told apart.
-TEST(PairFetch, StallsByCause) {
+// Cycles that wait for a line and cycles without a free entry are counted separately.
+TEST(PairFetch, StallsAreCountedByCause) {
   PairBench b;
   b.latency(b.ends, PairBench::number(3));
-  // Stage 2 would have it in the clock after stage 1, and has it M + 6 cycles later.
+  // Without a wait, stage 2 has it one cycle after stage 1; here it has it M + 6 cycles later.
   EXPECT_EQ(stalls(b.unit, "pairs"), 26u - 1) << "an answer is taken in one of them";
   EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
-// A clock for its tags at the beginning of each frame; nothing while there is nothing to fetch.
-TEST(PairFetch, IsIdleButWhereItWorks) {
+// One cycle for its tags at the start of each frame; idle while there is nothing to fetch.
+TEST(PairFetch, IdleUnlessItWorks) {
   PairBench b;
   EXPECT_EQ(b.unit.busy_cycles(), 1u);
   const std::uint64_t idle = b.unit.idle_cycles();
@@ -193,7 +195,7 @@ TEST(PairFetch, IsIdleButWhereItWorks) {
   b.clock.run(50);
   EXPECT_EQ(b.unit.busy_cycles(), busy);
 }
-TEST(PairFetch, TheDefaultFillsCoverTheLatency) {
+TEST(PairFetch, DefaultFillsCoverTheLatency) {
   PairBench b;
   for (std::uint32_t i = 0; i < 200; ++i) b.ends.source.add(PairBench::number(10 * i));
   finish(b, b.ends, 200);
@@ -201,7 +203,7 @@ TEST(PairFetch, TheDefaultFillsCoverTheLatency) {
   EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
 
-// ---- EdgeClassifier, with numbers of pairs
+// ---- EdgeClassifier with numbers of pairs
 
 struct NumberBench : Frame {
   explicit NumberBench(const Parameters& p, std::uint32_t edges, std::uint32_t boundaries)
@@ -270,8 +272,8 @@ TEST(EdgeClassifier, NumbersTheEdgesOfEachArray) {
     const std::string frame =
         "b0.0 o0.0 b0.1 b0.2 o0.1 o0.2 b0.3 b0.4 b0.5 o0.3 b0.6 b0.7 b0.8 b0.9 o0.4 o0.5 "
         "o0.6 o0.7 o0.8 o0.9 o1.0 o1.1 o1.2 o1.3 o1.4! o1.5! end ";
-    // Of 26 edges 12 are boundaries, says the register; there are ten of these, and two others too
-    // many.
+    // According to the register, 12 of 26 edges are boundaries. There are only ten, so two others
+    // are too many.
     EXPECT_EQ(got, frame + frame) << count;
   }
 }
@@ -287,7 +289,7 @@ TEST(EdgeClassifier, CountsEdgesBeyondTheirPairs) {
   EXPECT_EQ(b.unit.kept_edges.value(), 9u) << "the PairFetch drops them";
   EXPECT_NE(b.bus.read(reg::kStatus) & reg::kStatusInvalidEdge, 0u);
 }
-TEST(EdgeClassifier, LatencyOfTheDatasheetWithNumbers) {
+TEST(EdgeClassifier, LatencyMatchesDatasheetWithNumbers) {
   NumberBench b(all_of(Lanes::kTwo), 9, 2);
   EdgeBeat beat{};
   beat.count = 1;

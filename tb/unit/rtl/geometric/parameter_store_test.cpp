@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the registers say of a frame: fields of CONFIG, sizes, limits, sticky bits. Access and bits
-// of each register are compared by the suite RegisterFile; counters, with the golden model, by
-// whole frames (tb/system/geometric_system_test.cpp).
+// Register values as a frame sees them: fields of CONFIG, sizes, limits, sticky bits. The suite
+// RegisterFile tests access and bits of each register; tb/system/geometric_system_test.cpp compares
+// the counters of whole frames with the golden model.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -20,8 +20,8 @@ constexpr std::uint32_t size_of(std::uint32_t w, std::uint32_t h) { return w | h
 
 // ---- CONFIG
 
-// Every field of what is decoded, in the order of the contract's table: select, crease, depth test,
-// combine, bias, mark, layout, copy, areas, cull, crease depth, linear light.
+// Every decoded field in the order of the contract's table: select, crease, depth test, combine,
+// bias, mark, layout, copy, areas, cull, crease depth, linear light.
 std::array<int, 12> fields_of(const FrameConfiguration& f) {
   const auto number = [](auto value) { return static_cast<int>(value); };
   return {number(f.select),  number(f.crease),       number(f.depth_test),
@@ -31,10 +31,10 @@ std::array<int, 12> fields_of(const FrameConfiguration& f) {
 }
 constexpr std::array<int, 12> kNone = {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
 
-// Every value of each field alone, where the contract's table has it.
-TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
+// Sets every value of one field at a time, at its position in the contract's table.
+TEST(FrameConfiguration, EachConfigurationBitSetsItsField) {
   Frame b({});
-  const auto as_it_is = [](int v) { return v; };
+  const auto unchanged = [](int v) { return v; };
   const auto choice = [](int v) { return v < 3 ? v : 0; };  // of three
   const auto bias = [](int v) { return std::clamp(v, 1, 24); };
   const auto depth = [](int v) { return std::min(v, 24); };
@@ -42,9 +42,10 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
     unsigned low, bits;
     int (*shown)(int);
   };
-  const Row rows[] = {{0, 2, choice},    {2, 2, choice},    {4, 2, choice},    {6, 2, choice},
-                      {8, 5, bias},      {13, 1, as_it_is}, {14, 1, as_it_is}, {15, 1, as_it_is},
-                      {16, 1, as_it_is}, {17, 1, as_it_is}, {18, 5, depth},    {23, 1, as_it_is}};
+  const Row rows[] = {{0, 2, choice},     {2, 2, choice},     {4, 2, choice},
+                      {6, 2, choice},     {8, 5, bias},       {13, 1, unchanged},
+                      {14, 1, unchanged}, {15, 1, unchanged}, {16, 1, unchanged},
+                      {17, 1, unchanged}, {18, 5, depth},     {23, 1, unchanged}};
   for (std::size_t field = 0; field < std::size(rows); ++field)
     for (std::uint32_t value = 0; value < 1u << rows[field].bits; ++value) {
       const std::uint32_t configuration = value << rows[field].low;
@@ -55,8 +56,8 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
     }
 }
 
-// Bits of no field count nowhere, whatever holds the registers.
-TEST(FrameConfiguration, OtherBitsOfRulesAreNotLookedAt) {
+// Unused bits have no effect, even if the register file stores them.
+TEST(FrameConfiguration, UnusedConfigurationBitsAreIgnored) {
   rtl::ControlRegisters raw("raw", spec::geometric::kRegisters, rtl::geometric::control_layout());
   raw.write(reg::kConfiguration, 0xFF000000);
   EXPECT_EQ(fields_of(decode(raw)), kNone);
@@ -95,9 +96,9 @@ TEST(FrameConfiguration, SizesAreRoundedUp) {
   }
 }
 
-// ---- refusals: at each limit, and one beyond; of several reasons the first one
+// ---- rejections: at each limit and one above it; the first of several reasons is reported
 
-TEST(Rejections, BeginBeyondTheLimitAndGiveTheFirstReason) {
+TEST(Rejections, LimitsRejectWithTheFirstReason) {
   Parameters p;
   p.line_pixels = 1000;
   p.touched_words = 40;
@@ -109,7 +110,7 @@ TEST(Rejections, BeginBeyondTheLimitAndGiveTheFirstReason) {
   most.touched_words = 40;
   most.edge_count = most.vertex_count = kMost;
   most.face_count = 8192;
-  most.boundary_count = kMost + 1;  // joined records have none
+  most.boundary_count = kMost + 1;  // ignored with joined records
   most.select = Select::kEdges;
   EXPECT_EQ(rejection(most, true, p), Rejection::kNone);
   most.select = Select::kAll;
@@ -142,7 +143,7 @@ TEST(Rejections, BeginBeyondTheLimitAndGiveTheFirstReason) {
     FrameConfiguration f = most;
     f.*rows[i].field = rows[i].rejected;
     EXPECT_EQ(rejection(f, true, p), rows[i].why) << i;
-    worse.*rows[i].field = rows[i].rejected;  // with all that are checked after it
+    worse.*rows[i].field = rows[i].rejected;  // with all that are checked later
     EXPECT_EQ(rejection(worse, true, p), rows[i].why) << i;
   }
   EXPECT_EQ(rejection(worse, false, p), Rejection::kDisabled);
@@ -151,9 +152,10 @@ TEST(Rejections, BeginBeyondTheLimitAndGiveTheFirstReason) {
   EXPECT_EQ(rejection(most, true, p), Rejection::kNone);
 }
 
-// What was rejected leaves the rules of the frame before; a START is taken in the clock after its
-// write, with the registers as they are then, and units read the rules a clock later.
-TEST(Rejections, LeaveTheRulesAsTheyWere) {
+// A rejected START keeps the configuration of the previous frame. A START is taken in the cycle
+// after its write, with the register values of that cycle, and units read the new configuration one
+// cycle later.
+TEST(Rejections, RejectedStartKeepsTheConfiguration) {
   Frame b({});
   for (rtl::WireIn<bool>* const in :
        {&b.sequencer.drawn_in, &b.sequencer.copied_in, &b.sequencer.resolved_in})
@@ -196,9 +198,9 @@ TEST(Rejections, LeaveTheRulesAsTheyWere) {
   EXPECT_EQ(static_cast<Rejection>(b.bus.read(reg::kRejection)), Rejection::kNone);
 }
 
-// Each sticky bit is set in the clock of its event, which a write of one clears, and is set again
-// by the next: an edge out of range, an answer with an error, the end of the frame.
-TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
+// Each sticky bit is set in the cycle of its event, cleared by writing one, and set again by the
+// next event: an edge out of range, a response with an error, the end of the frame.
+TEST(StickyBits, StickyBitsAreSetWithTheirPulse) {
   EngineBench b;
   Scene scene = contract_scene();
   for (int i = 0; i < 3; ++i) scene.edges.push_back({1000, 0, 0, 0, 0});
@@ -228,7 +230,7 @@ TEST(StickyBits, AreSetInTheClockOfTheirPulse) {
     b.bus.write(reg::kStatus, status);
   }
   EXPECT_EQ(b.engine.edge_classifier.invalid_edges.value(), 12u + 3u);  // those of the contract
-  EXPECT_GE(bits[0].cycles, 2u);  // two lanes: the three came in two beats
+  EXPECT_GE(bits[0].cycles, 2u);  // two lanes: the three arrived in two beats
   EXPECT_EQ(bits[1].cycles, b.engine.memory_arbiter.memory_errors.value());
   EXPECT_GE(bits[1].cycles, 2u);
   EXPECT_EQ(bits[2].cycles, 1u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of single units share: registers, a frame that stays in its edges or its resolve,
-// and memory; and a queue of tokens at each end of the unit.
+// Shared by the tests of single units: registers, a frame that stays in its edge or resolve phase,
+// memory, and a queue of tokens at each end of the unit.
 #pragma once
 
 #include <deque>
@@ -21,13 +21,13 @@
 
 namespace deburr::tb::geometric_rtl {
 
-// A latency as a simulation in a process of its own says it.
+// `measured` is a latency returned by a forked simulation.
 inline void expect_latency_of(const rtl::Datasheet& sheet, const std::string& measured) {
   EXPECT_EQ(measured, std::to_string(sheet.latency.cycles))
       << "by the datasheet of " << title(sheet);
 }
 
-// "1 x 3, 4 x 1": each value of a histogram, and how often.
+// "1 x 3, 4 x 1": each value of a histogram and its count.
 inline std::string text_of(const rtl::Histogram& histogram) {
   std::string text;
   for (const rtl::Histogram::Bin& bin : histogram.bins())
@@ -38,7 +38,7 @@ inline std::string text_of(const rtl::Histogram& histogram) {
 
 using unit_bench::Ends, unit_bench::Source, unit_bench::spread, unit_bench::stalls;
 
-// All that a unit needs around it.
+// The environment of a unit.
 struct Frame {
   explicit Frame(const Parameters& parameters, std::uint32_t cycles = 20)
       : control("registers", spec::geometric::kRegisters, rtl::geometric::control_layout()),
@@ -71,14 +71,15 @@ struct Frame {
     store.invalid_edge_in(invalid_edge);
     if (store.invalid_pair_in) (*store.invalid_pair_in)(invalid_pair);
   }
-  // A wire of its own for what a unit drives, which the sequencer may wait for.
+  // A new wire for an output of the unit; the sequencer may wait for it.
   rtl::Wire<bool>& wire(rtl::WireOut<bool>& from, rtl::WireIn<bool>* to = nullptr) {
     rtl::Wire<bool>& joined = wires_.emplace_back(sc_core::sc_gen_unique_name("wire"), false);
     from(joined);
     if (to) (*to)(joined);
     return joined;
   }
-  // What no unit of the test drives is done at once in the begin, and never later.
+  // Ties inputs that no unit of the test drives: done at once in the begin phase, and never
+  // afterwards.
   void tie() {
     for (rtl::WireIn<bool>* const in : {&sequencer.facing_loaded_in, &sequencer.vertices_cleared_in,
                                         &sequencer.depth_cleared_in, &sequencer.weights_cleared_in})
@@ -87,7 +88,7 @@ struct Frame {
          {&sequencer.drawn_in, &sequencer.copied_in, &sequencer.resolved_in})
       if (!in->bound()) (*in)(low);
   }
-  // A frame of this size is in its edges.
+  // Starts a frame of this size, up to its edge phase.
   void begin(int width, int height) {
     tie();
     bus.write(reg::kSize, spec::geometric::size_word(static_cast<std::uint32_t>(width),
@@ -97,8 +98,8 @@ struct Frame {
                     100'000);
     clock.run(1);
   }
-  // Cycles from the unit's taking this token to the first clock in which the next one can take what
-  // becomes of it: not ready a clock before.
+  // Cycles from the one in which the unit takes this token to the first one in which the next unit
+  // can take the result.
   template <class From, class To>
   std::string latency(Ends<From, To>& ends, const From& token) {
     const Cycle pushed = clock.cycle();
@@ -134,7 +135,7 @@ struct Frame {
   std::deque<rtl::Wire<bool>> wires_;
 };
 
-// Until so many tokens have come out.
+// Runs until this number of tokens has come out.
 template <class From, class To>
 void finish(Frame& frame, const Ends<From, To>& ends, std::size_t tokens) {
   ASSERT_TRUE(frame.clock.run_until([&] { return ends.sink.taken.size() == tokens; }, 100'000));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A reset of the geometric engine in its resolve, of every build of its kit. (At every clock of a
-// frame, and behind a rejected start: by the kit, kit_test.cpp.)
+// A reset of the geometric engine during the resolve, for every build of its kit. The suites of the
+// kit (kit_test.cpp) test resets in every cycle of a frame and after a rejected start.
 #include "tb/unit/rtl/geometric/kit.h"
 
 namespace deburr::tb::geometric_rtl::reset_test {
@@ -19,12 +19,12 @@ class NoNeighbour : public ::testing::TestWithParam<Kit::Build> {
   EngineBench b{Kit::parameters(GetParam())};
 };
 
-// The last block of one frame lies to the left of the first block of the other: what the one took
-// for the original of a blended pixel is none of the other's business, whether the frame ended or a
-// reset ended it.
-TEST_P(NoNeighbour, ABlockOfTheFrameBeforeIsNoNeighbour) {
+// The last block of the first frame lies to the left of the first block of the second one. The
+// originals of the first frame's blended pixels must not be used by the second, whether the first
+// frame ended or was reset.
+TEST_P(NoNeighbour, PreviousFrameIsNotUsedAsNeighbour) {
   // Lines down the rightmost column of block (5, 1), which takes from the right, and down the
-  // leftmost one of block (6, 1), which takes from the left.
+  // leftmost column of block (6, 1), which takes from the left.
   const auto one_block = [&](bool second) {
     Scene scene = small_scene(right + 37, 12, 0, right);
     if (second) std::reverse(scene.colours.begin(), scene.colours.end());
@@ -55,7 +55,7 @@ TEST_P(NoNeighbour, ABlockOfTheFrameBeforeIsNoNeighbour) {
     b.load(before);
     b.start();
     b.clock.run(at);
-    b.reset(40);  // what memory still owes has come by then
+    b.reset(40);  // all outstanding responses have come by then
     ASSERT_EQ(trail_difference(fresh, run(after)), "");
   }
 }

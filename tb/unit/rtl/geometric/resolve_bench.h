@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The resolve by itself, from the WeightCombiner on, with memory.
+// The resolve on its own, from the WeightCombiner on, with memory.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace deburr::tb::geometric_rtl {
 
-// The test gives the combiner its groups.
+// The test sends groups to the combiner.
 struct ResolveBench : Frame {
   explicit ResolveBench(const Parameters& p = {}, int width = 1024, int height = 64,
                         std::uint32_t latency = 20)
@@ -59,8 +59,8 @@ struct ResolveBench : Frame {
       resolved.push_back(block);
     };
   }
-  // A block with these pixels cut, which take from above, or from the left; or from below, or from
-  // the right.
+  // Sends a block in which these pixels take from above or, if vertical, from the left; with
+  // `forward` from below or from the right.
   void touch(int bx, int by, std::uint16_t pixels, bool vertical = false, bool forward = false) {
     for (std::uint32_t left = pixels; left != 0; left &= left - 1) {
       rtl::geometric::WeightToken t{};
@@ -74,7 +74,7 @@ struct ResolveBench : Frame {
       source.add(t);
     }
   }
-  // Draws, then notes when each link got its first and last beat.
+  // Draws, and records the cycles in which each link got its beats.
   void run() {
     rtl::geometric::WeightToken last{};
     last.end = true;
@@ -84,7 +84,7 @@ struct ResolveBench : Frame {
     resolve_from = clock.cycle();
     const std::uint64_t sent = arbiter.requests_out.link().pushes();
     while (!sequencer.idle()) {
-      if (before_clock) before_clock();
+      if (before_cycle) before_cycle();
       clock.run(1);
       const Cycle now = clock.cycle();
       const auto note = [&](const char* name, std::uint64_t count) {
@@ -111,7 +111,7 @@ struct ResolveBench : Frame {
   rtl::Link<rtl::geometric::BlockToken> blocks;
   Source<rtl::geometric::WeightToken> source;
   Cycle resolve_from = 0;
-  std::function<void()> before_resolve, before_clock;
+  std::function<void()> before_resolve, before_cycle;
   std::map<std::string, std::vector<Cycle>> at;  // cycles of the beats
   std::vector<spec::geometric::BlockRecord> resolved;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The resolve's units, and those that feed the edges' pipe: latency and initiation interval, as
-// docs/reference/geometric/hardware.md has them; memory answers 20 cycles after a request.
+// Units of the resolve, and those that feed the edge pipeline: latency and initiation interval by
+// docs/reference/geometric/hardware.md. Memory responds 20 cycles after a request.
 #include <map>
 
 #include "rtl_model/geometric/common/sizing.h"
@@ -17,21 +17,21 @@ using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::CacheLines;
 using spec::geometric::Layout;
 
-TEST(Resolve, LatenciesOfABlock) {
+TEST(Resolve, BlockLatenciesMatchDatasheets) {
   ResolveBench b;
   b.touch(0, 0, 1u << 5);
   b.run();
-  // The scanner's latency counts from the first clock of the phase.
+  // The scanner's latency counts from the first cycle of the phase.
   expect_latency(BlockScanner::datasheet(), b.at["touched"][0] + 1 - b.resolve_from);
   expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0]);
-  // Its line comes M + 6 after it was asked for, as that of a cache does: arbiter, port, M, port,
-  // arbiter, place, register.
+  // Its line arrives M + 6 cycles after its request, like that of a cache: arbiter, port, M, port,
+  // arbiter, entry, register.
   EXPECT_EQ(b.at["reads"][0], b.at["blocks"][0]);
   expect_latency(Resolver::datasheet(), b.at["writes"][0] - b.at["reads"][0] - 27 + 1);
   EXPECT_EQ(b.resolved.size(), 1u);
 }
-TEST(Resolve, AWordTakesAClockForEachBlock) {
-  ResolveBench b({}, 2048, 64);  // four words a row, 64 in all
+TEST(Resolve, WordTakesOneCyclePerBlock) {
+  ResolveBench b({}, 2048, 64);  // four words per row, 64 in total
   b.touch(0, 0, 1);
   b.touch(3, 0, 1);
   b.touch(127, 0, 1);
@@ -47,9 +47,10 @@ TEST(Resolve, AWordTakesAClockForEachBlock) {
   EXPECT_EQ(b.resolved[4].y, 15);
 }
 
-// Blocks are in memory when it is overwritten by somebody else: what a pixel takes stays a half of
-// each neighbour at most, all of it from the frame, and nothing is touched outside of the regions.
-TEST(Resolve, WeightsOfMemoryMayBeAnything) {
+// Another initiator overwrites blocks in memory during a frame. A pixel must still take at most one
+// half from each neighbour, only from within the frame, and no address outside the regions is
+// accessed.
+TEST(Resolve, CorruptedWeightsStayWithinLimits) {
   for (const Layout layout : {Layout::kTiled, Layout::kRaster})
     for (const auto& [width, height, last_first] : {std::tuple{66, 6, false},
                                                     {66, 6, true},
@@ -65,7 +66,7 @@ TEST(Resolve, WeightsOfMemoryMayBeAnything) {
         p.weight_blocks = CacheLines::k16;
         ResolveBench b(p, width, height);
         const int across = (width + 3) / 4, down = (height + 3) / 4;
-        // Blocks that come first go to memory; the last ones stay in the cache.
+        // The first blocks go to memory; the last ones stay in the cache.
         for (int y = 0; y < down; ++y)
           for (int x = 0; x < across; ++x) b.touch(last_first ? across - 1 - x : x, y, 1u << 5);
         const std::vector<std::uint8_t> noise(static_cast<std::size_t>(64 * across * down), 0xFF);
@@ -87,7 +88,7 @@ TEST(Resolve, WeightsOfMemoryMayBeAnything) {
           }
         std::size_t from_memory = 0;
         for (const auto& block : b.resolved) {
-          // It was in the cache; the pixel itself may lie outside of the frame.
+          // Skips blocks that were in the cache; the pixel itself may lie outside the frame.
           if ((block.blended & ~(1u << 5)) == 0) continue;
           ++from_memory;
           for (int i = 0; i < 16; ++i) {
@@ -109,20 +110,20 @@ TEST(Resolve, WeightsOfMemoryMayBeAnything) {
     }
 }
 
-TEST(Resolve, WeightsOfMemoryComeALatencyLater) {
+TEST(Resolve, WeightsFromMemoryAddItsLatency) {
   Parameters p;
   p.weight_blocks = CacheLines::k16;
   ResolveBench b(p);
   b.touch(0, 0, 1u << 5);
-  b.touch(4, 0, 1u << 5);  // takes its place
+  b.touch(4, 0, 1u << 5);  // replaces it
   b.run();
   EXPECT_EQ(b.fetch.weights_read.value(), 1u);
-  // Stage 2 asks, arbiter, port, M + 1, port, arbiter, its place; then stages 3 to 5.
+  // Stage 2 requests, then arbiter, port, M + 1, port, arbiter, entry; then stages 3 to 5.
   expect_latency(BlockFetch::datasheet(), b.at["blocks"][0] + 1 - b.at["fetched"][0] - (20 + 6));
 }
 
-// Cycles a block, of many: one is max(lines, beats, lines to write) in the Resolver, and lines +
-// lines to write at the port. The first reads are ahead of the first write.
+// Average cycles per block: max(lines, beats, lines to write) in the Resolver, and lines + lines to
+// write at the port. The first reads come before the first write.
 Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
   constexpr int kBlocks = 160;
   ResolveBench b(p, 256, 128);
@@ -132,10 +133,10 @@ Cycle per_block(const Parameters& p, std::uint16_t pixels, bool vertical) {
   const auto& writes = b.at["writes"];
   return (writes.back() - writes.front() + kBlocks / 2) / kBlocks;
 }
-TEST(Resolve, IntervalOfABlock) {
+TEST(Resolve, BlockIntervalMatchesThePage) {
   using spec::geometric::Lanes;
-  const auto of = [](Layout layout, std::uint16_t pixels, bool vertical,
-                     Lanes lanes = Lanes::kTwo) {
+  const auto interval_of = [](Layout layout, std::uint16_t pixels, bool vertical,
+                              Lanes lanes = Lanes::kTwo) {
     return in_child([&] {
       Parameters p;
       p.layout = layout;
@@ -145,22 +146,22 @@ TEST(Resolve, IntervalOfABlock) {
     });
   };
   // Two pixels inside: one line, one write, one beat; the port takes two cycles.
-  EXPECT_EQ(of(Layout::kTiled, 0x0060, false), "2");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x0060, false), "2");
   // The upper row takes from the block above: two lines, two beats, one write.
-  EXPECT_EQ(of(Layout::kTiled, 0x000F, false), "3");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x000F, false), "3");
   // All pixels: eight beats.
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false), "8");
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kOne), "16");
-  EXPECT_EQ(of(Layout::kTiled, 0xFFFF, false, Lanes::kFour), "4");
-  EXPECT_EQ(of(Layout::kTiled, 0x1FFF, false, Lanes::kFour), "4");
-  EXPECT_EQ(of(Layout::kTiled, 0x0FFF, false, Lanes::kFour), "3");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false), "8");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false, Lanes::kOne), "16");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0xFFFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x1FFF, false, Lanes::kFour), "4");
+  EXPECT_EQ(interval_of(Layout::kTiled, 0x0FFF, false, Lanes::kFour), "3");
   // Raster: four rows and the one above, four writes.
-  EXPECT_EQ(of(Layout::kRaster, 0x1111, false), "9");
-  EXPECT_EQ(of(Layout::kRaster, 0x2222, true), "8");
+  EXPECT_EQ(interval_of(Layout::kRaster, 0x1111, false), "9");
+  EXPECT_EQ(interval_of(Layout::kRaster, 0x2222, true), "8");
 }
 
-// What a block costs the Resolver: as many cycles are busy near a memory and far from one. The
-// others wait for lines.
+// The Resolver's busy cycles per block do not depend on the memory latency. All other cycles wait
+// for lines.
 TEST(Resolve, WaitingIsNotBusy) {
   using spec::geometric::Lanes;
   struct Blocks {
@@ -182,13 +183,13 @@ TEST(Resolve, WaitingIsNotBusy) {
         ResolveBench b(p, 256, 128, latency);
         for (int i = 0; i < kBlocks; ++i) b.touch(1 + i % 16 * 2, 1 + i / 16 * 2, block.pixels);
         b.run();
-        // The end of the frame is loaded, too.
+        // The end of the frame is loaded as well.
         const std::uint64_t busy = b.resolver.busy_cycles(), all = kBlocks * block.each + 1;
         const std::uint64_t waits = stalls(b.resolver, "colours");
         std::string wrong;
         if (busy > all + all / 10 || busy + all / 10 < all)
           wrong = "busy " + std::to_string(busy) + " of " + std::to_string(all);
-        // Eight lines in M + 8 cycles, of which a block takes so many.
+        // Eight lines in M + 8 cycles, at `each` lines per block.
         const std::uint64_t lines = b.fetch.lines_read.value();
         const std::uint64_t least = lines * (latency + 6) / 8;
         if (latency == 200 && waits + busy + 300 < least)
@@ -199,7 +200,7 @@ TEST(Resolve, WaitingIsNotBusy) {
     }
 }
 
-// ---- FacingStore and EdgeReader, in a frame that begins
+// ---- FacingStore and EdgeReader, at the start of a frame
 
 struct ReaderBench : Frame {
   explicit ReaderBench(const Parameters& p, std::uint32_t edges, std::uint32_t faces)
@@ -233,7 +234,7 @@ struct ReaderBench : Frame {
   unit_bench::Sink<EdgeBeat> taker;
   Cycle from;
 };
-TEST(EdgeReader, EdgeLanesAClock) {
+TEST(EdgeReader, OneBeatOfEdgesPerCycle) {
   for (int code = 0; code < 3; ++code) {
     const std::string got = in_child([code] {
       Parameters p;
@@ -249,8 +250,8 @@ TEST(EdgeReader, EdgeLanesAClock) {
     EXPECT_EQ(got, "403 0") << code;
   }
 }
-// Ten records a line, and no beat beyond its end: of the last line, 3 of 403.
-TEST(EdgeReader, BeatsOfSplitRecordsEndWithTheirLine) {
+// Ten records per line, and no beat crosses the end of a line: the last line holds 3 of 403.
+TEST(EdgeReader, SplitRecordBeatsEndWithTheirLine) {
   const std::vector<std::pair<int, std::string>> rows = {
       {0, "1111111111 111 41 +403"}, {1, "22222 21 41 +202"}, {2, "442 3 41 +121"}};
   for (const auto& [code, wanted] : rows) {
@@ -278,7 +279,7 @@ TEST(EdgeReader, BeatsOfSplitRecordsEndWithTheirLine) {
     EXPECT_EQ(got, wanted) << code;
   }
 }
-// Bit by bit: f0 in 20..0, f1 in 41..21, flags in 45..42; bits 47, 46 and bytes 60 to 63 are
+// Every bit: f0 in 20..0, f1 in 41..21, flags in 45..42; bits 47 and 46 and bytes 60 to 63 are
 // ignored.
 TEST(EdgeReader, SplitRecordsAreReadBitByBit) {
   Parameters p;
@@ -313,8 +314,8 @@ TEST(EdgeReader, SplitRecordsAreReadBitByBit) {
   }
   EXPECT_TRUE(taker.taken[50].token.end);
 }
-// The first line comes when the begin is long over: its answer is taken, written and read.
-TEST(EdgeReader, LatencyOfTheDatasheetFromAnAnswer) {
+// The first line arrives long after the begin phase: its response is taken, written and read.
+TEST(EdgeReader, LatencyFromResponseMatchesDatasheet) {
   ReaderBench b({}, 4, 0);
   Cycle answered = 0;
   while (b.taker.taken.empty()) {
@@ -345,13 +346,13 @@ Cycle copy_cycles(std::int32_t copy_lines, std::uint32_t latency, int width, int
   b.clock.run_until([&] { return copied.read(b.clock.cycle()); }, 100'000);
   return b.clock.cycle() - from;
 }
-// Of the copy once it runs, of 512 lines.
+// Cycles for 512 more lines of a copy that is already running.
 Cycle copy_cycles_of_512(std::int32_t copy_lines, std::uint32_t latency) {
   const Cycle few = forked<Cycle>([&] { return copy_cycles(copy_lines, latency, 64, 64); }),
               many = forked<Cycle>([&] { return copy_cycles(copy_lines, latency, 64, 192); });
   return many - few;
 }
-TEST(FrameCopier, TwoClocksALineUntilItsLinesAreTooFew) {
+TEST(FrameCopier, TwoCyclesPerLineUnlessBufferIsTooSmall) {
   const Cycle at_best = 512 * FrameCopier::datasheet().interval.cycles;
   EXPECT_EQ(copy_cycles_of_512(16, 4), at_best);
   EXPECT_EQ(copy_cycles_of_512(16, 24), at_best);
@@ -359,8 +360,8 @@ TEST(FrameCopier, TwoClocksALineUntilItsLinesAreTooFew) {
   EXPECT_EQ(copy_cycles_of_512(16, 25), 512u * 33 / 16);
   EXPECT_EQ(copy_cycles_of_512(16, 40), 512u * 48 / 16);
 }
-// The default is the knee: a line fewer costs cycles.
-TEST(FrameCopier, TheDefaultCoversTheLatency) {
+// The default is the smallest size at full speed: one line fewer costs cycles.
+TEST(FrameCopier, DefaultCoversTheLatency) {
   for (const std::uint32_t latency : {4u, 20u, 60u, 100u}) {
     const std::int32_t lines =
         rtl::geometric::sized({}, {static_cast<std::int32_t>(latency), 1}).copy_lines;
@@ -370,7 +371,7 @@ TEST(FrameCopier, TheDefaultCoversTheLatency) {
   }
 }
 
-TEST(FacingStore, ALineAClock) {
+TEST(FacingStore, OneLinePerCycle) {
   for (const std::uint32_t faces : {512u, 512u * 33}) {
     const std::string got = in_child([faces] {
       ReaderBench b({}, 0, faces);

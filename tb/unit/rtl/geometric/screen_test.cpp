@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// coarse_lines: the DepthScreen by itself, and what DepthTest makes of what it drops. Memory
-// answers 20 cycles after a request.
+// coarse_lines: the DepthScreen on its own, and DepthTest with candidates that it dropped. Memory
+// responds 20 cycles after a request.
 #include <algorithm>
 
 #include "golden/geometric/coarse.h"
@@ -42,7 +42,7 @@ struct ScreenBench : Frame {
     memory.preload(at, std::vector<std::uint8_t>{static_cast<std::uint8_t>(entry),
                                                  static_cast<std::uint8_t>(entry >> 8)});
   }
-  // A candidate at this pixel, that takes from the given side.
+  // A candidate at this pixel that takes from the given side.
   enum Side { kUp, kDown, kLeft, kRight };
   static CandidateToken pixel(std::uint32_t x, std::uint32_t y, Side side,
                               std::uint32_t depth = 0) {
@@ -56,11 +56,11 @@ struct ScreenBench : Frame {
     token.depth[0] = depth;
     return token;
   }
-  // Inside of line (u, v) of coarse depth.
+  // Inside line (u, v) of coarse depth.
   static CandidateToken inside(std::uint32_t u, std::uint32_t v) {
     return pixel(64 * u + 13, 32 * v + 13, kUp);
   }
-  // Between it and the next one to the right.
+  // Between that line and the next one to the right.
   static CandidateToken across(std::uint32_t u, std::uint32_t v) {
     return pixel(64 * u + 63, 32 * v + 13, kRight);
   }
@@ -79,31 +79,33 @@ struct ScreenBench : Frame {
   Ends<CandidateToken, CandidateToken> ends;
 };
 
-TEST(DepthScreen, LatencyOfTheDatasheetOrWaitsForALine) {
+TEST(DepthScreen, LatencyMatchesDatasheetUnlessALineIsMissing) {
   ScreenBench b;
   EXPECT_EQ(b.latency(b.ends, ScreenBench::inside(1, 1)), "31");
   b.clock.run(10);
-  const std::string there = b.latency(b.ends, ScreenBench::inside(1, 1));
-  expect_notices_a_clock(DepthScreen::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, there); });
-  // The second miss comes a clock later.
+  const std::string hit_latency = b.latency(b.ends, ScreenBench::inside(1, 1));
+  expect_notices_a_clock(
+      DepthScreen::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
+  // The second miss comes one cycle later.
   EXPECT_EQ(b.latency(b.ends, ScreenBench::across(3, 1)), "32");
   EXPECT_EQ(b.unit.lookups.value(), 4u);
   EXPECT_EQ(b.unit.misses.value(), 3u);
   EXPECT_EQ(b.unit.groups.value(), 3u);
   EXPECT_EQ(b.unit.both_missed.value(), 1u);
 }
-TEST(DepthScreen, AGroupAClockWhereAtMostOneLookUpMisses) {
+TEST(DepthScreen, OneGroupPerCycleWithAtMostOneMiss) {
   ScreenBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add(ScreenBench::across(i % 9, i / 9));
   finish(b, b.ends, 60);
-  // Of each row of lines the first group misses twice.
+  // The first group of each row of lines misses twice.
   EXPECT_EQ(spread(b.ends), 59 * DepthScreen::datasheet().interval.cycles + 6);
   EXPECT_EQ(b.unit.both_missed.value(), 7u);
 }
-// Candidates inside of tiles and at each side of them, at the bound and beside it, by every test
-// and bias; the lines that are read for them, with few lines and with many.
-TEST(DepthScreen, DropsAsGolden) {
+// Candidates inside tiles and at each side of them, with depths at the bound and next to it, for
+// every test and bias. Also compares the lines that are read for them, with few and with many lines
+// of cache.
+TEST(DepthScreen, DropsMatchGolden) {
   using spec::geometric::DepthTest;
   namespace gold = golden::geometric;
   for (const auto& [lines, bits] :
@@ -199,7 +201,7 @@ TEST(DepthScreen, DropsAsGolden) {
     EXPECT_EQ(got, "compared") << bits;
   }
 }
-TEST(DepthScreen, StallsByCause) {
+TEST(DepthScreen, StallsAreCountedByCause) {
   ScreenBench b;
   b.latency(b.ends, ScreenBench::inside(0, 0));
   EXPECT_EQ(stalls(b.unit, "coarse"), 26u - 1) << "an answer is taken in one of them";
@@ -213,7 +215,7 @@ TEST(DepthScreen, StallsByCause) {
   EXPECT_EQ(stalls(b.unit, "fills"), 0u);
 }
 
-// ---- DepthTest after it
+// ---- DepthTest after the screen
 
 struct AfterScreen : Frame {
   AfterScreen()
@@ -233,7 +235,7 @@ struct AfterScreen : Frame {
   Ends<CandidateToken, WeightToken> ends;
   std::string seen;
 };
-// They look nothing up, do not pass, and are observed in the order of all.
+// Dropped candidates are not looked up and do not pass; the observer sees all candidates in order.
 TEST(DepthTest, DroppedCandidatesDoNotPass) {
   AfterScreen b;
   CandidateToken group = ScreenBench::pixel(8, 9, ScreenBench::kDown);
@@ -249,7 +251,7 @@ TEST(DepthTest, DroppedCandidatesDoNotPass) {
   EXPECT_EQ(b.unit.lookups.value(), 1u);
   EXPECT_EQ(b.unit.passed.value(), 2u);
 }
-TEST(DepthTest, AGroupThatIsDroppedTakesAClock) {
+TEST(DepthTest, DroppedGroupTakesOneCycle) {
   AfterScreen b;
   CandidateToken kept = ScreenBench::pixel(8, 9, ScreenBench::kDown), dropped = kept;
   dropped.dropped = 1;

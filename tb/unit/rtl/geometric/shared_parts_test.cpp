@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What several units of the geometric engine share, each by itself and by hand: the places of
-// lines on their way from memory, the way of an edge.
+// Parts that several units of the geometric engine share, each on its own with hand-computed
+// results: the FillStore for lines in flight from memory, and the latency measurement of edges.
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -21,7 +21,7 @@ using rtl::geometric::FillStore;
 
 // ---- FillStore
 
-TEST(FillStore, GivesLinesInTheOrderOfTheirPlaces) {
+TEST(FillStore, ReturnsLinesInTheOrderOfEntries) {
   FillStore<std::uint32_t> store("store", 3, 32, "words");
   EXPECT_TRUE(store.empty());
   for (std::uint32_t place = 0; place < 3; ++place) {
@@ -30,22 +30,22 @@ TEST(FillStore, GivesLinesInTheOrderOfTheirPlaces) {
     EXPECT_FALSE(store.empty());
   }
   EXPECT_FALSE(store.can_reserve(2));
-  // The second one comes first: nothing to be read.
+  // The second line arrives first: nothing can be read yet.
   store.fill(10, 1, 11);
   store.read_ahead(10);
   store.read_ahead(11);
   EXPECT_FALSE(store.ready(12));
-  // Filled in clock t, there from t + 2 on.
+  // Filled in cycle t, ready from t + 2 on.
   store.fill(12, 0, 10);
   store.read_ahead(12);
   EXPECT_FALSE(store.ready(13));
   store.read_ahead(13);
   EXPECT_FALSE(store.ready(13));
   EXPECT_TRUE(store.ready(14));
-  store.read_ahead(14);  // it waits
+  store.read_ahead(14);  // the line stays ready
   EXPECT_TRUE(store.ready(15));
   EXPECT_EQ(store.line(15), 10u);
-  // Then a line a clock.
+  // Then one line per cycle.
   store.release(15);
   EXPECT_FALSE(store.can_reserve(15));
   EXPECT_TRUE(store.can_reserve(16));
@@ -56,7 +56,7 @@ TEST(FillStore, GivesLinesInTheOrderOfTheirPlaces) {
   store.release(16);
   store.read_ahead(16);
   EXPECT_FALSE(store.ready(17)) << "the third has not come";
-  // The first place again, behind the third.
+  // The first entry is reused, after the third.
   EXPECT_EQ(store.reserve(), 0u);
   store.fill(17, 0, 20);
   store.fill(18, 2, 12);
@@ -73,7 +73,7 @@ TEST(FillStore, GivesLinesInTheOrderOfTheirPlaces) {
   store.read_ahead(21);
   EXPECT_FALSE(store.ready(22));
 }
-TEST(FillStore, APlaceIsFilledOnceAndIsOneOfThem) {
+TEST(FillStore, RejectsSecondFillAndUnknownEntry) {
   FillStore<std::uint32_t> store("store", 3, 32, "words");
   for (int i = 0; i < 3; ++i) store.reserve();
   store.fill(5, 2, 1);
@@ -81,7 +81,7 @@ TEST(FillStore, APlaceIsFilledOnceAndIsOneOfThem) {
   EXPECT_THROW(store.fill(7, 3, 1), spec::CheckFailed);
   store.fill(8, 1, 1);
 }
-TEST(FillStore, AResetEmptiesEveryPlace) {
+TEST(FillStore, ResetEmptiesEveryEntry) {
   FillStore<std::uint32_t> store("store", 2, 32, "words");
   store.reserve();
   store.reserve();
@@ -106,8 +106,8 @@ TEST(FillStore, AResetEmptiesEveryPlace) {
   EXPECT_EQ(store.line(9), 12u);
 }
 
-// Two units, each with its side alone, see one store.
-TEST(FillStore, HasASideForEachUnit) {
+// Two units see one store, each through its own side.
+TEST(FillStore, FillerAndReaderShareOneStore) {
   FillStore<std::uint32_t> store("store", 1, 32, "words");
   FillStore<std::uint32_t>::Filler filler = store.filler();
   FillStore<std::uint32_t>::Reader reader = store.reader();
@@ -130,7 +130,7 @@ TEST(FillStore, HasASideForEachUnit) {
 
 struct Latencies {
   Histogram histogram{"latency", "clk", "of an edge"};
-  // Its histogram is its user's.
+  // Records into the histogram as the units do.
   struct Recorded : EdgeLatency {
     Histogram& histogram;
     explicit Recorded(Histogram& h) : histogram(h) {}
@@ -140,12 +140,12 @@ struct Latencies {
       if (latency) histogram.record(*latency);
     }
   } edges{histogram};
-  // What happens, in order, a word or a letter each:
-  //   L10*3  three edges leave in cycle 10      + -  the next one is kept, or dropped
-  //   W20    a group is written in cycle 20     = /  it is a line, or none
-  //   E      the end of the frame               G g  the last group of a line, or another one
-  //   P n    some of a group pass, or none      c x  it has a candidate, or none
-  void happen(const std::string& events) {
+  // Events in order, one word or letter each:
+  //   L10*3  three edges leave in cycle 10      + -  the next one is kept or dropped
+  //   W20    a group is written in cycle 20     = /  it is a line or not
+  //   E      the end of the frame               G g  the last group of a line, or another group
+  //   P n    some of a group pass, or none      c x  it has candidates, or none
+  void apply_events(const std::string& events) {
     std::istringstream words(events);
     for (std::string word; words >> word;) {
       const std::size_t times = word.find('*');
@@ -193,7 +193,7 @@ struct Latencies {
 };
 using testing::ElementsAre;
 
-TEST(EdgeLatency, IsFromLeavingTheReaderToTheLastGroup) {
+TEST(EdgeLatency, LatencyRunsFromReaderToLastGroup) {
   struct Row {
     const char *what, *events;
     std::vector<std::uint64_t> latencies;
@@ -213,20 +213,20 @@ TEST(EdgeLatency, IsFromLeavingTheReaderToTheLastGroup) {
            {"and nothing waits for it", "+= GcP W9 E L10 += GcP W17 W19 E", {7}},
            {"two frames, and one without a line", "L1 += GcP W4 E L11 += GcP W19 E E", {3, 8}}}) {
     Latencies l;
-    l.happen(row.events);
+    l.apply_events(row.events);
     EXPECT_EQ(l.all(), row.latencies) << row.what;
   }
 }
-TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
+TEST(EdgeLatency, ResetDropsEdgesInFlight) {
   for (const char* const before :
        {"L1", "L1 +", "L1 +=", "L1 += g", "L1 += gc", "L1 += gcP", "L1 += gcP W4"}) {
     Latencies l;
-    l.happen(before);
+    l.apply_events(before);
     l.edges.reset();
-    l.happen("L10 += GcP W15 E");
+    l.apply_events("L10 += GcP W15 E");
     EXPECT_THAT(l.all(), ElementsAre(5)) << before;
   }
-  // One that is a boundary but for its pair, which has not come.
+  // An edge classified as a boundary whose vertex pair has not come yet.
   Latencies l;
   l.edges.leave(1, 1);
   l.edges.decided(true, true);
@@ -234,7 +234,7 @@ TEST(EdgeLatency, AResetForgetsWhatIsOnTheWay) {
   l.edges.leave(10, 1);
   l.edges.decided(true, true);
   l.edges.paired(true);
-  l.happen("= GcP W15 E");
+  l.apply_events("= GcP W15 E");
   EXPECT_THAT(l.all(), ElementsAre(5));
 }
 

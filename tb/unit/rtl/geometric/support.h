@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the geometric engine's hardware model share: the engine with its memory and
-// host, the contract's scene, and the hashes that the contract gives.
+// Shared by the tests of the geometric engine's RTL model: the engine with its memory and host, the
+// contract's scene, and the contract's hashes.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ constexpr std::uint32_t vector_base(spec::geometric::Region region) {
   return spec::geometric::kVectorBases[static_cast<std::size_t>(region)];
 }
 
-// Those of the contract's vectors.
+// Base addresses of the contract's vectors.
 struct Bases {
   std::uint32_t edges = vector_base(spec::geometric::Region::kEdges);
   std::uint32_t vertices = vector_base(spec::geometric::Region::kVertices);
@@ -60,7 +60,7 @@ struct Bases {
 };
 inline constexpr std::uint32_t kRegionBytes = 0x10000;
 
-// A frame as it lies in memory.
+// A frame as it is stored in memory.
 struct Scene {
   int width = 0, height = 0;
   std::vector<std::array<std::uint8_t, 4>> colours;
@@ -87,7 +87,7 @@ struct EngineOptions {
   std::uint32_t latency = 20, scatter = 0;
   std::uint32_t memory_bytes = 1u << 20;
   BenchOptions bench = {};
-  bool program = false;  // rules are written after each reset(), over others
+  bool program = false;  // write the configuration after each reset(), over other values
   sc_core::sc_time period = unit_bench::period();
 };
 
@@ -125,8 +125,8 @@ class EngineBench {
     bench = std::make_unique<Bench>(clock, options.bench);
   }
 
-  // Writes a scene to memory and its sizes and bases to the registers: at the contract's bases if
-  // every region fits between them.
+  // Writes a scene to memory, and its sizes and bases to the registers. Uses the contract's bases
+  // if every region fits between them.
   void load(const Scene& scene) {
     width = scene.width;
     height = scene.height;
@@ -149,17 +149,17 @@ class EngineBench {
   }
   bool tiled() const { return driver.configuration().layout == spec::geometric::Layout::kTiled; }
   void start() { driver.start(); }
-  // A whole frame; gives its cycles.
+  // Runs a whole frame and returns its cycles.
   Cycle run(Cycle limit = 2'000'000) {
     return run([this] { start(); }, limit);
   }
-  // One that is started in another way.
+  // The same with another way to start the frame.
   Cycle run(const std::function<void()>& starts, Cycle limit = 2'000'000) {
     forget();
     starts();
     return bench->run([this] { return engine.idle(); }, limit);
   }
-  // What was recorded of the frames before.
+  // Discards the records of earlier frames.
   void forget() {
     lines.clear();
     candidates.clear();
@@ -173,7 +173,7 @@ class EngineBench {
     if (program) driver.set_configuration(p);
   }
 
-  // --- What the contract hashes ---
+  // --- hashed by the contract ---
   std::uint64_t pixel_hash() {
     stimuli::VectorHash hash;
     for (const spec::geometric::Rgba8& pixel : driver.picture())
@@ -209,7 +209,7 @@ class EngineBench {
   std::vector<std::uint64_t> writes(std::uint32_t base) const {
     return accesses(memory.lines_written(), base);
   }
-  // Reads of weights while edges are drawn come before those of the resolve.
+  // Reads of weights in the edge phase come before those of the resolve.
   std::uint64_t traffic_hash() const {
     stimuli::VectorHash hash;
     const auto add = [&](const std::vector<std::uint64_t>& list) {
@@ -242,7 +242,7 @@ class EngineBench {
              regions.base(Region::kCopy),   regions.base(Region::kPairs),
              regions.base(Region::kCoarse)};
   }
-  // Of the whole frame, whatever the scene has of them.
+  // Colours and depths of the whole frame, filled up if the scene has fewer.
   struct Pixels {
     explicit Pixels(const Scene& scene) : colours(scene.colours), depths(scene.depths) {
       const auto count = static_cast<std::size_t>(scene.width * scene.height);
@@ -268,7 +268,7 @@ class EngineBench {
   std::vector<spec::geometric::BlockRecord> blocks;
 };
 
-// The contract's vector of this name, and how its engine is set.
+// The contract's vector of this name, and the parameters of its engine.
 struct Configuration {
   Parameters p;
   std::uint64_t pixels, weights;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Latency and initiation interval of each unit of the edges' pipe by itself, as
-// their datasheets have them; memory answers 20 cycles after a request.
+// Latency and initiation interval of each unit of the edge pipeline on its own, by its datasheet.
+// Memory responds 20 cycles after a request.
 #include <algorithm>
 #include <deque>
 #include <numeric>
@@ -25,7 +25,7 @@ using namespace rtl::geometric;  // NOLINT: names of units and tokens
 using spec::geometric::Lanes;
 using spec::geometric::Layout;
 
-// ---- EdgeClassifier, with select = all: what is in range is kept
+// ---- EdgeClassifier, with select = all: edges in range are kept
 struct ClassifierBench : Frame {
   explicit ClassifierBench(const Parameters& p)
       : Frame(p),
@@ -49,7 +49,7 @@ struct ClassifierBench : Frame {
     p.edge_lanes = lanes;
     return p;
   }
-  // So many edges, of which lane k is kept if bit k is set.
+  // A beat of `count` edges in which lane k is kept if bit k of `kept` is set.
   static EdgeBeat beat(std::uint8_t count, unsigned kept) {
     EdgeBeat b{};
     b.count = count;
@@ -60,20 +60,20 @@ struct ClassifierBench : Frame {
   EdgeClassifier unit;
   Ends<EdgeBeat, KeptEdge> ends;
 };
-TEST(EdgeClassifier, LatencyOfTheDatasheet) {
+TEST(EdgeClassifier, LatencyMatchesDatasheet) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
   const std::string measured = b.latency(b.ends, ClassifierBench::beat(2, 2));
-  // A datasheet that is a clock off is noticed.
+  // A datasheet that is off by one cycle fails.
   expect_notices_a_clock(EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
                          [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
 }
-TEST(EdgeClassifier, ABeatAClockIfOneIsKept) {
+TEST(EdgeClassifier, OneBeatPerCycleWithOneKeptEdge) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
   for (int i = 0; i < 100; ++i) b.ends.source.add(ClassifierBench::beat(4, 1u << i % 4));
   finish(b, b.ends, 100);
   EXPECT_EQ(spread(b.ends), 99 * EdgeClassifier::datasheet().interval.cycles);
 }
-TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
+TEST(EdgeClassifier, BeatWithoutKeptEdgeTakesOneCycle) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
   b.ends.source.add(ClassifierBench::beat(2, 1));
   for (int i = 0; i < 50; ++i) b.ends.source.add(ClassifierBench::beat(2, 0));
@@ -81,7 +81,7 @@ TEST(EdgeClassifier, ABeatWithoutAKeptEdgeTakesAClock) {
   finish(b, b.ends, 2);
   EXPECT_EQ(spread(b.ends), 51u);
 }
-TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
+TEST(EdgeClassifier, KeptEdgesLeaveOnePerCycle) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
   for (int i = 0; i < 25; ++i) b.ends.source.add(ClassifierBench::beat(4, 15));
   finish(b, b.ends, 100);
@@ -89,8 +89,8 @@ TEST(EdgeClassifier, KeptEdgesLeaveOneAClock) {
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(b.ends.sink.taken[i].token.v0, i % 4);
 }
 
-// Every flag and facing, with indices around their counts, by every rule.
-TEST(EdgeClassifier, ClassifiesAsGolden) {
+// All flags and facings, with indices around their limits, for every configuration.
+TEST(EdgeClassifier, ClassesMatchGolden) {
   using spec::geometric::EdgeClass;
   constexpr std::uint32_t kFaces = 40;
   const std::vector<std::uint8_t> facing = {1, 0, 0, 0, 0x80};  // faces 0 and 39
@@ -158,9 +158,9 @@ struct VertexBench : Frame {
   VertexFetch unit;
   Ends<KeptEdge, EdgeEnds> ends;
 };
-TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
+TEST(VertexFetch, LatencyMatchesDatasheetUnlessALineIsMissing) {
   VertexBench b;
-  EXPECT_EQ(b.latency(b.ends, {1, 9, false, false}), "32");  // the second miss came a clock later
+  EXPECT_EQ(b.latency(b.ends, {1, 9, false, false}), "32");  // the second miss came one cycle later
   b.clock.run(10);
   expect_latency_of(VertexFetch::datasheet(), b.latency(b.ends, {9, 2, false, false}));
   b.clock.run(10);
@@ -168,7 +168,7 @@ TEST(VertexFetch, LatencyOfTheDatasheetOrWaitsForALine) {
   EXPECT_EQ(b.unit.misses.value(), 3u);
   EXPECT_EQ(b.unit.lookups.value(), 6u);
 }
-TEST(VertexFetch, AnEdgeAClockWhereAtMostOneLookUpMisses) {
+TEST(VertexFetch, OneEdgePerCycleWithAtMostOneMiss) {
   VertexBench b;
   for (std::uint32_t i = 0; i < 60; ++i) b.ends.source.add({4 * i, 4 * i + 4, false, false});
   finish(b, b.ends, 60);
@@ -191,9 +191,9 @@ TEST(VertexFetch, EndReadsNoLine) {
 }
 
 // ---- MemoryArbiter
-struct Asker final : rtl::Unit {
+struct RequestingClient final : rtl::Unit {
   MemoryClient memory;
-  Asker(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
+  RequestingClient(const sc_core::sc_module_name& name, ClockDomain& clock) : Unit(name, clock) {}
   rtl::Activity tick(Cycle cycle) override {
     if (cycle >= takes_from && memory.responses_in.can_pop(cycle)) {
       answered.push_back(cycle);
@@ -215,10 +215,10 @@ struct Asker final : rtl::Unit {
   Cycle takes_from = 0;
   std::vector<Cycle> asked, answered;
 };
-TEST(MemoryArbiter, LatencyOfTheDatasheetEachWay) {
+TEST(MemoryArbiter, LatencyMatchesDatasheetEachWay) {
   Frame b({});
   b.tie();
-  Asker asker("asker", b.clock);
+  RequestingClient asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 1;
   b.clock.run(60);
@@ -228,11 +228,11 @@ TEST(MemoryArbiter, LatencyOfTheDatasheetEachWay) {
   EXPECT_EQ(asker.answered[0] - asker.asked[0], each_way + 1 + (20 + 1) + 1 + each_way);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
 }
-// Two answers lie in the link of a client that takes none, and the third waits in front of it.
-TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
+// Two responses wait in the link of a client that takes none, the third in the arbiter.
+TEST(MemoryArbiter, ResponseWaitsForItsClient) {
   Frame b({});
   b.tie();
-  Asker asker("asker", b.clock);
+  RequestingClient asker("asker", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 5;
   asker.takes_from = 100;
@@ -240,16 +240,16 @@ TEST(MemoryArbiter, AnAnswerWaitsForItsClient) {
   EXPECT_TRUE(asker.answered.empty());
   b.clock.run(20);
   EXPECT_THAT(asker.answered, ::testing::ElementsAre(100, 101, 102, 103, 104));
-  // Two came after 23 cycles, asked for in 0 and 1; those asked for in 2, 3 and 4 left the arbiter
+  // Two came after 23 cycles, requested in 0 and 1; those requested in 2, 3 and 4 left the arbiter
   // in 101, 102 and 103.
   EXPECT_THAT(asker.asked, ::testing::ElementsAre(0, 1, 2, 3, 4));
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 2, 98 x 3");
 }
-// Its reads alone, in the histogram of who asked.
-TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
+// Only reads count, in the histogram of the client that requested them.
+TEST(MemoryArbiter, ReadLatencyExcludesWrites) {
   Frame b({});
   b.tie();
-  Asker asker("asker", b.clock), other("other", b.clock);
+  RequestingClient asker("asker", b.clock), other("other", b.clock);
   b.arbiter.connect(Client::kWeights, asker.memory);
   b.arbiter.connect(Client::kResolve, other.memory);
   asker.wanted = other.wanted = 6;
@@ -265,11 +265,11 @@ TEST(MemoryArbiter, TheLatencyOfReadsIsThatOfReads) {
           << kClientNames[static_cast<std::size_t>(client)];
     }
 }
-// Two clients that use the same numbers, granted in turn: each read counts from its own grant.
+// Two clients use the same tags and are granted alternately; each read counts from its own grant.
 TEST(MemoryArbiter, LatencyCountsFromTheGrantOfTheClientThatAsked) {
   Frame b({});
   b.tie();
-  Asker asker("asker", b.clock), other("other", b.clock);
+  RequestingClient asker("asker", b.clock), other("other", b.clock);
   b.arbiter.connect(Client::kDepth, asker.memory);
   b.arbiter.connect(Client::kWeights, other.memory);
   asker.wanted = other.wanted = 6;
@@ -277,7 +277,7 @@ TEST(MemoryArbiter, LatencyCountsFromTheGrantOfTheClientThatAsked) {
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 6");
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kWeights)), "23 x 6");
 }
-// Eight clients, and one for each of two build choices.
+// Eight clients, and one more for each of two build options.
 TEST(MemoryArbiter, ServesEachClientInTurn) {
   for (std::size_t clients = 8; clients <= 10; ++clients) {
     const std::string got = in_child([clients] {
@@ -286,7 +286,7 @@ TEST(MemoryArbiter, ServesEachClientInTurn) {
       if (clients > 9) p.coarse_lines = spec::geometric::CoarseLines::k4;
       Frame b(p);
       b.tie();
-      std::deque<Asker> askers;
+      std::deque<RequestingClient> askers;
       for (const Client client : clients_of(p)) {
         askers.emplace_back(("asker" + std::to_string(askers.size())).c_str(), b.clock);
         askers.back().wanted = 40;
@@ -294,7 +294,7 @@ TEST(MemoryArbiter, ServesEachClientInTurn) {
       }
       b.clock.run(600);
       std::vector<Cycle> answers;
-      for (const Asker& asker : askers) {
+      for (const RequestingClient& asker : askers) {
         EXPECT_EQ(asker.answered.size(), 40u);
         for (std::size_t i = 3; i < 40; ++i) {
           EXPECT_EQ(asker.asked.at(i) - asker.asked.at(i - 1), clients);
@@ -323,7 +323,7 @@ struct WalkerBench : Frame {
     p.walkers = walkers;
     return p;
   }
-  // In row 6, from column `first` on.
+  // A line in row 6, from column `first` on.
   static LineToken line(int first, int count, int slope = 0) {
     LineToken token{};
     token.line.first = static_cast<std::uint16_t>(first);
@@ -335,11 +335,11 @@ struct WalkerBench : Frame {
   LineWalker unit;
   Ends<LineToken, GroupToken> ends;
 };
-TEST(LineWalker, LatencyOfTheDatasheet) {
+TEST(LineWalker, LatencyMatchesDatasheet) {
   WalkerBench b(Lanes::kFour);
   expect_latency_of(LineWalker::datasheet(), b.latency(b.ends, WalkerBench::line(3, 1)));
 }
-TEST(LineWalker, APixelAClockAndWalker) {
+TEST(LineWalker, OnePixelPerCycleAndWalker) {
   for (const auto& [lanes, count] :
        {std::pair{Lanes::kOne, 1}, {Lanes::kTwo, 2}, {Lanes::kFour, 4}}) {
     const std::string got = in_child([lanes = lanes, count = count] {
@@ -403,18 +403,18 @@ struct CoverageBench : Frame {
   CoverageUnit unit;
   Ends<GroupToken, CandidateToken> ends;
 };
-TEST(CoverageUnit, LatencyOfTheDatasheet) {
+TEST(CoverageUnit, LatencyMatchesDatasheet) {
   CoverageBench b;
   expect_latency_of(CoverageUnit::datasheet(),
                     b.latency(b.ends, CoverageBench::group(false, 7, 3)));
 }
-TEST(CoverageUnit, AGroupAClock) {
+TEST(CoverageUnit, OneGroupPerCycle) {
   CoverageBench b;
   for (int i = 0; i < 50; ++i) b.ends.source.add(CoverageBench::group(false, 7, i));
   finish(b, b.ends, 50);
   EXPECT_EQ(spread(b.ends), 49 * CoverageUnit::datasheet().interval.cycles);
 }
-TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
+TEST(CoverageUnit, GroupWithoutCandidateTakesOneCycle) {
   CoverageBench b;
   b.ends.source.add(CoverageBench::group(false, 7, 9));
   for (int i = 0; i < 30; ++i) b.ends.source.add(CoverageBench::group(false, 7, -32768));
@@ -422,8 +422,8 @@ TEST(CoverageUnit, AGroupWithoutACandidateTakesAClockAndLeavesNothing) {
   finish(b, b.ends, 2);
   EXPECT_EQ(spread(b.ends), 31u);
 }
-// It needs no room behind the unit, and waits for none; one with a candidate does.
-TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
+// Such a group needs no room at the output and does not wait for it; a group with a candidate does.
+TEST(CoverageUnit, GroupWithoutCandidateIgnoresBlockedOutput) {
   CoverageBench b;
   const Cycle begin = b.clock.cycle();
   b.ends.sink.hold_to = begin + 100;
@@ -433,7 +433,8 @@ TEST(CoverageUnit, AGroupWithoutACandidateGoesOnWhereThereIsNoRoom) {
   b.clock.run(50);
   EXPECT_EQ(b.ends.in.pops(), 32u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
-  // Sent in 50, taken in 51; it would leave in 53, and does in 101, a clock after the first one.
+  // Sent in 50, taken in 51; it would leave in 53, but leaves in 101, one cycle after the first
+  // one.
   b.ends.source.add(CoverageBench::group(false, 7, 9));
   b.clock.run(60);
   ASSERT_EQ(b.ends.sink.taken.size(), 3u);
@@ -445,9 +446,9 @@ std::array<int, 8> first_lane_of(const CandidateToken& c) {
   return {c.candidates, c.block_x,     c.block_y,     c.vertical,
           c.place[0],   c.coverage[0], c.forward & 1, c.seconds ? c.second[0] : -1};
 }
-// Every distance of a level line; distances at slopes around each of the table's and where a line
-// begins to leave its pixel; rows at the borders of the frame, ties and both axes.
-TEST(CoverageUnit, CutsAsGolden) {
+// Every distance of a level line; distances at slopes around each entry of the table, and at which
+// a line starts to leave its pixel; rows at the borders of the frame, ties, and both axes.
+TEST(CoverageUnit, CoverageMatchesGolden) {
   using spec::geometric::CoverageRule;
   std::vector<int> slopes = {0, 1, 255, 256, 511, 512, 1 << 18, (1 << 18) - 1};
   for (int k = 1; k <= 32; ++k)
@@ -517,7 +518,7 @@ TEST(CoverageUnit, CutsAsGolden) {
     EXPECT_EQ(got, "") << static_cast<int>(rule);
   }
 }
-// While the link is full the areas stay on the tables' output registers.
+// While the link is full, the areas stay in the output registers of the tables.
 TEST(CoverageUnit, AreasWaitForRoom) {
   CoverageBench b(CoverageBench::area());
   b.ends.sink.hold_to = b.clock.cycle() + 60;
@@ -553,7 +554,7 @@ struct DepthBench : Frame {
     p.layout = Layout::kRaster;
     return p;
   }
-  // A column of four pixels at the left side of a block, that take from the left.
+  // A column of four pixels at the left side of a block that take from the left.
   static CandidateToken column(int bx, int by) {
     CandidateToken token{};
     token.block_x = static_cast<std::uint16_t>(bx);
@@ -564,7 +565,7 @@ struct DepthBench : Frame {
     token.coverage = {9, 9, 9, 9};
     return token;
   }
-  // One pixel inside of a block.
+  // One pixel inside a block.
   static CandidateToken pixel(int bx, int by, std::uint32_t depth = 0) {
     CandidateToken token = column(bx, by);
     token.candidates = 1;
@@ -575,21 +576,21 @@ struct DepthBench : Frame {
   DepthTest unit;
   Ends<CandidateToken, WeightToken> ends;
 };
-TEST(DepthTest, LatencyOfTheDatasheetOrWaitsForALine) {
+TEST(DepthTest, LatencyMatchesDatasheetUnlessALineIsMissing) {
   DepthBench b;
   EXPECT_EQ(b.latency(b.ends, DepthBench::pixel(3, 4)), "33");
   b.clock.run(10);
   expect_latency_of(rtl::geometric::DepthTest::datasheet(),
                     b.latency(b.ends, DepthBench::pixel(3, 4)));
 }
-TEST(DepthTest, AGroupOfOneLineAClock) {
+TEST(DepthTest, OneLineGroupPerCycle) {
   DepthBench b;
   for (int i = 0; i < 60; ++i) b.ends.source.add(DepthBench::pixel(i, 4));
   finish(b, b.ends, 60);
   EXPECT_EQ(spread(b.ends), 59u);
   EXPECT_EQ(b.unit.misses.value(), 60u);
 }
-TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
+TEST(DepthTest, EightLinesTakeFourCyclesOrEightMisses) {
   DepthBench b(DepthBench::raster());
   for (int i = 0; i < 7; ++i) b.ends.source.add(DepthBench::column(4, i));
   finish(b, b.ends, 7);
@@ -602,8 +603,9 @@ TEST(DepthTest, EightLinesTakeFourClocksOrEightMisses) {
   EXPECT_EQ(spread(b.ends), 6u * 4);
   EXPECT_EQ(b.unit.misses.value(), 56u);
 }
-TEST(DepthTest, APairTakesAClockWithAMiss) {
-  // Two lines each, the pixel's and that of the block to its left, which the group before brought.
+TEST(DepthTest, PairWithOneMissTakesOneCycle) {
+  // Two lines each: the pixel's own, and that of the block to its left, which the previous group
+  // has loaded.
   DepthBench b;
   for (int i = 1; i < 60; ++i) {
     CandidateToken token = DepthBench::column(i, 4);
@@ -613,10 +615,10 @@ TEST(DepthTest, APairTakesAClockWithAMiss) {
   finish(b, b.ends, 59);
   EXPECT_EQ(b.unit.misses.value(), 60u);
   EXPECT_EQ(b.unit.lookups.value(), 2u * 59);
-  // The first pair misses twice, a clock more.
+  // The first pair misses twice: one more cycle.
   EXPECT_EQ(spread(b.ends), 58u);
 }
-// As few places for lines as can be built: a group that orders eight holds all of them.
+// The smallest number of fills: a group that requests eight lines uses all of them.
 TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
   Parameters p = DepthBench::raster();
   p.fills = spec::geometric::kMinFills;
@@ -624,13 +626,14 @@ TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
   for (int i = 0; i < 9; ++i) b.ends.source.add(DepthBench::column(4, i));
   finish(b, b.ends, 9);
   EXPECT_EQ(b.unit.misses.value(), 72u);
-  // The next group begins when the one before has left its places: M + 6 and eight lines.
+  // The next group starts when the previous one has released its entries: M + 6 and eight lines.
   EXPECT_LE(spread(b.ends), 8u * (26 + 8 + 8));
 }
 
-// Depths at the limit of every bias and every crease depth and beside it, by every test; what is
-// shown of each candidate, second ones with the first, and which of both pixels is nearer.
-TEST(DepthTest, PassesAsGolden) {
+// Depths at and next to the limit of every bias and crease depth, for every test. Also compares the
+// candidates that the observer sees, second ones after their first, and which of both pixels is
+// nearer.
+TEST(DepthTest, PassingCandidatesMatchGolden) {
   using spec::geometric::Candidate;
   namespace gold = golden::geometric;
   for (const Layout layout : {Layout::kTiled, Layout::kRaster}) {
@@ -733,33 +736,33 @@ TEST(DepthTest, PassesAsGolden) {
 }
 
 // ---- WeightCombiner
-TEST(WeightCombiner, LatencyOfTheDatasheet) {
+TEST(WeightCombiner, LatencyMatchesDatasheet) {
   CombinerBench b;
   b.in.push(b.clock.cycle(), CombinerBench::end());
   expect_latency(WeightCombiner::datasheet(), b.until_drawn() - 1);
 }
-TEST(WeightCombiner, AGroupAClockWhateverBlock) {
+TEST(WeightCombiner, OneGroupPerCycleForAnyBlock) {
   CombinerBench b;
   for (int i = 0; i < 100; ++i) b.source.add(CombinerBench::token(5, 1));
   for (int i = 0; i < 500; ++i) b.source.add(CombinerBench::token(i, 2));
   b.source.add(CombinerBench::end());
   const Cycle cycles = b.until_drawn();
   EXPECT_EQ(b.unit.misses.value(), 501u);
-  // Of 128 blocks a row of the cache holds 16.
+  // One row of the frame can use only 16 of the cache's 128 blocks.
   EXPECT_GT(b.unit.blocks_written.value(), 400u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
-  // The last write is answered a while after it was sent.
+  // The response to the last write comes later.
   EXPECT_LE(cycles, 601u + 6 + 30);
 }
-// Sends every block of the first rows to memory: others take their places.
-void push_out(CombinerBench& b) {
+// Fills the cache with other blocks, so that the first rows are written to memory.
+void evict_first_rows(CombinerBench& b) {
   for (int i = 0; i < 128; ++i) b.source.add(CombinerBench::token(256 + i % 16, i / 16 % 4));
   b.source.add(CombinerBench::end());
   b.until_drawn();
 }
-// Second candidates in the group's block are drawn with it; those in the next one across the line a
-// clock later, whose index is another.
-TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
+// Second candidates in the group's block are drawn with it. Those in the next block across the
+// line, which has another index, are drawn one cycle later.
+TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeOneCycle) {
   for (const unsigned to : {0u, 1u, 2u, 3u}) {
     const std::string got = in_child([to] {
       const bool vertical = to & 2, forward = to & 1;
@@ -769,7 +772,7 @@ TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
       t.vertical = vertical;
       t.candidates = 3;
       t.forward = forward ? 3 : 0;
-      // Lane 0 at the side to which it goes, lane 1 a pixel before it.
+      // Lane 0 is at the side towards its neighbour, lane 1 one pixel before it.
       t.place[0] = static_cast<std::uint8_t>((forward ? 3 : 0) * (vertical ? 1 : 4));
       t.place[1] = static_cast<std::uint8_t>((forward ? 2 : 1) * (vertical ? 1 : 4));
       t.coverage = {50, 60};
@@ -791,8 +794,8 @@ TEST(WeightCombiner, SecondCandidatesOfAnotherBlockTakeAClock) {
   }
 }
 
-// What has a weight in this block and one in the block after it.
-WeightToken of_two_blocks(int bx, int by) {
+// A token with a weight in this block and one in the next block.
+WeightToken token_of_two_blocks(int bx, int by) {
   WeightToken t = CombinerBench::token(bx, by);
   t.vertical = true;
   t.forward = 1;
@@ -802,17 +805,17 @@ WeightToken of_two_blocks(int bx, int by) {
   return t;
 }
 
-// Frames of 8192 pixels have 2048 blocks in a row.
-TEST(WeightCombiner, TheNeighbouringBlockHasElevenBits) {
+// Frames of 8192 pixels have 2048 blocks per row.
+TEST(WeightCombiner, NeighbouringBlockHasElevenBits) {
   CombinerBench b;
-  b.source.add(of_two_blocks(1023, 0));
-  push_out(b);
+  b.source.add(token_of_two_blocks(1023, 0));
+  evict_first_rows(b);
   EXPECT_EQ(weights_at(b, 4095, 0)[3], 100);
   EXPECT_EQ(weights_at(b, 4096, 0)[2], 9);
 }
 
 // A group of two blocks is one group of its line.
-TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
+TEST(WeightCombiner, GroupOfTwoBlocksCountsOnceInTheLatency) {
   CombinerBench b;
   b.edge_latency.leave(0, 2);
   for (int edge = 0; edge < 2; ++edge) {
@@ -822,7 +825,7 @@ TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
     b.edge_latency.cover(true);
     b.edge_latency.test(true);
   }
-  b.source.add(of_two_blocks(5, 1));
+  b.source.add(token_of_two_blocks(5, 1));
   b.clock.run(60);
   b.source.add(CombinerBench::token(5, 1));
   b.source.add(CombinerBench::end());
@@ -830,7 +833,7 @@ TEST(WeightCombiner, AGroupOfTwoBlocksCountsOnceInTheLatency) {
   EXPECT_EQ(b.unit.edge_latency.count(), 2u);
   EXPECT_GE(b.unit.edge_latency.max(), b.unit.edge_latency.min() + 50);
 }
-TEST(WeightCombiner, ABlockThatComesBackWaitsForItsWrite) {
+TEST(WeightCombiner, ReturningBlockWaitsForItsWrite) {
   CombinerBench b;
   for (int i = 0; i < 3; ++i) {
     b.source.add(CombinerBench::token(0, 0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that a frame of the geometric engine leaves behind, to compare two of them; and scenes that
-// are small enough to be drawn a thousand times.
+// Everything that a frame of the geometric engine produces, to compare two frames; and scenes small
+// enough to be drawn a thousand times.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace deburr::tb::geometric_rtl {
 
-// The contract's scene with its first edges, cut to a small frame, all of it moved to the right by
-// so many pixels.
+// The contract's scene with its first edges, cropped to a small frame and shifted to the right by
+// `right` pixels.
 inline Scene small_scene(int width, int height, std::size_t edges, int right = 0) {
   const Scene whole = contract_scene();
   Scene scene = whole;
@@ -31,9 +31,9 @@ inline Scene small_scene(int width, int height, std::size_t edges, int right = 0
   return scene;
 }
 
-// Of the last run: what the frame is, accesses of each region in order among it; and how regions
-// interleave.
-inline Outcome came_of(EngineBench& b) {
+// Outcome of the last run: the frame and the accesses of each region in order as data; the
+// interleaving of regions as timing.
+inline Outcome outcome_of(EngineBench& b) {
   Outcome outcome = {{{"lines", b.lines},
                       {"candidates", b.candidates},
                       {"blocks", b.blocks},
@@ -48,12 +48,12 @@ inline Outcome came_of(EngineBench& b) {
   }
   return outcome;
 }
-// With whatever was counted since the last reset.
+// Together with all counters since the last reset.
 struct Trail {
   Outcome outcome;
   std::vector<std::string> state;
 };
-inline Trail trail_of(EngineBench& b) { return {came_of(b), engine_state(b.engine, b.bus)}; }
+inline Trail trail_of(EngineBench& b) { return {outcome_of(b), engine_state(b.engine, b.bus)}; }
 inline std::string frame_difference(const Trail& a, const Trail& b) {
   return difference(a.outcome, b.outcome, Compared::kData);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frames of spec/geometric/vectors.h: pixels, weights, the lists of accesses and the counts.
+// The frames of spec/geometric/vectors.h: pixels, weights, lists of accesses, and work counters.
 #include "spec/geometric/vectors.h"
 
 #include "tb/unit/rtl/geometric/support.h"
@@ -38,7 +38,7 @@ TEST_P(Vectors, PixelsWeightsAndTraffic) {
 INSTANTIATE_TEST_SUITE_P(Page, Vectors, ::testing::ValuesIn(geometric::all_frame_vectors()),
                          [](const auto& test) { return std::string(1, test.param.name); });
 
-// Of less traffic.
+// Frames that reduce memory traffic.
 INSTANTIATE_TEST_SUITE_P(LessTraffic, Vectors,
                          ::testing::ValuesIn(spec::geometric::kTrafficFrameVectors),
                          [](const auto& test) { return std::string(1, test.param.name); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The write buffer of the WeightCombiner: in which clock blocks go over the port, as
-// docs/reference/geometric/memory.md has it. Which blocks, and in which order: compared with the
-// golden model by tb/system/geometric_system_test.cpp.
+// The write buffer of the WeightCombiner: the cycles in which blocks are transferred, by
+// docs/reference/geometric/memory.md. tb/system/geometric_system_test.cpp compares the blocks and
+// their order with the golden model.
 #include <functional>
 
 #include "tb/unit/rtl/geometric/combiner_bench.h"
@@ -31,7 +31,7 @@ void draw(CombinerBench& b, std::initializer_list<int> columns) {
   b.source.add(CombinerBench::end());
 }
 
-// The cycles in which the combiner sends something, and gets something.
+// The cycles in which the combiner sends a request or takes a response.
 struct Port {
   explicit Port(CombinerBench& bench) : b(bench) {}
   void run() {
@@ -41,7 +41,7 @@ struct Port {
   void step() {
     const std::uint64_t sent_before = sends().pushes(), got_before = gets().pops();
     const Cycle now = b.clock.cycle();
-    if (before_clock) before_clock(now);
+    if (before_cycle) before_cycle(now);
     b.clock.run(1);
     if (sends().pushes() != sent_before) sent.push_back(now);
     if (gets().pops() != got_before) got.push_back(now);
@@ -49,13 +49,13 @@ struct Port {
   rtl::Link<rtl::MemoryRequest>& sends() { return b.unit.memory.requests_out.link(); }
   rtl::Link<rtl::MemoryResponse>& gets() { return b.unit.memory.responses_in.link(); }
   CombinerBench& b;
-  std::function<void(Cycle)> before_clock;
+  std::function<void(Cycle)> before_cycle;
   std::vector<Cycle> sent, got;
   Cycle drawn = 0;
 };
 
-// Two blocks of one index in turn: each is a hit in the place that the one before has just taken.
-TEST(WriteBuffer, AHitAClock) {
+// Two blocks of one index alternately: each hits the buffer entry that the other has just taken.
+TEST(WriteBuffer, OneHitPerCycle) {
   for (const bool buffered : {false, true}) {
     const std::string got = in_child([buffered] {
       CombinerBench b(with_buffer(buffered ? 1 : 0));
@@ -81,7 +81,7 @@ TEST(WriteBuffer, AHitAClock) {
           wanted[bx != 0] = static_cast<std::uint8_t>(i + 1);
           if (weights_at(b, 4 * bx + i % 4, i % 16 / 4) != wanted) return std::string("weights");
         }
-      // From the source, and into stage 1.
+      // From the source into stage 1.
       return std::to_string(cycles) + " " + std::to_string(b.unit.buffer_hits.value()) + " " +
              std::to_string(stalls(b.unit, "spill"));
     });
@@ -89,22 +89,22 @@ TEST(WriteBuffer, AHitAClock) {
   }
 }
 
-// A block that has left the ring is read in the clock after the answer of its write, and not a
-// clock before.
-TEST(WriteBuffer, ABlockOnItsWayOutIsWaitedFor) {
+// A block that has left the buffer is read in the cycle after the response to its write, and not
+// earlier.
+TEST(WriteBuffer, BlockBeingWrittenIsWaitedFor) {
   CombinerBench b(with_buffer(1));
   draw(b, {0, 4, 8, 0});
   Port port(b);
   port.run();
-  // The write of 0, its answer, the read of it; the write of 4, and its answer and the line.
+  // The write of 0, its response, the read of 0; the write of 4, its response, and the line.
   ASSERT_EQ(port.sent.size(), 4u);
   EXPECT_EQ(port.sent[1], port.got[0] + 1);
   EXPECT_GT(stalls(b.unit, "spill"), 20u);
 }
 
-// The last token is in stage 5 five cycles after its push; then a read of a place in each clock,
-// and its request in the clock after that.
-TEST(WriteBuffer, IsWrittenABlockAClockAfterTheLastToken) {
+// The last token is in stage 5 five cycles after its push. Then one entry is read per cycle, and
+// its request is sent in the next cycle.
+TEST(WriteBuffer, OneBlockPerCycleIsWrittenAfterTheLastToken) {
   for (const int blocks : {1, 2, 5}) {
     const std::string got = in_child([blocks] {
       CombinerBench b(with_buffer(8));
@@ -116,14 +116,14 @@ TEST(WriteBuffer, IsWrittenABlockAClockAfterTheLastToken) {
       port.run();
       std::string text;
       for (const Cycle c : port.sent) text += std::to_string(c - from) + " ";
-      // `drawn` is driven in the clock of the last answer, if there is one.
+      // `drawn` is driven in the cycle of the last response, if there is one.
       const Cycle last = port.got.empty() ? from + 5 : port.got.back();
       return text + "drawn " + std::to_string(port.drawn - last);
     });
     EXPECT_EQ(got, blocks == 1 ? "drawn 1" : blocks == 2 ? "7 drawn 1" : "7 8 9 10 drawn 1");
   }
 }
-TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
+TEST(WriteBuffer, FlushWaitsForTheLink) {
   CombinerBench b(with_buffer(8));
   for (int i = 0; i < 5; ++i) b.source.add(CombinerBench::token(4 * i, 0));
   b.clock.run(30);
@@ -131,7 +131,7 @@ TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
   b.in.push(from, CombinerBench::end());
   const std::uint64_t waited = stalls(b.unit, "downstream");
   Port port(b);
-  port.before_clock = [&](Cycle now) {
+  port.before_cycle = [&](Cycle now) {
     if (now - from >= 8 && now - from < 11) port.sends().hold_push(now);
   };
   port.run();
@@ -142,8 +142,8 @@ TEST(WriteBuffer, WaitsForTheLinkAtTheEnd) {
   EXPECT_THAT(b.memory.lines_written(),
               ElementsAre(address_of(0), address_of(4), address_of(8), address_of(12)));
 }
-// Each write needs a place in the list of blocks on their way out.
-TEST(WriteBuffer, WaitsForTheListAtTheEnd) {
+// Each write needs an entry in the list of blocks being written.
+TEST(WriteBuffer, FlushWaitsForTheList) {
   CombinerBench b(with_buffer(16, 8), 60);
   for (int i = 0; i < 13; ++i) b.source.add(CombinerBench::token(4 * i, 0));
   b.clock.run(40);
@@ -155,11 +155,11 @@ TEST(WriteBuffer, WaitsForTheListAtTheEnd) {
   EXPECT_EQ(port.sent[7], from + 14);
   EXPECT_EQ(port.sent[8], port.got[0] + 1);
   EXPECT_EQ(port.sent[11], port.got[3] + 1);
-  // In the clock of an answer the unit is busy.
+  // The unit is busy in the cycle of a response.
   EXPECT_EQ(stalls(b.unit, "spill"), port.got[0] - (from + 15));
 }
-// Without a block in it the buffer costs no clock; nor has a build without it anything of it.
-TEST(WriteBuffer, CostsNothingWhereNothingIsReplaced) {
+// An empty buffer costs no cycles, and a build without it has none of its memories.
+TEST(WriteBuffer, CostsNothingWithoutReplacement) {
   std::string first;
   for (const int places : {0, 8}) {
     const std::string got = in_child([places] {

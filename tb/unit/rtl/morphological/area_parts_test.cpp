@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of the AreaUnit alone: in which cycles each can do its stages at the earliest, and that
-// this is what its datasheet says.
+// Parts of the AreaUnit, each on its own: the earliest cycle of every stage, which must equal its
+// datasheet.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,8 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 
 constexpr std::size_t kColumns = 64, kDescriptors = 16;
 
-// A DescriptorStore with a vertical record in each of the first columns, in row 0, and its walk.
+// A DescriptorStore with a vertical descriptor at row 0 of each of the first columns, and the walk
+// that reads it.
 struct Walk {
   Walk() : descriptors("descriptor_store", small(), kColumns, {stored, conflicts}) {
     StoredDescriptor descriptor;
@@ -26,8 +27,8 @@ struct Walk {
       descriptors.column().write(x, x, {0, 3, 0}, descriptor);
     }
   }
-  // Column x in row 0, with the second stage so many cycles after the first one, and the third one
-  // so many after that. False: the memories do not allow it.
+  // Looks up column x in row 0. The second stage runs `match` cycles after the first, the third
+  // `visit` cycles after the second. False if the memories reject an access.
   bool finds(std::uint16_t x, Cycle match, Cycle visit) {
     const Slot slot{x, kLag - 1, x};
     const Cycle cycle = Cycle{100} * (x + 1u);
@@ -57,24 +58,24 @@ struct Walk {
   DescriptorWalk walk{"descriptor_walk", small(), descriptors, {horizontal, vertical}};
 };
 
-// No stage can be left out: each waits for the words that the one before has addressed.
-TEST(DescriptorWalkBlock, HasTheLatencyOfItsDatasheet) {
+// No stage can be skipped: each waits for the words that the previous stage has addressed.
+TEST(DescriptorWalkBlock, LatencyMatchesDatasheet) {
   Walk bench;
-  // A column each, whose words no port has shown before.
+  // Every attempt takes a new column, whose words no port has returned before.
   std::uint16_t x = 0;
   Cycle match = 0, visit = 0;
   while (match < 5 && !bench.finds(x++, match, 5)) ++match;
   while (visit < 5 && !bench.finds(x++, match, visit)) ++visit;
   ASSERT_LE(x, kDescriptors);
-  // The next unit gets its edges a clock after the last stage.
+  // The next unit receives the edges one cycle after the last stage.
   expect_notices_a_clock(
       DescriptorWalk::datasheet(), &rtl::Datasheet::latency,
       [&](const rtl::Datasheet& sheet) { expect_latency(sheet, match + visit + 1); });
 }
 
-// A line that meets an edge at one of its ends cuts off a trapezoid of it, not two triangles of
-// which one is nothing: at the middle of 254 pixels they round apart.
-TEST(AnalyticWeightsBlock, AnEdgeThatBeginsOrEndsOnTheLineHasATrapezoid) {
+// A line that meets an edge at one of its ends cuts off one trapezoid, not two triangles of which
+// one is empty. At the middle of 254 pixels the two round differently.
+TEST(AnalyticWeightsBlock, EdgeThatEndsOnTheLineGetsATrapezoid) {
   StoredDescriptor descriptor;
   descriptor.growth = 66052;          // 2^24 / 254
   descriptor.inverse = 254u * 4096u;  // U12.12
@@ -86,18 +87,18 @@ TEST(AnalyticWeightsBlock, AnEdgeThatBeginsOrEndsOnTheLineHasATrapezoid) {
     const EdgeWeights found = AnalyticWeights::of(descriptor, 0);
     return std::array<int, 2>{found.first, found.second};
   };
-  // q0 = 0, q1 = 16, or the other way round: (16 + 16) >> 5, where the triangle is
-  // (16 x 16 x inverse + 2^28) >> 29 = 0.
+  // q0 = 0 and q1 = 16, or the reverse: (16 + 16) >> 5, where the triangle gives (16 x 16 x inverse
+  // + 2^28) >> 29 = 0.
   EXPECT_THAT(weights(0), ::testing::ElementsAre(1, 0));
   EXPECT_THAT(weights(-66052), ::testing::ElementsAre(0, 1));
-  // Off its ends.
+  // Slightly off these positions there is no trapezoid.
   EXPECT_THAT(weights(-1), ::testing::ElementsAre(0, 0));
   EXPECT_THAT(weights(-66051), ::testing::ElementsAre(0, 0));
 }
 
-// A weight of 7 at one sharp corner of two, corner_rounding = 73: 7 x 329 is 255 above 4 x 512, a
-// half less one, and rounds down.
-TEST(CornerWeights, AreRoundedToNearest) {
+// One sharp corner of two, weight 7, corner_rounding = 73: 7 x 329 = 4 x 512 + 255, just below one
+// half, rounds down.
+TEST(CornerWeights, WeightsRoundToNearest) {
   FrameConfiguration configuration;
   configuration.corners = true;
   configuration.corner_loss = 256 - 73;
@@ -106,7 +107,7 @@ TEST(CornerWeights, AreRoundedToNearest) {
   EXPECT_EQ(weights.second, 7) << "no corner on that side";
 }
 
-TEST(CornerWeights, StayWhereCornersAreNotRounded) {
+TEST(CornerWeights, WeightsStayWithoutCornerRounding) {
   FrameConfiguration configuration;
   configuration.corners = false;
   configuration.corner_loss = 256;
@@ -115,8 +116,9 @@ TEST(CornerWeights, StayWhereCornersAreNotRounded) {
   EXPECT_EQ(weights.second, 9);
 }
 
-// Asked in one clock, it has the edge in the next; a beat of weights may be asked for in each.
-TEST(LearnedWeightsBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
+// The unit takes the edge in the cycle after the request; one beat of weights can be requested per
+// cycle.
+TEST(LearnedWeightsBlock, LatencyAndIntervalMatchDatasheet) {
   LearnedWeights unit("learned", 1);
   StoredDescriptor descriptor;
   descriptor.learned = true;
@@ -130,7 +132,7 @@ TEST(LearnedWeightsBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
   std::vector<int> sums;
   for (Cycle cycle = kAsked; cycle < kAsked + 12; ++cycle) {
     BeatWeights weights{};
-    weights[0].top.span = 1;  // learned weights have none
+    weights[0].top.span = 1;  // learned weights have no span
     unit.move(cycle, &weights);
     if (weights[0].top.span == 0) {
       cycles.push_back(cycle);
@@ -141,15 +143,15 @@ TEST(LearnedWeightsBlock, HaveTheLatencyAndIntervalOfTheirDatasheet) {
   }
   ASSERT_EQ(cycles.size(), static_cast<std::size_t>(kLength));
   EXPECT_GT(sums[0] + sums[1] + sums[2], 0);
-  for (Cycle& clock : cycles) ++clock;  // a register
+  for (Cycle& clock : cycles) ++clock;  // the output register
   const auto check = [&](const rtl::Datasheet& sheet) { expect_cycles(sheet, cycles, kAsked + 1); };
   expect_notices_a_clock(LearnedWeights::datasheet(), &rtl::Datasheet::latency, check);
   expect_notices_a_clock(LearnedWeights::datasheet(), &rtl::Datasheet::interval, check);
 }
 
-// The row above is addressed a clock before the weights of this row come, and what they were goes
-// out in the clock in which they do.
-TEST(WeightRowsBlock, HaveTheRowAboveAClockAfterItsAddress) {
+// The row above is addressed one cycle before the weights of this row arrive; its weights leave in
+// the cycle in which those arrive.
+TEST(WeightRowsBlock, RowAboveArrivesOneCycleAfterItsAddress) {
   WeightRows rows("weight_rows", small(), kColumns);
   const auto weights_of_row = [](int row) {
     BeatWeights weights{};

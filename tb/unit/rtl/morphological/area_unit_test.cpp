@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AreaUnit: latency and interval, where the weights of a record lie, when it is finished, and what
-// it waits for.
+// AreaUnit: latency, interval, the addresses of a descriptor's weights, when a descriptor is
+// finished, and stalls.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -23,7 +23,7 @@ using spec::morphological::Axis;
 using spec::morphological::RunPart;
 using spec::morphological::Side;
 
-// slots, lines -> AreaUnit -> weights, finished records.
+// slots, lines -> AreaUnit -> weights, finished descriptors.
 struct Area {
   Area(const Parameters& p, int width_, int height_, Cycle weights_open = 0,
        Cycle finished_open = 0)
@@ -61,7 +61,7 @@ struct Area {
     diagonal_driver->out(*diagonals);
     (*unit.diagonals_in)(*diagonals);
   }
-  // Slot k at clock `at` + k.
+  // Sends slot k in cycle `at` + k.
   void send_slots(Cycle at) {
     std::uint32_t number = 0;
     for (int row = 0; row < height + kLag; ++row)
@@ -72,7 +72,7 @@ struct Area {
         slot_driver.add(at + number++, token);
       }
   }
-  // In which a run of this row is found that ends in column x.
+  // The slot in which a run of this row that ends in column x is found.
   std::uint32_t slot_of(int row, int x) const {
     return slots_before(row + kReach + 2) + static_cast<std::uint32_t>(x / lanes);
   }
@@ -94,8 +94,8 @@ struct Area {
   std::optional<unit_bench::Source<DiagonalWeightsToken>> diagonal_driver;
 };
 
-// The run of three of the contract's table, its first part on the first side.
-LineToken three(Axis axis, int line, int start, std::uint32_t slot) {
+// The run of three pixels in the contract's table, with its first part on the first side.
+LineToken run_of_three(Axis axis, int line, int start, std::uint32_t slot) {
   LineToken token{};
   token.line.run = {
       axis, RunPart::kWhole, static_cast<std::uint16_t>(line), static_cast<std::uint16_t>(start), 3,
@@ -121,8 +121,8 @@ Parameters with_area(AreaSource area, int lanes_code = 0) {
 
 class AreaLanes : public ::testing::TestWithParam<int> {};
 
-// The latency of slots is that of its parts, one behind the other: a part's datasheet that is a
-// clock off is noticed.
+// The latency of slots is the sum of its parts' latencies. A part's datasheet that is off by one
+// cycle fails.
 void expect_sum_of_parts(const rtl::Datasheet& weights, Cycle measured) {
   const std::vector<rtl::Datasheet> parts = {DescriptorWalk::datasheet(), weights,
                                              WeightRows::datasheet()};
@@ -137,18 +137,18 @@ void expect_sum_of_parts(const rtl::Datasheet& weights, Cycle measured) {
 
 class AreaLatency : public ::testing::TestWithParam<std::tuple<AreaSource, int>> {};
 
-// A slot a clock goes in; of each that blends, weights come out nine cycles later, whatever areas
-// are made of.
-TEST_P(AreaLatency, IsThatOfTheDatasheet) {
+// One slot per cycle goes in. For each slot that blends, weights come out nine cycles later, for
+// every source of areas.
+TEST_P(AreaLatency, LatencyMatchesDatasheet) {
   const auto [area, lanes_code] = GetParam();
   const Parameters p = with_area(area, lanes_code);
   const rtl::Datasheet sheet = AreaUnit::datasheet(p);
   Area bench(p, 11, 7);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag), last = bench.slots_before(kLag + 7);
-  // In each row a record.
+  // One descriptor per row.
   for (int y = 0; y < 7; ++y)
-    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, y, 4, bench.slot_of(y, 0)));
+    bench.drivers_h[0]->add(0, run_of_three(Axis::kHorizontal, y, 4, bench.slot_of(y, 0)));
   bench.clock.run(last + 20);
   ASSERT_EQ(bench.weights_gate.taken.size(), last - first);
   std::size_t any = 0;
@@ -174,23 +174,24 @@ INSTANTIATE_TEST_SUITE_P(Each, AreaLatency,
                                                               AreaSource::kTableFull),
                                             ::testing::Range(0, 3)));
 
-// A line is stored, and its record finished, in the clock after its pop, and it is popped when its
-// slot has passed two stages; one a bank, of both axes at once; counted by the parity of the slot
-// row.
-TEST_P(AreaLanes, ADescriptorIsFinishedAClockAfterItsPopPastItsSlot) {
+// A line is popped once its slot has passed two stages, and stored in the next cycle, which
+// finishes its descriptor. Each bank takes one line per cycle, of both axes at once. Finished
+// descriptors are counted by the parity of the slot row.
+TEST_P(AreaLanes, DescriptorFinishesOneCycleAfterItsPop) {
   Area bench(small(GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t even = bench.slots_before(6) + 1, odd = bench.slots_before(7);
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
-    // Long before the slot; and after it, yet not later than the row behind it: the interlock.
-    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, 2 * lane, even));
-    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, even));
-    bench.drivers_h[at]->add(odd + 3, three(Axis::kHorizontal, 1, 2 * lane, odd));
+    // One line comes long before its slot; the other comes after it but, as the interlock requires,
+    // not later than the next row.
+    bench.drivers_h[at]->add(2, run_of_three(Axis::kHorizontal, 0, 2 * lane, even));
+    bench.drivers_v[at]->add(2, run_of_three(Axis::kVertical, lane + 1, 0, even));
+    bench.drivers_h[at]->add(odd + 3, run_of_three(Axis::kHorizontal, 1, 2 * lane, odd));
   }
   bench.clock.run(odd + 40);
   const auto& done = bench.finished_gate;
-  // Pairs of columns lie in half as many banks as there are lanes, so that lines wait there once.
+  // Each pair of columns shares a bank, so lines wait once.
   const int banks = std::max(1, bench.lanes / 2), cycles = bench.lanes / banks;
   ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * cycles));
   expect_notices_a_clock(DescriptorStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
@@ -199,8 +200,8 @@ TEST_P(AreaLanes, ADescriptorIsFinishedAClockAfterItsPopPastItsSlot) {
                          });
   for (int i = 0; i < cycles; ++i) {
     const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(cycles + i);
-    // Slot k is popped in k + 1 and in its second stage in k + 2, and so is the line popped. It is
-    // stored in k + 3, the token taken a clock later.
+    // Slot k is popped in k + 1 and reaches its second stage in k + 2, in which the line is popped.
+    // The line is stored in k + 3, and the token is taken one cycle later.
     EXPECT_EQ(done.taken[clock].cycle, even + 4 + clock);
     EXPECT_EQ(done.taken[clock].token.count[0], banks + (i == 0 ? bench.lanes : 0));
     EXPECT_EQ(done.taken[clock].token.count[1], 0);
@@ -215,15 +216,15 @@ TEST_P(AreaLanes, ADescriptorIsFinishedAClockAfterItsPopPastItsSlot) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, AreaLanes, ::testing::Values(0, 1, 2));
 
-TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
+TEST(AreaUnitBlock, DownstreamStallHoldsSlotsOnly) {
   Area bench(small(), 5, 3, 200);
   bench.send_slots(0);
   const std::uint32_t first = bench.slots_before(kLag);
-  // Weights that nobody takes do not hold up a record.
-  bench.drivers_h[0]->add(150, three(Axis::kHorizontal, 0, 0, 1));
+  // A stall of the weights output does not delay a descriptor.
+  bench.drivers_h[0]->add(150, run_of_three(Axis::kHorizontal, 0, 0, 1));
   bench.clock.run(260);
-  // Two fit into the link, sent in first + 9 and first + 10; the third goes in 201. In between, two
-  // cycles are busy with the record.
+  // The link holds two, sent in first + 9 and first + 10; the third goes in 201. In between, two
+  // cycles are busy with the descriptor.
   EXPECT_EQ(stalls(bench.unit, "downstream"), 201u - (first + 11) - 2);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   EXPECT_EQ(bench.finished_gate.taken[0].cycle, 153u);
@@ -234,12 +235,13 @@ TEST(AreaUnitBlock, WaitsDownstreamWithItsSlotsAlone) {
   }
 }
 
-TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
+TEST(AreaUnitBlock, LinesWaitForTheFinishedOutput) {
   Area bench(small(), 5, 3, 0, 100);
   bench.send_slots(0);
-  for (int i = 0; i < 4; ++i) bench.drivers_v[0]->add(40, three(Axis::kVertical, i + 1, 0, 3));
+  for (int i = 0; i < 4; ++i)
+    bench.drivers_v[0]->add(40, run_of_three(Axis::kVertical, i + 1, 0, 3));
   bench.clock.run(80);
-  // The last slot has left: to wait is no work.
+  // The last slot has left; waiting does not count as work.
   const std::uint64_t busy = bench.unit.busy_cycles();
   bench.clock.run(15);
   EXPECT_EQ(bench.unit.busy_cycles(), busy);
@@ -251,15 +253,15 @@ TEST(AreaUnitBlock, LinesWaitForRoomForTheirFinish) {
 
 // ---- after a reset ------------------------------------------------------------------------------
 
-// The weights of a row stay in their memory, where a narrower frame has none: beside its last
-// column is nothing.
-TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
+// The weights of a row stay in their memory. A narrower frame must not show those of columns beyond
+// its width.
+TEST_P(AreaLanes, NarrowerFrameIgnoresOldColumns) {
   constexpr int kWide = 16, kNarrow = 8;
   Area bench(small(GetParam()), kWide, 9);
   bench.send_slots(0);
   for (int x = kNarrow; x < kWide; ++x)
-    bench.drivers_v[0]->add(0, three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
-  // Both of the rows that are left have weights there.
+    bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
+  // Both rows that remain in memory have weights there.
   bench.clock.run(bench.slots_before(kLag + 1) + 12);
   EXPECT_GT(bench.unit.vertical_edges.value(), 7u);
   reset_by(bench.clock, 2);
@@ -275,20 +277,20 @@ TEST_P(AreaLanes, BesideANarrowerFrameIsNothing) {
     }
   bench.clock.run(number + 40);
   ASSERT_EQ(bench.weights_gate.taken.size(), static_cast<std::size_t>(9 * beats));
-  // Above the first row of a frame are the weights of none.
+  // The first row of a frame must not get weights of the previous frame from above.
   for (const WeightToken& token : tokens_of(bench.weights_gate)) EXPECT_FALSE(token.any);
 }
 
 // ---- with SMAA's blocks -------------------------------------------------------------------------
 
-// A line of which the product of its ends is known, and the ends are not yet.
-TEST(TableEnds, AResetForgetsALineThatIsMeasured) {
-  // What of a line that is popped in clock 41 is stored and finished.
-  const auto kept = [](bool reset, Cycle at) {
+// The product of the line's ends is known, but not yet the ends.
+TEST(TableEnds, ResetDropsLineInMeasurement) {
+  // Counts of stored and of finished lines, for a line that is popped in cycle 41.
+  const auto stored_and_finished = [](bool reset, Cycle at) {
     return forked_text([=] {
       Area bench(with_area(AreaSource::kTableFull), 5, 3);
       bench.send_slots(0);
-      bench.drivers_v[0]->add(40, three(Axis::kVertical, 1, 0, 3));
+      bench.drivers_v[0]->add(40, run_of_three(Axis::kVertical, 1, 0, 3));
       bench.clock.run(at);
       bench.clock.set_reset_n(!reset);
       bench.clock.run(1);
@@ -298,13 +300,14 @@ TEST(TableEnds, AResetForgetsALineThatIsMeasured) {
              std::to_string(bench.finished_gate.taken.size()) + " finished";
     });
   };
-  EXPECT_EQ(kept(false, 42), "1 stored, 1 finished");
-  for (const Cycle at : {42, 43}) EXPECT_EQ(kept(true, at), "0 stored, 0 finished") << at;
+  EXPECT_EQ(stored_and_finished(false, 42), "1 stored, 1 finished");
+  for (const Cycle at : {42, 43})
+    EXPECT_EQ(stored_and_finished(true, at), "0 stored, 0 finished") << at;
 }
 
-// Where the ends of a line lie, by the formulas of docs/reference/morphological/smaa.md: S13,
-// and a tie goes up, which is a pixel further to the left for the start.
-TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
+// The ends of a line by the formulas of docs/reference/morphological/smaa.md: S13, ties round up,
+// which for the start is one pixel further to the left.
+TEST(TableEnds, EndsRoundTo13Bits) {
   constexpr std::int64_t kOne = std::int64_t{1} << 24;
   struct Row {
     std::int64_t height;    // .24, of the first edge above the line's lower end
@@ -313,19 +316,19 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
   };
   for (const Row& row : std::initializer_list<Row>{
            {kOne / 2, 6 << 12, -3, 3},
-           // 2 1/2 pixels, and a 4096th of a pixel less or more
+           // 2 1/2 pixels, and 1/4096 pixel less or more.
            {kOne / 2, 5 << 12, -3, 3},
            {kOne / 2, (5 << 12) - 1, -2, 2},
            {kOne / 2, (5 << 12) + 1, -3, 3},
            {-kOne / 2, 5 << 12, 2, 8},  // -2 1/2 and 7 1/2
            {-kOne / 2, (5 << 12) + 1, 3, 8},
            {kOne * 3 / 2, 5 << 12, -8, -2},
-           // The height itself has twelve bits: half of the last one counts as it.
+           // The height is rounded to twelve bits; half of the last one rounds up.
            {2048, 2048 << 12, -1, 2048},
            {2047, 2048 << 12, 0, 2048},
            {-2048, 2048 << 12, 0, 2048},
            {-2049, 2048 << 12, 0, 2049},
-           // Long lines, and what 13 bits do not hold.
+           // Long lines, and ends that do not fit into 13 bits.
            {kOne, 2047 << 12, -2047, 0},
            {kOne, 2049 << 12, -2049, 0},
            {0, 2049 << 12, 0, 2049},
@@ -340,7 +343,7 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
     StoredDescriptor descriptor;
     descriptor.t = row.height - kOne / 2;
     descriptor.inverse = row.inverse;
-    // An endless end is as far away as there is, whatever the line says.
+    // An endless end is set to the largest distance, whatever the line gives.
     for (std::uint8_t endless = 0; endless < 4; ++endless) {
       StoredDescriptor stored = descriptor;
       TableWeights::set_ends(stored, endless);
@@ -352,27 +355,28 @@ TEST(TableEnds, AreRoundedToPixelsOf13Bits) {
   }
 }
 
-// A mark stays in its column until another one takes its place; 4096 rows further down, where the
-// low twelve bits of the row are those of its own again, its record has no edge.
-TEST_P(AreaLanes, ADescriptorHasItsRowsOnceInAFrameOf4096AndMore) {
+// A mark stays in its column until another one replaces it. 4096 rows further down, the low twelve
+// bits of the row match again, but the descriptor must not give an edge.
+TEST_P(AreaLanes, DescriptorDoesNotRepeatAfter4096Rows) {
   for (const Parameters& p : {small(GetParam()), with_area(AreaSource::kTableFull, GetParam())})
     EXPECT_EQ(forked_text([&] {
                 Area bench(p, 11, 4096 + 8);
                 bench.send_slots(0);
-                bench.drivers_v[0]->add(0, three(Axis::kVertical, 8, 2, bench.slot_of(2, 8)));
+                bench.drivers_v[0]->add(0,
+                                        run_of_three(Axis::kVertical, 8, 2, bench.slot_of(2, 8)));
                 bench.clock.run(bench.slots_before(bench.height + kLag) + 20);
                 return std::to_string(bench.unit.vertical_edges.value());
               }),
               "3");
 }
 
-// With two records a column, too: the first slot row clears the marks of all of them.
-TEST_P(AreaLanes, AFrameHasNoDescriptorOfTheOneBefore) {
+// Also with two descriptors per column: the first slot row clears the marks of both.
+TEST_P(AreaLanes, NewFrameHasNoOldDescriptors) {
   constexpr int kWidth = 16;
   Area bench(with_area(AreaSource::kTableFull, GetParam()), kWidth, 9);
   bench.send_slots(0);
   for (int x = 0; x < kWidth; ++x)
-    bench.drivers_v[0]->add(0, three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
+    bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, x, 0, bench.slot_of(0, x)));
   bench.clock.run(bench.slots_before(9 + kLag) + 40);
   EXPECT_EQ(bench.unit.descriptors.value(), static_cast<std::uint64_t>(kWidth));
   EXPECT_GT(bench.unit.vertical_edges.value(), 0u);
@@ -384,34 +388,35 @@ TEST_P(AreaLanes, AFrameHasNoDescriptorOfTheOneBefore) {
   EXPECT_EQ(bench.unit.vertical_edges.value(), 0u);
 }
 
-// A line of either axis behind the last slot: popped, with a table its ends, stored.
-TEST_P(AreaLanes, IsBusyInEachClockOfALine) {
+// A line of either axis after the last slot costs one cycle for its pop, one for its ends with a
+// table, and one for its store.
+TEST_P(AreaLanes, EveryCycleOfALineIsBusy) {
   for (const bool table : {false, true})
-    EXPECT_EQ(forked_text([&] {
-                Area bench(
-                    table ? with_area(AreaSource::kTableFull, GetParam()) : small(GetParam()), 11,
-                    7);
-                bench.send_slots(0);
-                bench.clock.run(bench.slots_before(bench.height + kLag) + 40);
-                const std::uint64_t before = bench.unit.busy_cycles();
-                bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 4, bench.slots_before(6)));
-                bench.clock.run(20);
-                bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 0, bench.slots_before(6)));
-                bench.clock.run(20);
-                return std::to_string(bench.unit.busy_cycles() - before);
-              }),
-              table ? "6" : "4");
+    EXPECT_EQ(
+        forked_text([&] {
+          Area bench(table ? with_area(AreaSource::kTableFull, GetParam()) : small(GetParam()), 11,
+                     7);
+          bench.send_slots(0);
+          bench.clock.run(bench.slots_before(bench.height + kLag) + 40);
+          const std::uint64_t before = bench.unit.busy_cycles();
+          bench.drivers_h[0]->add(0, run_of_three(Axis::kHorizontal, 0, 4, bench.slots_before(6)));
+          bench.clock.run(20);
+          bench.drivers_v[0]->add(0, run_of_three(Axis::kVertical, 4, 0, bench.slots_before(6)));
+          bench.clock.run(20);
+          return std::to_string(bench.unit.busy_cycles() - before);
+        }),
+        table ? "6" : "4");
 }
 
-// What is one clock more than without a table; two banks a lane and axis, so that no line waits.
-TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
+// One cycle more than without a table. Two banks per lane and axis: no line waits.
+TEST_P(AreaLanes, TableFinishesDescriptorOneCycleLater) {
   Area bench(with_area(AreaSource::kTableMerged, GetParam()), 11, 7);
   bench.send_slots(0);
   const std::uint32_t slot = bench.slots_before(6) + 1;
   for (int lane = 0; lane < bench.lanes; ++lane) {
     const auto at = static_cast<std::size_t>(lane);
-    bench.drivers_h[at]->add(2, three(Axis::kHorizontal, 0, lane, slot));
-    bench.drivers_v[at]->add(2, three(Axis::kVertical, lane + 1, 0, slot));
+    bench.drivers_h[at]->add(2, run_of_three(Axis::kHorizontal, 0, lane, slot));
+    bench.drivers_v[at]->add(2, run_of_three(Axis::kVertical, lane + 1, 0, slot));
   }
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
@@ -427,9 +432,9 @@ TEST_P(AreaLanes, WithATableARecordIsFinishedAClockLater) {
 
 class DiagonalsOfABeat : public ::testing::TestWithParam<Cycle> {};
 
-// They are popped in stage 8, eight cycles after the slot was sent: there in time they cost
-// nothing, and each clock that they come late is a stall of that name.
-TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
+// Diagonals are popped in stage 8, eight cycles after the slot was sent. If they are there in time
+// they cost nothing; each cycle of delay is one stall `diagonals`.
+TEST_P(DiagonalsOfABeat, DiagonalsAreAwaitedAndReplaceWeights) {
   Parameters p = with_area(AreaSource::kTableFull);
   p.diagonals = true;
   p.diagonal_steps = 3;
@@ -439,8 +444,10 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   const std::uint32_t evaluated = bench.slots_before(kLag - 1), first = bench.slots_before(kLag),
                       last = bench.slots_before(kLag + 7);
   // Top edges of row 2, columns 3 to 5, and left edges of column 4.
-  bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
-  bench.drivers_v[0]->add(0, three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
+  bench.drivers_h[0]->add(
+      0, run_of_three(Axis::kHorizontal, 2, 3, bench.slots_before(2 + kReach + 2)));
+  bench.drivers_v[0]->add(0,
+                          run_of_three(Axis::kVertical, 4, 1, bench.slots_before(1 + kReach + 2)));
   for (std::uint32_t i = 0; i < 7u * 11u; ++i) {
     DiagonalWeightsToken token{};
     if (i == 2 * 11 + 4) {
@@ -464,7 +471,7 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
   EXPECT_EQ(at(4, 2).up, 200);
   EXPECT_EQ(at(4, 2).left, 0) << "the pixel is taken: its left edge has no weights";
   EXPECT_EQ(at(3, 2).right, 0);
-  // Beside it the records stand.
+  // The neighbours keep the weights of their descriptors.
   EXPECT_NE(at(3, 1).down, 0);
   EXPECT_NE(at(5, 2).up, 0);
   EXPECT_NE(at(3, 1).right, 0);
@@ -472,45 +479,46 @@ TEST_P(DiagonalsOfABeat, AreWaitedForAndTakeThePlaceOfItsShares) {
 }
 INSTANTIATE_TEST_SUITE_P(Late, DiagonalsOfABeat, ::testing::Values(0, 1, 2, 9));
 
-// ---- what a memory does not do ------------------------------------------------------------------
+// ---- memory access checks -----------------------------------------------------------------------
 
-TEST(AreaUnitMemory, AMarkIsNotThereInTheClockOfItsAddress) {
+TEST(AreaUnitMemory, MarkNeedsOneCycleAfterItsAddress) {
   Area bench(small(), 5, 3);
   bench.send_slots(0);
-  // The first slot that evaluates is popped a clock after it was sent.
+  // The first slot that is evaluated is popped one cycle after it was sent.
   bench.clock.run(bench.slots_before(kLag - 1) + 2);
   expect_used_early(bench.unit, bench.clock, "row_marks");
 }
 
 class AreaTables : public ::testing::TestWithParam<AreaSource> {
  protected:
-  // The first slot that evaluates has a record under it.
+  // The first slot that is evaluated covers a descriptor.
   static void expect_used_early_in(unsigned stage, const char* memory) {
     Area bench(with_area(GetParam()), 5, 3);
     bench.send_slots(0);
-    bench.drivers_h[0]->add(0, three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
-    // Popped a clock after it was sent.
+    bench.drivers_h[0]->add(0,
+                            run_of_three(Axis::kHorizontal, 0, 0, bench.slots_before(kReach + 2)));
+    // Popped one cycle after it was sent.
     bench.clock.run(bench.slots_before(kLag - 1) + stage + 1);
     expect_used_early(bench.unit, bench.clock, memory);
   }
 };
 
-TEST_P(AreaTables, ARootIsNotThereInTheClockOfItsAddress) { expect_used_early_in(4, "sqrt_rom"); }
-TEST_P(AreaTables, AnEntryIsNotThereInTheClockOfItsAddress) { expect_used_early_in(5, "area_rom"); }
+TEST_P(AreaTables, RootNeedsOneCycleAfterItsAddress) { expect_used_early_in(4, "sqrt_rom"); }
+TEST_P(AreaTables, EntryNeedsOneCycleAfterItsAddress) { expect_used_early_in(5, "area_rom"); }
 INSTANTIATE_TEST_SUITE_P(Each, AreaTables,
                          ::testing::Values(AreaSource::kTableFull, AreaSource::kTableMerged,
                                            AreaSource::kTableMinimal));
 
-TEST(AreaUnitMemory, HasNoColumnBeyondTheLongestRow) {
+TEST(AreaUnitMemory, RejectsColumnsBeyondTheLongestRow) {
   Area bench(small(), 5, 3);
   bench.send_slots(0);
-  bench.drivers_v[0]->add(20, three(Axis::kVertical, 4000, 0, 1));
+  bench.drivers_v[0]->add(20, run_of_three(Axis::kVertical, 4000, 0, 1));
   EXPECT_THAT([&] { bench.clock.run(40); },
               ::testing::ThrowsMessage<spec::CheckFailed>(::testing::HasSubstr("column_marks")));
 }
 
-// Room for the longest row in pairs of beats, and for no pair more.
-TEST_P(AreaLanes, HasTheColumnsOfTheLongestRow) {
+// Room for the longest row in pairs of beats, and not for one pair more.
+TEST_P(AreaLanes, MemoryHoldsTheLongestRow) {
   const int pair = 2 << GetParam();
   for (const int pixels : {4 * pair - 1, 4 * pair, 4 * pair + 1}) {
     Parameters p = small(GetParam());
@@ -524,14 +532,15 @@ TEST_P(AreaLanes, HasTheColumnsOfTheLongestRow) {
   }
 }
 
-// Two lines for a bank need two cycles: with one port too few the memory would say so.
-TEST(AreaUnitMemory, ABankTakesALineAClock) {
+// Two lines for one bank need two cycles; with two in one cycle the memory would report too many
+// accesses.
+TEST(AreaUnitMemory, EachBankTakesOneLinePerCycle) {
   Area bench(small(2), 32, 7);
   bench.send_slots(0);
   const std::uint32_t slot = bench.slots_before(3);
   for (int lane = 0; lane < 4; ++lane)
     bench.drivers_v[static_cast<std::size_t>(lane)]->add(
-        slot + 8, three(Axis::kVertical, 4 * lane + 3, 0, slot));
+        slot + 8, run_of_three(Axis::kVertical, 4 * lane + 3, 0, slot));
   bench.clock.run(slot + 30);
   ASSERT_EQ(bench.finished_gate.taken.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blender against the functions of the golden model, its cycles, and what it waits for.
+// Blender against the functions of the golden model; its cycles and stalls.
 #include <algorithm>
 #include <tuple>
 #include <vector>
@@ -31,7 +31,7 @@ struct Blending {
     sink.beats_in(out);
     done_sink.beats_in(done);
   }
-  // A pixel of row 2, column 3, below this grey.
+  // Sends a pixel of row 2, column 3, with the given greys above and below it.
   void send(const rtl::morphological::Weights& s, int up, int down = 0) {
     WeightToken token{};
     token.slot.row = static_cast<std::uint16_t>(2 + 32 + 5);
@@ -64,9 +64,9 @@ struct Blending {
 
 class BlenderConfiguration : public ::testing::TestWithParam<std::tuple<Bypass, BlendRule, int>> {};
 
-// Weights and marks at random in frames of 10 x 4; beyond a frame there are old bits, which may
-// look like a mark. A beat a clock.
-TEST_P(BlenderConfiguration, PixelsAreThoseOfGolden) {
+// Random weights and marks in frames of 10 x 4, one beat per cycle. Pixels beyond the frame hold
+// stale bits, which may look like a mark.
+TEST_P(BlenderConfiguration, PixelsMatchGolden) {
   constexpr int kWidth = 10, kHeight = 4, kFrames = 60;
   const auto& [bypass, rule, lanes_code] = GetParam();
   Parameters p = small(lanes_code);
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Each, BlenderConfiguration,
                                                               BlendRule::kStrongest),
                                             ::testing::Range(0, 3)));
 
-TEST(BlenderBlock, TheLastBeatOfAFrameAloneWaitsForFramesDone) {
+TEST(BlenderBlock, LastBeatOfFrameWaitsForFramesDone) {
   constexpr Cycle kOpens = 40;
   Blending bench(small());
   bench.done.hold_push(kOpens - 1);
@@ -179,21 +179,21 @@ TEST(BlenderBlock, TheLastBeatOfAFrameAloneWaitsForFramesDone) {
   EXPECT_TRUE(bench.done_sink.beats().empty());
   bench.clock.run(10);
   ASSERT_EQ(cycles.size(), 8u);
-  // Pushed as it opens, popped a clock later.
+  // Pushed in the cycle in which the link opens, popped one cycle later.
   EXPECT_EQ(cycles[7], kOpens + 1);
   EXPECT_THAT(bench.done_sink.cycles(), ::testing::ElementsAre(kOpens + 1));
 }
 
-// ---- what a memory does not do ------------------------------------------------------------------
+// ---- memory access checks -----------------------------------------------------------------------
 
-TEST(BlenderMemory, AWordIsNotThereInTheClockOfItsAddress) {
+TEST(BlenderMemory, WordNeedsOneCycleAfterItsAddress) {
   Blending bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.send({128, 0, 0, 0, 3, 0, 0, 0}, 255);
-  bench.clock.run(3);  // popped in 1, asked for in 2
+  bench.clock.run(3);  // popped in 1, addressed in 2
   expect_used_early(bench.blender, bench.clock, "linear_rom");
 }
 
-TEST(BlenderMemory, AWordOfMixRomIsNotThereInTheClockOfItsAddress) {
+TEST(BlenderMemory, MixRomWordNeedsOneCycleAfterItsAddress) {
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.linear_light = false;
   p.blend = spec::morphological::BlendRule::kStrongest;
@@ -203,7 +203,7 @@ TEST(BlenderMemory, AWordOfMixRomIsNotThereInTheClockOfItsAddress) {
   expect_used_early(bench.blender, bench.clock, "mix_rom");
 }
 
-TEST(BlenderMemory, HasNoCodeForMoreThanWhite) {
+TEST(BlenderMemory, RejectsCodeAboveWhite) {
   Blending bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.send({255, 255, 0, 0, 3, 3, 0, 0}, 255, 255);
   EXPECT_THAT([&] { bench.clock.run(10); },

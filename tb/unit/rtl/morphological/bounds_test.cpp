@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The bounds on the beats of a row that docs/reference/morphological/hardware.md gives for a
-// frame without a stall: for records, with the bursts that hurt most; for narrow rows; for memory.
+// The minimum beats per row of docs/reference/morphological/hardware.md for a frame without stalls:
+// for descriptors, with the worst bursts; for narrow rows; and for memory.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -13,13 +13,13 @@ namespace {
 
 using spec::morphological::Preset;
 
-// What a row needs that has so many records of N steps side by side at its end, if they come every
-// second clock at most (one a clock: `one_a_clock`).
-int least_beats(const Parameters& p, int descriptors, bool one_a_clock) {
-  const int apart = one_a_clock ? 1 : 2, trials = p.trial_cycles * p.steps;
+// Beats that a row needs for this number of adjacent descriptors of N steps at its end, if one
+// comes every second cycle (`one_per_cycle`: every cycle).
+int least_beats(const Parameters& p, int descriptors, bool one_per_cycle) {
+  const int apart = one_per_cycle ? 1 : 2, trials = p.trial_cycles * p.steps;
   const int held =
       p.steps == 0 ? 1 : trials + std::max(p.trial_cycles, p.trial_cycles == 2 ? 4 : 3);
-  // Cycles that a record costs, times the predictors; those of the last one's way.
+  // q: cycles per descriptor, times the predictors. way: latency of the last descriptor.
   const int q = std::max({apart * p.predictor_units, held, p.divider_interval * p.predictor_units});
   const int way =
       (p.steps == 0 ? 10 : held + 12) + p.divider_latency + p.predictor_units * p.divider_interval;
@@ -34,15 +34,15 @@ std::uint64_t unstalled(const Frame& frame, const Parameters& p) {
          kPipe;
 }
 
-// So many diagonals of one pixel side by side at the right border: a record every second clock,
-// each extended to the full N.
+// Adjacent diagonals of one pixel at the right border: one descriptor every second cycle, each
+// extended to the full N.
 Frame packed(int width, int height, int descriptors) {
   return draw(width, height, [=](int x, int y) {
     return grey(x >= width - 2 * descriptors && (x + y) / 2 % 2 != 0 ? 255 : 0);
   });
 }
 
-// Combs at the right border: runs of a pixel that begin side by side, a record a clock.
+// Combs at the right border: adjacent runs of one pixel, one descriptor per cycle.
 Frame combs(int width, int height, int descriptors) {
   return draw(width, height, [=](int x, int y) {
     return grey(y % 8 == 7 && x >= width - descriptors && x % 2 != 0 ? 255 : 0);
@@ -69,8 +69,8 @@ Parameters build(const Build& b) {
 
 class Bursts : public ::testing::TestWithParam<Build> {
  protected:
-  static constexpr int kDescriptors = 30;  // a lane
-  // Cycles that the slots wait for records in rows of so many beats.
+  static constexpr int kDescriptors = 30;  // per lane
+  // Cycles for which the slots wait for descriptors, in rows of the given number of beats.
   static std::uint64_t stalls(int beats) {
     Parameters p = build(GetParam());
     const int width = beats * lanes_of(p), descriptors = kDescriptors * lanes_of(p);
@@ -92,9 +92,9 @@ class Bursts : public ::testing::TestWithParam<Build> {
     return least_beats(p, kDescriptors, p.steps == 0);
   }
 };
-TEST_P(Bursts, PassWithoutAStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
+TEST_P(Bursts, BoundAvoidsStalls) { EXPECT_EQ(stalls(bound()), 0u); }
 class LongBursts : public Bursts {};
-TEST_P(LongBursts, StallInRowsATenthShorter) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
+TEST_P(LongBursts, RowsOneTenthShorterStall) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
 INSTANTIATE_TEST_SUITE_P(Builds, Bursts,
                          ::testing::Values(Build{0, 8, 2, 4, 1, 24},  // deburr
                                            Build{1, 8, 2, 4, 1, 24}, Build{2, 8, 2, 4, 1, 24},
@@ -112,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(Builds, LongBursts,
                                            Build{0, 8, 2, 3, 1, 24}, Build{0, 8, 4, 8, 1, 24},
                                            Build{0, 8, 2, 4, 20, 24}));
 
-// Records of which only classes are found: vertical runs of a pixel, a record a clock at the end of
-// a row.
+// Descriptors for which only classes are found: vertical runs of one pixel, one descriptor per
+// cycle at the end of a row.
 class Classes : public ::testing::TestWithParam<std::tuple<int, int, int>> {
  protected:
   static constexpr int kDescriptors = 120;
@@ -142,7 +142,7 @@ class Classes : public ::testing::TestWithParam<std::tuple<int, int, int>> {
     return std::max(kDescriptors, kDescriptors * (held - units) / units + 2 * held + 12);
   }
 };
-TEST_P(Classes, PassWithoutAStallAtTheBound) { EXPECT_EQ(stalls(bound()), 0u); }
+TEST_P(Classes, BoundAvoidsStalls) { EXPECT_EQ(stalls(bound()), 0u); }
 INSTANTIATE_TEST_SUITE_P(Builds, Classes,
                          ::testing::Values(std::tuple{0, 2, 4}, std::tuple{0, 1, 4},
                                            std::tuple{0, 1, 8}, std::tuple{1, 2, 4},
@@ -151,21 +151,21 @@ INSTANTIATE_TEST_SUITE_P(Builds, Classes,
                                            std::tuple{2, 4, 8}, std::tuple{0, 1, 1},
                                            std::tuple{0, 1, 2}, std::tuple{0, 1, 3}));
 class LongClasses : public Classes {};
-TEST_P(LongClasses, StallInRowsATenthShorter) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
+TEST_P(LongClasses, RowsOneTenthShorterStall) { EXPECT_GT(stalls(bound() * 9 / 10), 0u); }
 INSTANTIATE_TEST_SUITE_P(Builds, LongClasses,
                          ::testing::Values(std::tuple{0, 1, 4}, std::tuple{0, 1, 8},
                                            std::tuple{0, 1, 2}, std::tuple{0, 2, 4},
                                            std::tuple{1, 2, 4}, std::tuple{2, 2, 4},
                                            std::tuple{2, 2, 8}, std::tuple{2, 4, 8}));
 
-TEST(Bursts, TheBoundsOfTheDefaults) {
+TEST(Bursts, BoundsOfTheDefaultBuilds) {
   const Parameters deburr = build({0, 8, 2, 4, 1, 24}), mlaa = build({0, 0, 2, 4, 1, 24});
   EXPECT_EQ(least_beats(deburr, 1, false), 16 + 36 + 24 + 2 + 12);
   EXPECT_EQ(least_beats(deburr, 40, false), 720);
   EXPECT_EQ(least_beats(mlaa, 40, true), 40);
 }
 
-// A burst at the end of a row and one at the beginning of the next.
+// A burst at the end of one row and one at the beginning of the next.
 struct Depth {
   int beats, descriptors, fifo;
   bool stalls;
@@ -173,13 +173,13 @@ struct Depth {
 void PrintTo(const Depth& d, std::ostream* out) {
   *out << d.descriptors << " records in rows of " << d.beats << ", FIFO of " << d.fifo;
 }
-// Of both bursts: descriptor_fifo >= n (1 - 2 / q) + 8 holds one.
+// Depth for both bursts: one burst fits if descriptor_fifo >= n (1 - 2 / q) + 8.
 constexpr int depth_for(int descriptors) {
   constexpr int kCycles = 18;  // q of deburr
   return 2 * ((descriptors * (kCycles - 2) + kCycles - 1) / kCycles + 8);
 }
 class FifoDepth : public ::testing::TestWithParam<Depth> {};
-TEST_P(FifoDepth, HoldsBothBursts) {
+TEST_P(FifoDepth, FifoHoldsBothBursts) {
   Parameters p = preset(Preset::kDeburrLine);
   const int width = GetParam().beats, descriptors = GetParam().descriptors;
   p.line_pixels = width;
@@ -195,8 +195,9 @@ TEST_P(FifoDepth, HoldsBothBursts) {
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), 0u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), unstalled(in, p) + stalls);
 }
-// As many records as rows of 1200, 1920 and 2480 beats may hold: what the formula gives is enough,
-// and a third less is not. The default of 256 does for rows of 1920.
+// Rows of 1200, 1920 and 2480 beats with the largest number of descriptors: the depth of the
+// formula suffices, and two thirds of it do not. The default of 256 suffices for rows of 1920
+// beats.
 INSTANTIATE_TEST_SUITE_P(Depths, FifoDepth,
                          ::testing::Values(Depth{800, 20, 24, true}, Depth{800, 20, 44, false},
                                            Depth{1200, 66, depth_for(66), false},
@@ -206,14 +207,14 @@ INSTANTIATE_TEST_SUITE_P(Depths, FifoDepth,
                                            Depth{2480, 137, depth_for(137), false},
                                            Depth{2480, 137, depth_for(137) * 2 / 3, true}));
 
-// Rows shorter than the pipe wait for the line buffers, records or not.
+// Rows shorter than the pipeline wait for the line buffers, with or without descriptors.
 struct Narrow {
   int lanes_code, width;
   std::uint64_t rows;
 };
 void PrintTo(const Narrow& n, std::ostream* out) { *out << n.width; }
 class NarrowRows : public ::testing::TestWithParam<Narrow> {};
-TEST_P(NarrowRows, WaitForThePlaceOfTheirPixels) {
+TEST_P(NarrowRows, NarrowRowsWaitForLineBuffers) {
   Parameters p = preset(Preset::kMlaa);
   p.lanes = static_cast<spec::morphological::Lanes>(GetParam().lanes_code);
   EngineBench bench(p);
@@ -229,8 +230,8 @@ INSTANTIATE_TEST_SUITE_P(Widths, NarrowRows,
                                            Narrow{0, 4, 0}, Narrow{2, 4, 90}, Narrow{2, 8, 80},
                                            Narrow{2, 12, 46}, Narrow{2, 16, 0}));
 
-// storage = memory loads two rows ahead: two rows last as long as a line takes to come, and a
-// line's beats.
+// storage = memory loads two rows ahead, so two rows must last for the latency of a line plus its
+// beats.
 struct Load {
   int lanes_code;
   std::uint32_t latency;
@@ -239,7 +240,7 @@ struct Load {
 };
 void PrintTo(const Load& l, std::ostream* out) { *out << l.latency << ' ' << l.beats; }
 class MemoryRows : public ::testing::TestWithParam<Load> {};
-TEST_P(MemoryRows, AreAsLongAsALineTakes) {
+TEST_P(MemoryRows, RowsMustCoverTheLineLatency) {
   Parameters p = preset(Preset::kMlaa);
   p.lanes = static_cast<spec::morphological::Lanes>(GetParam().lanes_code);
   p.storage = spec::morphological::Storage::kMemory;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The datasheets of the morphological engine: every unit has one, their numbers are the contract's,
-// and those of the pipe add up to what the specification says of it.
+// Datasheets of the morphological engine: every unit has one, the numbers match the contract, and
+// the latencies of the pipeline add up to its specified latency.
 #include "rtl_model/morphological/datasheets.h"
 
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 using namespace rtl::morphological;  // NOLINT: a test of these
 using spec::morphological::Preset;
 
-TEST(MorphologicalDatasheets, AreTheContracts) {
+TEST(MorphologicalDatasheets, DatasheetsMatchTheContract) {
   expect_contract(rtl::morphological::datasheets(), {{"SlotSequencer", 1, 1},
                                                      {"LumaUnit", 2, 1},
                                                      {"EdgeDetector", 4, 1},
@@ -42,21 +42,21 @@ TEST(MorphologicalDatasheets, AreTheContracts) {
                                                      {"Blender", 6, 1}});
 }
 
-TEST(MorphologicalDatasheets, SayWhatTheirClocksAreMadeFor) {
+TEST(MorphologicalDatasheets, DatasheetsStateTheClockFrequency) {
   const std::set<std::string_view> fast = {"SlotSequencer", "LumaUnit", "PixelStore"};
   for (const rtl::Datasheet& sheet : rtl::morphological::datasheets())
     EXPECT_EQ(sheet.megahertz, fast.contains(sheet.unit) ? 300 : 250) << sheet.unit;
 }
 
-TEST(MorphologicalDatasheets, ADescriptorStoreHasAStageAClock) {
+TEST(MorphologicalDatasheets, DescriptorStoreHasOneStagePerCycle) {
   for (const Parameters& p : {preset(Preset::kDeburr), smaa(spec::morphological::Quality::kHigh)}) {
     const rtl::Datasheet sheet = DescriptorStore::datasheet(p);
     EXPECT_EQ(sheet.stages.size(), sheet.latency.cycles);
   }
 }
 
-// From a slot to the push of its output beat, which the next one can pop a clock later.
-TEST(MorphologicalDatasheets, AddUpToThePipe) {
+// From a slot to the push of its output beat, which is popped one cycle later at the earliest.
+TEST(MorphologicalDatasheets, LatenciesAddUpToThePipeline) {
   Cycle sum = 0;
   for (const rtl::Datasheet& sheet :
        {SlotSequencer::datasheet(), LumaUnit::datasheet(), EdgeDetector::datasheet(),
@@ -74,8 +74,8 @@ TEST(MorphologicalDatasheets, AddUpToThePipe) {
 
 class UnitDatasheets : public ::testing::TestWithParam<const char*> {};
 
-// The modules inside the AreaUnit are its parts, and each has one, too.
-TEST_P(UnitDatasheets, AreThereForEveryUnitAndEveryPart) {
+// The modules inside the AreaUnit are its parts; each has a datasheet as well.
+TEST_P(UnitDatasheets, EveryUnitAndPartHasADatasheet) {
   Parameters p = preset(Preset::kDeburr);
   apply_settings(p, GetParam());
   const EngineBench b(p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DiagonalUnit against the golden model's function, to the bit: random edges and stairs, in rows of
+// DiagonalUnit against the golden model's function, bit-exact: random edges and stairs in rows of
 // any number of beats; its cycles and its ports.
 #include <cstdint>
 #include <string>
@@ -26,7 +26,7 @@ namespace reg = spec::morphological::reg;
 
 constexpr Cycle kStages = 5;
 
-// What a unit is built with: M, and the lanes.
+// The build of a unit: M, and the lanes.
 struct Build {
   int steps, lanes_code;
 };
@@ -43,7 +43,7 @@ Parameters built_as(const Build& build) {
   return p;
 }
 
-// columns -> DiagonalUnit -> a word a beat.
+// columns -> DiagonalUnit -> one word per beat.
 struct Diagonals {
   explicit Diagonals(const Parameters& p, Cycle opens = 0)
       : built(p.diagonal_steps),
@@ -64,7 +64,7 @@ struct Diagonals {
   }
   Cycle delay() const { return static_cast<Cycle>(diagonal_delay(built, lanes)); }
 
-  // Columns of a beat about row y, as the RunExtractor hands them on.
+  // Columns of a beat around row y, as the RunExtractor forwards them.
   DiagonalColumnsToken token(const EdgePlanes& edges, int y, int beat) const {
     DiagonalColumnsToken t{};
     t.slot = {static_cast<std::uint32_t>((y + search_range + 3) * beats(edges) + beat),
@@ -78,14 +78,16 @@ struct Diagonals {
       }
     return t;
   }
-  // A frame, a beat a clock from the next clock on, and `gap` cycles more between rows.
+  // Sends a frame at one beat per cycle from the next cycle on, with `gap` idle cycles between
+  // rows.
   void send(const EdgePlanes& edges, Cycle gap = 0) {
     registers.frame(edges.top.width(), edges.top.height(), clock.cycle());
     Cycle at = clock.cycle();
     for (int y = 0; y < edges.top.height(); ++y, at += gap)
       for (int beat = 0; beat < beats(edges); ++beat) driver.add(at++, token(edges, y, beat));
   }
-  // The words of a frame. In rows of fewer beats than a diagonal takes the RunExtractor waits.
+  // Runs a frame and returns its words. In rows with fewer beats than a diagonal needs, it pauses
+  // after each row as the RunExtractor does.
   std::vector<DiagonalWeightsToken> run(const EdgePlanes& edges) {
     const std::size_t before = gate.taken.size(), wanted = before + words(edges);
     send(edges, static_cast<Cycle>(beats(edges)) < delay() ? delay() : 0);
@@ -104,13 +106,13 @@ struct Diagonals {
   unit_bench::Sink<DiagonalWeightsToken> gate;
 };
 
-// What golden says of a frame, and what it has read for that.
+// The golden model's words for a frame, and the number of table entries that it has read.
 struct Expected {
   std::vector<DiagonalWeightsToken> words;
   std::uint64_t taken = 0, reads = 0;
 };
 
-// `margin`: of a frame with so many pixels more around it, which are not part of it.
+// `margin`: width of a border around the frame that is not part of it.
 Expected expected(const EdgePlanes& edges, int steps, int lanes, int margin = 0) {
   const int width = edges.top.width() - 2 * margin;
   Expected all;
@@ -137,7 +139,7 @@ Expected expected(const EdgePlanes& edges, int steps, int lanes, int margin = 0)
   return all;
 }
 
-// Lanes that are not taken hold old bits.
+// Lanes without a diagonal hold stale bits and are not compared.
 std::size_t differences(const std::vector<DiagonalWeightsToken>& got, const Expected& want) {
   if (got.size() != want.words.size()) return 1'000'000 + got.size();
   std::size_t count = 0;
@@ -156,14 +158,14 @@ EdgePlanes empty(int width, int height) {
   return {BitPlane(width, height), BitPlane(width, height)};
 }
 
-// Edges at random, and stairs of both directions laid over them, cut at random.
+// Random edges, and stairs in both directions on top of them, with random gaps.
 EdgePlanes random_edges(int width, int height, std::uint64_t seed) {
   Random random(seed);
   EdgePlanes edges = empty(width, height);
   const std::uint32_t density = 50 + random.below(700);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      // No edge lies on the border.
+      // Edges never lie on the border.
       if (x > 0 && random.chance(density)) edges.left.set(x, y);
       if (y > 0 && random.chance(density)) edges.top.set(x, y);
     }
@@ -181,12 +183,12 @@ EdgePlanes random_edges(int width, int height, std::uint64_t seed) {
   return edges;
 }
 
-// ---- to the bit ---------------------------------------------------------------------------------
+// ---- results ------------------------------------------------------------------------------------
 
 class DiagonalBuilds : public ::testing::TestWithParam<Build> {};
 
-// Rows of one column to 2 M + 3, of fewer beats than a diagonal takes and of more.
-TEST_P(DiagonalBuilds, RandomEdgesGiveWhatGoldenSays) {
+// Rows of 1 to 2 M + 3 columns, with fewer and with more beats than a diagonal needs.
+TEST_P(DiagonalBuilds, RandomEdgesMatchGolden) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   std::uint64_t taken = 0;
@@ -211,10 +213,10 @@ INSTANTIATE_TEST_SUITE_P(Each, DiagonalBuilds,
                                            Build{8, 1}, Build{8, 2}, Build{15, 0}, Build{16, 0},
                                            Build{16, 1}, Build{16, 2}));
 
-// With border = clamp pixels beyond the frame have the edges of the nearest one: what golden says
-// of a frame that has them. Rows of one column on, and each by as many beats less as the next one
-// needs while pixels of this one are in hand.
-TEST_P(DiagonalBuilds, TheBorderRepeatsItsEdges) {
+// With border = clamp, pixels beyond the frame have the edges of the nearest pixel: the expected
+// words are those of a frame that contains these pixels. In the narrowest frames the next row
+// starts while pixels of this row are still in the unit.
+TEST_P(DiagonalBuilds, ClampRepeatsBorderEdges) {
   Parameters p = built_as(GetParam());
   p.border = spec::morphological::Border::kClamp;
   const int m = p.diagonal_steps, margin = m + 2;
@@ -241,8 +243,8 @@ TEST_P(DiagonalBuilds, TheBorderRepeatsItsEdges) {
   }
 }
 
-// Fewer steps than are built, by the register; one more or less would have been seen.
-TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
+// The register selects fewer steps than were built; one step more or less would be noticed.
+TEST(DiagonalUnitBlock, RegisterLimitsTheSteps) {
   const Parameters p = built_as({kMaxDiagonalSteps, 0});
   const EdgePlanes edges = random_edges(90, 60, 5);
   Diagonals bench(p);
@@ -262,9 +264,9 @@ TEST(DiagonalUnitBlock, TakesAsManyStepsAsTheRegisterSays) {
 
 class DiagonalCycles : public ::testing::TestWithParam<Build> {};
 
-// A beat a clock goes in and a word a clock comes out, each D + 5 cycles after its columns, whether
-// nothing is an edge or everything.
-TEST_P(DiagonalCycles, AWordHasTheLatencyOfTheDatasheet) {
+// One beat per cycle goes in and one word per cycle comes out, D + 5 cycles after its columns,
+// without edges and with all edges set.
+TEST_P(DiagonalCycles, LatencyMatchesDatasheet) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const Cycle latency = DiagonalUnit::datasheet(p).latency.cycles;
@@ -281,21 +283,21 @@ TEST_P(DiagonalCycles, AWordHasTheLatencyOfTheDatasheet) {
     const std::size_t first = bench.gate.taken.size();
     ASSERT_EQ(bench.run(edges).size(), bench.words(edges));
     for (std::size_t i = 0; i < bench.words(edges); ++i)
-      // Sent in k, popped in k + 1, taken that many cycles later.
+      // Sent in k, popped in k + 1, taken `latency` cycles later.
       ASSERT_EQ(bench.gate.taken[first + i].cycle, begins + i + 1 + latency) << i;
     idle = bench.unit.idle_cycles();
     cycles = bench.clock.cycle();
   }
   EXPECT_EQ(stalls(bench.unit, "downstream"), 0u);
   EXPECT_EQ(bench.unit.busy_cycles() + idle, cycles);
-  // Four bubbles behind each last beat, and the shifts that end the row.
+  // Four bubbles follow each last beat, then the shifts that end the row.
   const EdgePlanes edges = empty(width, 9);
   EXPECT_EQ(bench.unit.busy_cycles(), 2 * (bench.words(edges) + bench.delay() + kStages - 1));
 }
 
-// Where no beat comes a row is finished all the same, by as many shifts; a word of the row's last D
-// beats does not wait for the next row.
-TEST_P(DiagonalCycles, ARowIsFinishedWithoutTheNext) {
+// A row finishes even if no further beats come, by the same number of shifts: a word of the row's
+// last D beats does not wait for the next row.
+TEST_P(DiagonalCycles, RowFinishesWithoutTheNextRow) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const EdgePlanes edges = random_edges(3 * p.diagonal_steps + 8, 6, 9);
@@ -309,8 +311,8 @@ TEST_P(DiagonalCycles, ARowIsFinishedWithoutTheNext) {
     ASSERT_EQ(bench.gate.taken[i].cycle, i + i / beats * gap + 1 + bench.delay() + kStages) << i;
 }
 
-// A gap inside a row holds up what is behind the newest columns, and nothing is lost.
-TEST_P(DiagonalCycles, AGapInARowHoldsItUp) {
+// A gap inside a row delays everything older than the newest columns; nothing is lost.
+TEST_P(DiagonalCycles, GapInARowLosesNothing) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const EdgePlanes edges = random_edges(4 * p.diagonal_steps + 9, 5, 2);
@@ -334,8 +336,8 @@ INSTANTIATE_TEST_SUITE_P(Each, DiagonalCycles,
                          ::testing::Values(Build{1, 0}, Build{8, 0}, Build{8, 1}, Build{8, 2},
                                            Build{16, 0}, Build{16, 2}));
 
-// The FIFO holds a row and 16 beats; beyond that the unit waits with all that is in it.
-TEST(DiagonalUnitBlock, WaitsDownstreamBeyondARowAndSixteenBeats) {
+// The FIFO holds one row and 16 beats; once it is full, the whole unit stalls.
+TEST(DiagonalUnitBlock, StallsBeyondOneRowAndSixteenBeats) {
   Parameters p = built_as({8, 0});
   p.line_pixels = 50;
   constexpr Cycle kOpens = 150;
@@ -364,8 +366,8 @@ Memory& memory_of(Diagonals& bench, const std::string& name) {
 }
 using Rom = rtl::Memory<std::uint16_t>;
 
-// What the contract's table says, and no access more than a direction that counts asks for.
-TEST_P(DiagonalCycles, PortsAndAccessesAreTheContracts) {
+// Ports match the table of the contract. Reads are limited to the directions that count.
+TEST_P(DiagonalCycles, PortsAndAccessesMatchTheContract) {
   const Parameters p = built_as(GetParam());
   Diagonals bench(p);
   const auto lanes = static_cast<std::uint64_t>(bench.lanes),
@@ -392,20 +394,20 @@ TEST_P(DiagonalCycles, PortsAndAccessesAreTheContracts) {
   const EdgePlanes edges = random_edges(70, 30, 8);
   bench.run(edges);
   EXPECT_EQ(rom.reads(), expected(edges, p.diagonal_steps, bench.lanes).reads);
-  // A write a shift, and all words read at fixed bits; behind the last beat D shifts more.
+  // One write per shift; all words are read at fixed bits. D more shifts follow the last beat.
   EXPECT_EQ(window.writes(), bench.words(edges) + bench.delay());
   EXPECT_EQ(window.reads(), bench.words(edges) + bench.delay());
 }
 
-// 16 steps either way and the row between them; no engine is built with more of them.
-TEST(DiagonalTokens, ColumnsHaveABitOfEachRow) {
+// 16 steps in either direction and the row between them. No engine is built with more steps.
+TEST(DiagonalTokens, ColumnsHaveOneBitPerRow) {
   const rtl::Payload columns = rtl::Payload::of<DiagonalColumnsToken>();
   EXPECT_EQ(columns.find("left.0")->bits, 33u);
   EXPECT_EQ(columns.find("top.0")->bits, 33u);
 }
 
-// A stage less between address and word.
-TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
+// Reads the word one stage early.
+TEST(DiagonalUnitMemory, RomWordNeedsOneCycleAfterItsAddress) {
   const Parameters p = built_as({8, 0});
   Diagonals bench(p);
   EdgePlanes edges = empty(40, 20);  // a falling stair
@@ -414,14 +416,14 @@ TEST(DiagonalUnitMemory, AWordOfTheRomIsNotThereInTheClockOfItsAddress) {
     edges.left.set(i + 1, i);
   }
   bench.send(edges);
-  // The first pixel, popped in 1.
+  // The first pixel is popped in 1.
   const Cycle addressed = 1 + bench.delay() + 3;
   bench.clock.run(addressed + 1);
   expect_used_early(bench.unit, bench.clock, "diagonal_rom");
 }
 
-// One bit of one plane of one column.
-TEST(DiagonalFault, AFlippedEdgeIsSeen) {
+// Flips bits of one plane in one row.
+TEST(DiagonalFault, FlippedEdgeIsNoticed) {
   const Parameters p = built_as({8, 0});
   Diagonals bench(p);
   EdgePlanes edges = random_edges(75, 60, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EdgeDetector behind SlotSequencer and LumaUnit against the golden model, about equality of every
+// EdgeDetector after SlotSequencer and LumaUnit against the golden model, near equality in every
 // comparison; its cycles and its memory.
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ class EdgeConfiguration : public ::testing::TestWithParam<std::tuple<EdgeSource,
   auto any_of(const List& list) {
     return *(std::begin(list) + random.below(static_cast<std::uint32_t>(std::size(list))));
   }
-  // Few colours and few depths, so that steps are alike.
+  // Few colours and few depths, so that equal differences are frequent.
   Frame frame() {
     constexpr std::array kGreys = {0, 1, 2, 50, 85, 100, 150, 200, 255};
     constexpr std::array kDepths = {0u, 1u, 960u, 961u, 1024u, 0xFFFFFFu};
@@ -42,7 +42,7 @@ class EdgeConfiguration : public ::testing::TestWithParam<std::tuple<EdgeSource,
     for (std::uint32_t& depth : drawn.depth) depth = any_of(kDepths);
     return drawn;
   }
-  // At a step between two pixels of the frame, or one on either side.
+  // A threshold equal to the difference of two pixels of the frame, or off by one.
   std::int32_t at_a_step(const Frame& drawn, EdgeSource source) {
     const Rgba8 a = any_of(drawn.pixel), b = any_of(drawn.pixel);
     const auto luma = [](const Rgba8& c) { return 13933 * c[0] + 46871 * c[1] + 4732 * c[2]; };
@@ -53,7 +53,7 @@ class EdgeConfiguration : public ::testing::TestWithParam<std::tuple<EdgeSource,
   Random random{1};
 };
 
-TEST_P(EdgeConfiguration, BitsAreThoseOfGolden) {
+TEST_P(EdgeConfiguration, BitsMatchGolden) {
   const auto& [built, lanes] = GetParam();
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   p.edge_source = built;
@@ -74,7 +74,7 @@ TEST_P(EdgeConfiguration, BitsAreThoseOfGolden) {
          {&q.threshold, &q.threshold_on_depth_edge, &q.threshold_off_depth_edge})
       *threshold = at_a_step(in, q.edge_source);
     q.floor = random.chance(500) ? 1 : at_a_step(in, q.edge_source);
-    q.alpha = (1 << 23) + random.between(-1, 1);  // half
+    q.alpha = (1 << 23) + random.between(-1, 1);  // one half
     q.depth_threshold = 4096 + random.between(-1, 1);
     const golden::morphological::ImageView image(in.pixel, in.width, in.height);
     const auto expected_by = [&](const Parameters& configuration) {
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
                                          EdgeSource::kPredicated, EdgeSource::kColour),
                        ::testing::Values(Lanes::kOne, Lanes::kTwo, Lanes::kFour)));
 
-TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
+TEST(EdgeDetectorBlock, DepthReadsZeroWithoutDepthLines) {
   Parameters p = preset(spec::morphological::Preset::kMlaa);
   Front front(p);
   Frame frame = row({0, 255, 0});
@@ -112,11 +112,11 @@ TEST(EdgeDetectorBlock, WithoutDepthLinesDepthReadsZero) {
   EXPECT_EQ(front.detect(frame, &p), (std::vector<Bits>{{}, {true, false}, {true, false}}));
 }
 
-TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
+TEST(EdgeDetectorBlock, LatencyMatchesDatasheet) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   front.detect(row({0, 255, 0}));
-  // The first slot carries no bits, its token still shows the time: sequencer -> pixel store,
-  // beside luma and edges.
+  // The first slot carries no bits, but its token shows the time from the sequencer through luma
+  // and edges.
   const Cycle first = front.sink.cycles()[0];
   expect_latency(EdgeDetector::datasheet(),
                  first - front.beat_sink.cycles()[0] - LumaUnit::datasheet().latency.cycles);
@@ -125,7 +125,7 @@ TEST(EdgeDetectorBlock, TakesSevenClocksFromBeatToBits) {
   EXPECT_EQ(front.sink.cycles().size(), (1u + 37u) * 3u);
 }
 
-// ---- what a memory does not do ------------------------------------------------------------------
+// ---- memory access checks -----------------------------------------------------------------------
 
 struct Detecting {
   Detecting()
@@ -148,14 +148,14 @@ struct Detecting {
   EdgeDetector edges;
 };
 
-TEST(EdgeDetectorMemory, AWordIsNotThereInTheClockOfItsAddress) {
+TEST(EdgeDetectorMemory, WordNeedsOneCycleAfterItsAddress) {
   Detecting bench;
   bench.ends.source.add(LumaToken{});
   bench.clock.run(2);
   expect_used_early(bench.edges, bench.clock, "luma_lines");
 }
 
-TEST(EdgeDetectorMemory, EachBeatIsReadOnceAndWrittenBackOnce) {
+TEST(EdgeDetectorMemory, EachBeatIsReadAndWrittenBackOnce) {
   Detecting bench;
   for (std::uint16_t beat = 0; beat < 5; ++beat) {
     LumaToken token{};
@@ -172,7 +172,7 @@ TEST(EdgeDetectorMemory, EachBeatIsReadOnceAndWrittenBackOnce) {
   EXPECT_EQ(found, 1);
 }
 
-TEST(EdgeDetectorMemory, HasNoColumnBeyondTheLongestRow) {
+TEST(EdgeDetectorMemory, RejectsColumnsBeyondTheLongestRow) {
   Detecting bench;
   LumaToken token{};
   token.slot.beat = 64;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memories of edges for tests of what reads them: filled as the extractor leaves them.
+// The edge memories with the content that the extractor writes, for tests of the units that read
+// them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ struct EdgeMemories {
         lanes_(rtl::morphological::built_lanes(p)),
         search_range_(rtl::morphological::search_range_rows_of(p)) {}
 
-  // When the runs of row y of a frame have been found. left(x, y), top(x, y): is there an edge?
+  // Fills the memories as they are when the runs of row y have been found. left(x, y), top(x, y):
+  // edge present?
   template <class Left, class Top>
   void show(const rtl::morphological::FrameConfiguration& configuration, int y, Left&& left,
             Top&& top) {
@@ -48,7 +50,7 @@ struct EdgeMemories {
 
  private:
   const int lanes_, search_range_;
-  rtl::Cycle clock_ = rtl::Cycle{1} << 40;  // outside of time
+  rtl::Cycle clock_ = rtl::Cycle{1} << 40;  // later than any cycle of a test
 };
 
 }  // namespace deburr::tb::morphological_rtl

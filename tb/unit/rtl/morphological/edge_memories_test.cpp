@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The memories of edges: their ports shared in time, what they show at borders, and that nobody
-// reads too much, too early or too late. Steps are compared with the golden model, line by line.
+// Edge memories: shared ports, reads at borders, and rejection of reads that are too many, too
+// early or too late. Steps are compared with the golden model line by line.
 #include "tb/unit/rtl/morphological/edge_memories.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "rtl_model/morphological/runs/port_schedule.h"
 #include "tb/base/random.h"
+#include "tb/unit/rtl/morphological/parts.h"
 #include "tb/unit/rtl/morphological/support.h"
 
 namespace deburr::tb::morphological_rtl::edge_memories_test {
@@ -26,7 +27,7 @@ Parameters built(bool contiguous, int search_rows = 32, int search_columns = 256
   return p;
 }
 
-// Memories that show random edges of a frame of 70 rows when row 30 has been found.
+// Memories with random edges of a frame of 70 rows, at the time when row 30 has been found.
 struct Shown {
   Shown(const Parameters& p, int width, std::uint32_t permille)
       : configuration(Registers(p, width, 70).configuration.driven()), memories(p) {
@@ -46,9 +47,9 @@ void PrintTo(const Sharing& s, std::ostream* out) {
 }
 class Schedule : public ::testing::TestWithParam<Sharing> {};
 
-// Two reads a trial of each predictor, no two in one place, no port that stands idle for want of a
-// port; the left side in the clock of the right one or in the next.
-TEST_P(Schedule, GivesEachReadAPlaceOfItsOwn) {
+// Each predictor has two reads per trial, no two share a port in one cycle, and there are no more
+// ports than needed. The left side reads in the cycle of the right one or in the next.
+TEST_P(Schedule, EachReadHasItsOwnPhaseAndPort) {
   const Sharing s = GetParam();
   Parameters p = built(true);
   p.trial_cycles = s.trial_cycles;
@@ -81,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Builds, Schedule,
                                            Sharing{2, 1, 0, 1}, Sharing{3, 4, 0, 3},
                                            Sharing{8, 4, 0, 1}, Sharing{5, 3, 2, 5}));
 
-TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
+TEST(EdgeMemory, BuiltFromOneCopyPerReadPort) {
   Parameters p = built(true);
   p.line_pixels = 1920;
   EngineBench bench(p);
@@ -101,7 +102,7 @@ TEST(EdgeMemory, IsBuiltFromOneCopyAReadPort) {
   }
 }
 
-// With text: which memory, which clock.
+// The text names the memory and the cause.
 template <class Access>
 void expect_stop(Access&& access, const std::string& text) {
   try {
@@ -112,7 +113,7 @@ void expect_stop(Access&& access, const std::string& text) {
   }
 }
 
-TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
+TEST(EdgeMemory, OneAccessTooManyPerCycleStops) {
   Shown shown(built(true), 150, 500);
   EdgeWindow& window = shown.memories.window;
   EdgeRows& rows = shown.memories.rows;
@@ -127,12 +128,12 @@ TEST(EdgeMemory, OneAccessTooManyInAClockStops) {
   }
 }
 
-TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
+TEST(EdgeMemory, WordArrivesOneCycleAfterItsRead) {
   Shown shown(built(true), 150, 500);
   EdgeWindow& window = shown.memories.window;
   EdgeRows& rows = shown.memories.rows;
   Trial across{40, 30, 3, 20, true, 2, 1}, along{31, 40, 3, 20, true, 2, 1};
-  // None has been read yet.
+  // Nothing has been read yet.
   expect_stop([&] { window.hits(7, shown.configuration, 0, across); }, "edge_window");
   expect_stop([&] { rows.hits(7, shown.configuration, 0, along); }, "edge_rows");
   window.read(7, shown.configuration, 0, across);
@@ -141,39 +142,39 @@ TEST(EdgeMemory, AWordIsThereAClockAfterItsReadAndNotBefore) {
   expect_stop([&] { rows.hits(7, shown.configuration, 0, along); }, "edge_rows");
   EXPECT_NO_THROW(window.hits(8, shown.configuration, 0, across));
   EXPECT_NO_THROW(rows.hits(8, shown.configuration, 0, along));
-  // A read that is issued too late leaves the word of the one before.
+  // A read issued too late leaves the previous word on the port.
   Trial next_across{60, 30, 3, 20, true, 2, 1}, next_along{33, 140, 3, 20, true, 2, 1};
   window.read(9, shown.configuration, 0, next_across);
   rows.read(9, shown.configuration, 0, next_along);
   expect_stop([&] { window.hits(9, shown.configuration, 0, next_across); }, "edge_window");
   expect_stop([&] { rows.hits(9, shown.configuration, 0, next_along); }, "edge_rows");
-  // The next one's word has taken the place of the old one.
+  // The new word has replaced the old one.
   expect_stop([&] { window.hits(10, shown.configuration, 0, across); }, "edge_window");
   expect_stop([&] { rows.hits(10, shown.configuration, 0, along); }, "edge_rows");
   EXPECT_NO_THROW(window.hits(10, shown.configuration, 0, next_across));
   EXPECT_NO_THROW(rows.hits(10, shown.configuration, 0, next_along));
 }
 
-// The window has the last window_rows + 1 rows of a column, of which one is a row ahead where the
-// beats of a row have been; any other row is a mistake of who asks.
-TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
+// The window holds the last window_rows + 1 rows of a column; it is one row further where the beats
+// of a new row have passed. Reading any other row is an error of the reader.
+TEST(EdgeMemory, WindowTracksItsRows) {
   constexpr int kRows = 2 * 8 + 3;
   Shown shown(built(false, 8, 60), 150, 500);
   EdgeWindow& window = shown.memories.window;
-  // All columns have rows up to 30 + 8 + 1; in the next row the first 40 have come.
+  // All columns hold rows up to 30 + 8 + 1; of the next row the first 40 columns have come.
   const int newest = 30 + 8 + 1;
   Cycle cycle = Cycle{1} << 50;
   for (int x = 0; x < 40; ++x) {
     window.read_beat(cycle++, shown.configuration, x);
     window.write_beat(cycle++, shown.configuration, x, newest + 2, {});
   }
-  // The corner of row y looks at rows y and y - 1. Both columns of line 39 have come, and of line
-  // 40 the one before it.
+  // The corner of row y reads rows y and y - 1. Both columns of line 39 have come, but only the
+  // left column of line 40.
   for (const auto& [line, latest] :
        {std::pair{1, newest + 1}, {39, newest + 1}, {40, newest}, {41, newest}, {150, newest}}) {
     const auto ask = [&, line = line](int y) {
       Trial trial{line, y - 3, 3, 20, true, 0, 0};
-      // L alone is tried, whose corner is row y.
+      // Only L is tried; its corner is row y.
       trial.length = 2;
       trial.room = 1;
       trial.from = y - 1;
@@ -190,9 +191,9 @@ TEST(EdgeMemory, TheWindowTracksWhichRowsItHolds) {
   }
 }
 
-// With every edge set a step may go along any line but the frame's right border, where only the
-// edges across it are left: there is none to go along, whatever the corners are.
-TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
+// With every edge set, a step can go along any line except the frame's right border. Only the edges
+// across that border exist, so there is no line to follow for any corners.
+TEST(EdgeMemory, RightBorderHasNoStepAlongIt) {
   constexpr int kWidth = 150;
   constexpr std::uint8_t kAll = kBeforeBit | kAfterBit | kFirstBit | kSecondBit;
   Shown shown(built(true), kWidth, 1000);
@@ -211,10 +212,10 @@ TEST(EdgeMemory, NoStepGoesAlongTheRightBorder) {
     }
 }
 
-// A port shows as many words as the longest step can lie in, and a class with it: of 125 columns a
-// side steps of 62 and 63, with the corner's own column 65, from the last one of a word on; of 126
-// no more; of 127 steps of 63 and 64.
-TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
+// A port returns enough words for the longest step, and for a class on top of it. 125 columns per
+// side need steps of 62 and 63, 65 columns with the corner's own, starting at the last column of a
+// word; 126 need no more; 127 need steps of 63 and 64.
+TEST(EdgeMemory, LongestStepFitsTheWordsOfAPort) {
   struct Longest {
     int search_range;
     bool learned;
@@ -242,9 +243,9 @@ TEST(EdgeMemory, TheLongestStepLiesInTheWordsOfAPort) {
     }
 }
 
-// Where the edges of a step need not be all set: the corners of its three candidates, which are
+// If the edges of a step need not all be set, only the corners of its three candidates are read:
 // four columns.
-TEST(EdgeMemory, AStepShowsTheFourColumnsAtItsEnd) {
+TEST(EdgeMemory, StepReadsTheFourColumnsAtItsEnd) {
   Shown shown(built(false), 150, 500);
   Cycle cycle = 0;
   for (const bool right : {false, true})
@@ -257,9 +258,9 @@ TEST(EdgeMemory, AStepShowsTheFourColumnsAtItsEnd) {
     }
 }
 
-// Three edges to the border of the frame and a crossing that does not go on: class 2 + 3, whatever
-// word the port has shown behind it before.
-TEST(EdgeMemory, AClassEndsWithTheFrame) {
+// Three edges up to the frame's border and a crossing that ends there: class 2 + 3, whatever word
+// the port has returned earlier for the columns beyond.
+TEST(EdgeMemory, ClassEndsAtTheFrameBorder) {
   constexpr int kWidth = 128, kFrom = kWidth - 3;
   Shown shown(preset(Preset::kDeburr), kWidth, 0);
   EdgeRows& rows = shown.memories.rows;
@@ -282,18 +283,18 @@ TEST(EdgeMemory, AClassEndsWithTheFrame) {
   EXPECT_EQ(rows.crossing_class(cycle + 1, shown.configuration, 0, last), 2 + 3);
 }
 
-// All edges of a step that ends in the newest row are in the rows above it.
-TEST(EdgeMemory, AStepMayEndInTheNewestRow) {
+// All edges of a step that ends in the newest row lie in the rows above it.
+TEST(EdgeMemory, StepMayEndInTheNewestRow) {
   constexpr int kNewest = 30 + 8 + 1;
   constexpr std::uint8_t kAll = kBeforeBit | kAfterBit | kFirstBit | kSecondBit;
   Shown shown(built(true, 8, 60), 150, 1000);
-  // Steps of two and of three; one more is beyond the reach.
+  // Steps of two and of three; a longer one exceeds the search range.
   Trial trial{40, kNewest - 3, 3, 3, true, kAll, kAll};
   shown.memories.window.read(1, shown.configuration, 0, trial);
   EXPECT_EQ(shown.memories.window.hits(2, shown.configuration, 0, trial), kShorter | kEqual);
 }
 
-TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
+TEST(EdgeMemory, BeatIsWrittenOneCycleAfterItsRead) {
   Shown shown(built(true), 150, 500);
   EdgeWindow& window = shown.memories.window;
   window.read_beat(7, shown.configuration, 5);
@@ -302,14 +303,14 @@ TEST(EdgeMemory, ABeatIsWrittenAClockAfterItWasReadAndNotBefore) {
   expect_stop([&] { window.write_beat(9, shown.configuration, 6, 64, {}); }, "edge_window");
 }
 
-// No more ports than are used: the busiest clock uses every one.
+// There are no more ports than needed: the busiest cycle uses all of them.
 struct Built {
   int lanes_code, units, trial_cycles;
   bool contiguous;
 };
 void PrintTo(const Built& b, std::ostream* out) { *out << b.lanes_code << ' ' << b.units; }
-class BusiestClock : public ::testing::TestWithParam<Built> {};
-TEST_P(BusiestClock, UsesEveryPort) {
+class BusiestCycle : public ::testing::TestWithParam<Built> {};
+TEST_P(BusiestCycle, BusiestCycleUsesEveryPort) {
   Parameters p = built(GetParam().contiguous);
   p.lanes = static_cast<Lanes>(GetParam().lanes_code);
   p.predictor_units = GetParam().units;
@@ -331,7 +332,7 @@ TEST_P(BusiestClock, UsesEveryPort) {
   EXPECT_EQ(most_window, window.shape().read_ports);
   EXPECT_EQ(most_rows, rows[0].shape().read_ports);
 }
-INSTANTIATE_TEST_SUITE_P(Builds, BusiestClock,
+INSTANTIATE_TEST_SUITE_P(Builds, BusiestCycle,
                          ::testing::Values(Built{0, 2, 4, true}, Built{1, 2, 4, true},
                                            Built{2, 2, 4, true}, Built{0, 1, 4, false},
                                            Built{0, 4, 4, true}, Built{2, 1, 4, false},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// EndpointPredictor: its cycles, its order, and where it waits. Steps, `safe`, `trim` and classes
-// of crossings are compared with the golden model, line by line (tb/system).
+// EndpointPredictor: its cycles, its order and its stalls. Steps, `safe`, `trim` and classes of
+// crossings are compared with the golden model line by line in tb/system.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -17,8 +17,8 @@ using spec::morphological::Axis;
 using spec::morphological::Preset;
 using spec::morphological::RunPart;
 
-// The predictors of a lane in a square frame. Without edges a record that may be extended takes one
-// trial, others none.
+// The predictors of one lane in a square frame. Without edges, a descriptor that may be extended
+// takes one trial, any other none.
 struct Predicting {
   explicit Predicting(const Parameters& p, Axis axis_ = Axis::kHorizontal, Cycle opens = 0,
                       int size_ = 60)
@@ -35,9 +35,9 @@ struct Predicting {
     unit.sums_out[0](sums);
     sink.in(sums);
   }
-  // A stair of a colour, as the memories have it when its run on this line has been found: steps of
-  // the given lengths from position `from` on, on lines row + 1, row + 2, ..; flat before and
-  // after.
+  // Fills the memories with a stair of two colours, as they are when its run on this line has been
+  // found: steps of the given lengths from position `from` on, on lines row + 1, row + 2, ...; flat
+  // before and after.
   RunToken stair(int line, int start, int length, int from, std::vector<int> lengths, int row) {
     const auto boundary = [&](int x) {
       int y = row, at = from;
@@ -56,8 +56,8 @@ struct Predicting {
         [&](int x, int y) { return y > 0 && dark(x, y) != dark(x, y - 1); });
     return descriptor(line, start, length, 1 + 4 * 2);
   }
-  // An L, of whose crossing only the class is looked for.
-  RunToken l() {
+  // An L, for whose crossing only the class is searched.
+  RunToken l_shape() {
     stair(30, 20, 5, 20, {5}, 29);
     return descriptor(30, 20, 5, 1);
   }
@@ -93,9 +93,9 @@ INSTANTIATE_TEST_SUITE_P(Both, PredictorAxes, ::testing::Values(Axis::kHorizonta
                            return param.param == Axis::kHorizontal ? "horizontal" : "vertical";
                          });
 
-TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
+TEST_P(PredictorAxes, MatchesTheContractExample) {
   // -3, [0, 3], 5, 8: one step of 3 to the left, steps of 2 and 3 to the right. The flat parts are
-  // long, so that nothing follows. The run begins at column 23, on row 12.
+  // long, so no step follows. The run starts at column 23 on row 12.
   Parameters p = preset(Preset::kDeburrLine);
   p.trim = false;
   Predicting bench(p, GetParam());
@@ -109,15 +109,15 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   EXPECT_EQ(sums.last, 8);
   EXPECT_EQ(sums.sum, -3 + 0 + 3 + 5 + 8);
   EXPECT_EQ(sums.indexed_sum, 3 + 0 + 3 + 2 * 5 + 3 * 8);
-  // k = 0: three candidates a side; k = 1: two a side; k = 2: two on the right.
+  // k = 0: three candidates per side; k = 1: two per side; k = 2: two on the right.
   EXPECT_EQ(bench.unit.probes.value(), 12u);
   EXPECT_EQ(bench.unit.iterations.value(), 3u);
   EXPECT_EQ(bench.unit.steps.value(), 3u);
   EXPECT_EQ(bench.unit.extended_runs.value(), 1u);
-  // Pushed in 0, popped in 1; trials begin in 4, 8 and 12, the last one is decided in 16; joined in
+  // Pushed in 0, popped in 1; trials start in 4, 8 and 12, the last one is decided in 16; joined in
   // 18, sent in 19, taken in 20.
   EXPECT_THAT(cycles_of(bench.sink), ::testing::ElementsAre(20));
-  // From the pop to the clock in which the sums are sent.
+  // From the pop to the cycle in which the sums are sent.
   EXPECT_EQ(bench.unit.busy_cycles(), 19u);
   RunToken tail = bench.descriptor(12, 23, 3, 1 + 4 * 2);
   tail.run.part = RunPart::kTail;
@@ -127,9 +127,9 @@ TEST_P(PredictorAxes, FollowsTheExampleOfTheContract) {
   EXPECT_EQ(bench.unit.idle_cycles(), 100u - 21u);
 }
 
-TEST(EndpointPredictorBlock, ADescriptorHoldsAPredictorForItsIterations) {
-  // No extension (predictor none): one clock each. Two predictors weight the work, one result
-  // register a clock goes out: a record a clock.
+TEST(EndpointPredictorBlock, DescriptorHoldsPredictorForItsIterations) {
+  // Without extension (predictor none) each descriptor takes one cycle. Two predictors share the
+  // work and one result register is sent per cycle: one descriptor per cycle.
   Predicting bench(preset(Preset::kMlaa));
   for (int i = 0; i < 20; ++i) bench.source.add(0, run_of(3, 20));
   bench.clock.run(40);
@@ -137,8 +137,8 @@ TEST(EndpointPredictorBlock, ADescriptorHoldsAPredictorForItsIterations) {
   expect_cycles(EndpointPredictor::datasheet(), cycles_of(bench.sink), 1);
 }
 
-TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
-  // A long stair of steps of two pixels: N = 8 to both sides.
+TEST(EndpointPredictorBlock, TrialsOfDescriptorsFollowEachOther) {
+  // A long stair of steps of two pixels: N = 8 on both sides.
   Predicting bench(preset(Preset::kDeburrLine), Axis::kHorizontal, 0, 90);
   const RunToken token = bench.stair(26, 40, 2, 10, std::vector<int>(30, 2), 10);
   for (int i = 0; i < 12; ++i) bench.source.add(0, token);
@@ -147,20 +147,21 @@ TEST(EndpointPredictorBlock, TrialsOfOneRecordAfterTheOther) {
   EXPECT_EQ(bench.sink.taken[0].token.left, 8);
   EXPECT_EQ(bench.sink.taken[0].token.right, 8);
   // Popped in 1 and 2; first reads in 4 and 6, decided eight trials later, joined two cycles after
-  // that, which is when the next record is popped; taken two cycles later: T (N + 1) cycles each.
+  // that, when the next descriptor is popped; taken two cycles later: T (N + 1) cycles per
+  // descriptor.
   for (std::size_t i = 0; i < 12; ++i)
     EXPECT_EQ(bench.sink.taken[i].cycle, 4 + 4 * 8 + 4 + i % 2 * 2 + i / 2 * 4 * 9) << i;
   // From the first pop to the last join.
   EXPECT_EQ(bench.unit.occupancy.value(), 2u * (5 * 36 + 38) + 1);
 }
 
-// ---- waiting and order --------------------------------------------------------------------------
+// ---- stalls and order ---------------------------------------------------------------------------
 
 class PredictorUnits : public ::testing::TestWithParam<int> {};
 
-// The link takes two results, each predictor holds one in its result register and a record behind
-// it. Then it waits downstream and takes no more.
-TEST_P(PredictorUnits, WaitDownstream) {
+// The link holds two results; each predictor holds one in its result register and one more
+// descriptor. After that it stalls downstream and takes no more.
+TEST_P(PredictorUnits, DownstreamStallFillsEveryRegister) {
   constexpr Cycle kOpens = 100;
   Parameters p = small();
   p.predictor_units = GetParam();
@@ -169,10 +170,10 @@ TEST_P(PredictorUnits, WaitDownstream) {
   bench.clock.run(kOpens);
   const auto held = static_cast<std::uint64_t>(2 + 2 * GetParam());
   EXPECT_EQ(bench.descriptors.pops(), held);
-  // A record is popped in each of the cycles 1 to `held`.
+  // One descriptor is popped in each of the cycles 1 to `held`.
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held - 1);
   EXPECT_EQ(bench.unit.busy_cycles(), held);
-  // A place is free from kOpens + 1 on.
+  // The link has room from kOpens + 1 on.
   bench.clock.run(1);
   EXPECT_EQ(stalls(bench.unit, "downstream"), kOpens - held);
   bench.clock.run(50);
@@ -181,8 +182,8 @@ TEST_P(PredictorUnits, WaitDownstream) {
   std::vector<int> lengths;
   for (const SumsToken& sums : tokens_of(bench.sink)) lengths.push_back(sums.run.run.length);
   if (GetParam() == 2) {
-    // Two wait in the link, two in each unit; then it is the turn of the one that did not send
-    // last.
+    // Two wait in the link and two in each predictor; then the predictor that did not send last
+    // takes its turn.
     EXPECT_THAT(std::vector(lengths.begin(), lengths.begin() + 6),
                 ::testing::ElementsAre(1, 2, 5, 3, 6, 4));
   }
@@ -193,8 +194,8 @@ INSTANTIATE_TEST_SUITE_P(Each, PredictorUnits, ::testing::Values(1, 2, 4));
 
 class TrialCycles : public ::testing::TestWithParam<int> {};
 
-// A record that comes in any clock of the schedule: early for its phase, or late.
-TEST_P(TrialCycles, ADescriptorWaitsForItsPhaseAndTakesThatLong) {
+// Descriptors that arrive in every cycle of the schedule, before or after their phase.
+TEST_P(TrialCycles, DescriptorWaitsForItsPhase) {
   Parameters p = preset(Preset::kDeburrLine);
   p.trial_cycles = GetParam();
   Predicting bench(p);
@@ -203,9 +204,10 @@ TEST_P(TrialCycles, ADescriptorWaitsForItsPhaseAndTakesThatLong) {
   for (Cycle i = 0; i < 2 * trial; ++i) {
     const Cycle sent = 20 + i * (3 * trial + 13);
     bench.source.add(sent, run_of(3, 20));
-    // Popped a clock later; the first predictor has phase 0. Nothing is there to be hit: a trial.
+    // Popped one cycle later; the first predictor has phase 0. There is nothing to hit, so there is
+    // one trial.
     const Cycle first = (sent + 2 + trial - 1) / trial * trial;
-    // It has waited from the clock after its pop to the one of its first trial.
+    // It has waited from the cycle after its pop to that of its first trial.
     const Cycle waited = first - (sent + 2);
     expected.push_back(sent + 1 + EndpointPredictor::trial_datasheet(p).latency.cycles + waited);
   }
@@ -215,8 +217,9 @@ TEST_P(TrialCycles, ADescriptorWaitsForItsPhaseAndTakesThatLong) {
   EXPECT_EQ(bench.unit.probes.value(), 2 * trial * 6);
 }
 
-// One predictor, whose next record is there in time: from one of one trial to the next.
-TEST_P(TrialCycles, OnePredictorTakesARecordAnIntervalOfTheDatasheet) {
+// One predictor whose next descriptor arrives in time: the interval between descriptors of one
+// trial.
+TEST_P(TrialCycles, IntervalMatchesDatasheet) {
   Parameters p = preset(Preset::kDeburrLine);
   p.trial_cycles = GetParam();
   p.predictor_units = 1;
@@ -232,8 +235,8 @@ TEST_P(TrialCycles, OnePredictorTakesARecordAnIntervalOfTheDatasheet) {
         [&](const rtl::Datasheet& sheet) { expect_interval(sheet, cycles[i] - cycles[i - 1]); });
 }
 
-// A record that is not extended takes a clock, whatever a trial takes.
-TEST_P(TrialCycles, ADescriptorWithoutTrialsTakesNone) {
+// A descriptor that is not extended takes one cycle, for any duration of a trial.
+TEST_P(TrialCycles, DescriptorWithoutTrialsTakesOneCycle) {
   Parameters p = small();
   p.trial_cycles = GetParam();
   p.predictor_units = 1;
@@ -246,11 +249,11 @@ TEST_P(TrialCycles, ADescriptorWithoutTrialsTakesNone) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, TrialCycles, ::testing::Range(1, 9));
 
-// Two results of the same clock go in the order of the predictors, the first one first after a
-// reset, whoever was last before it.
-TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
+// Two results of the same cycle leave in the order of the predictors. After a reset the first
+// predictor is first, whichever was last before it.
+TEST(EndpointPredictorBlock, ResetRestoresThePredictorOrder) {
   Parameters p = preset(Preset::kMlaaSlope);
-  p.trial_cycles = 1;  // no phases, so that results may come in one clock
+  p.trial_cycles = 1;  // no phases, so that two results can arrive in one cycle
   Predicting bench(p);
   for (const bool odd : {false, true}) {
     bench.reset();
@@ -262,8 +265,8 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
     }
     // Two steps of three: row 12 from 20 to 23, row 13 from 23 to 26.
     const RunToken first = bench.stair(12, 20, 3, 20, {3, 3}, 11);
-    // The first has one step to the right and then a trial without a hit: two cycles. The second
-    // is popped a clock later and has no hit at once.
+    // The first has one step to the right and then a trial without a hit: two cycles. The second is
+    // popped one cycle later and its first trial has no hit.
     bench.source.add(0, first);
     bench.source.add(0, run_of(2, 2));
     bench.clock.run(20);
@@ -277,21 +280,21 @@ TEST(EndpointPredictorBlock, AResetTakesBackTheTurn) {
 
 // ---- classes of crossings -----------------------------------------------------------------------
 
-// Pushed in 0, popped in 1; reads in 4 and 5, let go in 7, sent in 8, taken in 9. One behind the
-// other: a predictor takes one each four cycles, the other two cycles later.
-TEST_P(PredictorAxes, TakesTheClocksOfATrialButOneForClasses) {
+// Pushed in 0, popped in 1; reads in 4 and 5, released in 7, sent in 8, taken in 9. Each predictor
+// takes one descriptor every four cycles, the second predictor two cycles after the first.
+TEST_P(PredictorAxes, ClassSearchCyclesMatchTheContract) {
   Predicting bench(deburr(), GetParam());
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 9; ++i) bench.source.add(0, token);
   bench.clock.run(60);
   EXPECT_THAT(cycles_of(bench.sink), ::testing::ElementsAre(9, 11, 13, 15, 17, 19, 21, 23, 25));
 }
 
-// The least wait of records that come in any clock of the schedule.
-TEST_P(PredictorAxes, HasTheLatencyOfTheDatasheetForClasses) {
+// The shortest latency of descriptors that arrive in every cycle of the schedule.
+TEST_P(PredictorAxes, ClassLatencyMatchesDatasheet) {
   const Parameters p = deburr();
   Predicting bench(p, GetParam());
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   Cycle least = 1000;
   for (int phase = 0; phase < 2 * p.trial_cycles; ++phase) {
     bench.clock.run(29);
@@ -305,13 +308,13 @@ TEST_P(PredictorAxes, HasTheLatencyOfTheDatasheetForClasses) {
   expect_latency(EndpointPredictor::class_datasheet(p), least);
 }
 
-// T cycles a record with one predictor, if T is 3 or more.
-TEST_P(TrialCycles, AreTheIntervalOfClasses) {
+// With one predictor, T cycles per descriptor if T is 3 or more.
+TEST_P(TrialCycles, ClassIntervalMatchesDatasheet) {
   Parameters p = deburr();
   p.predictor_units = 1;
   p.trial_cycles = GetParam();
   Predicting bench(p);
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 4; ++i) bench.source.add(0, token);
   bench.clock.run(80);
   ASSERT_EQ(bench.sink.taken.size(), 4u);
@@ -321,13 +324,13 @@ TEST_P(TrialCycles, AreTheIntervalOfClasses) {
   for (std::size_t i = 1; i < 4; ++i)
     EXPECT_EQ(bench.sink.taken[i].cycle - bench.sink.taken[i - 1].cycle, each);
 }
-// Two ports: both sides of a predictor read in one clock, and it takes two instead of four.
-TEST(EndpointPredictorBlock, ClassesTakeTwoClocksWhereNoSideReadsLater) {
+// Two ports: both sides of a predictor read in one cycle, so it takes two cycles instead of four.
+TEST(EndpointPredictorBlock, ClassesTakeTwoCyclesWithTwoPorts) {
   Parameters p = deburr();
   p.predictor_units = 2;
   p.trial_cycles = 2;
   Predicting bench(p);
-  const RunToken token = bench.l();
+  const RunToken token = bench.l_shape();
   for (int i = 0; i < 8; ++i) bench.source.add(0, token);
   bench.clock.run(80);
   ASSERT_EQ(bench.sink.taken.size(), 8u);

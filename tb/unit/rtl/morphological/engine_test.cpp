@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole morphological engine: numbers of slots, accounts of its units, memories of its builds.
+// The whole morphological engine: slot numbers, cycle classes of its units, memories of its builds.
 #include <map>
 #include <string>
 #include <vector>
@@ -11,15 +11,16 @@ namespace {
 
 using spec::morphological::Preset;
 
-// Records carry fifteen bits of their slot's number: two rows of 8192 beats, exactly.
-TEST(SlotNumbers, WrapInTheWidestRows) {
+// Descriptors carry fifteen bits of the slot number: exactly two rows of 8192 beats.
+TEST(SlotNumbers, SlotNumbersWrapInTheWidestRows) {
   constexpr int kWidth = spec::morphological::kMaxFrameSize, kPart = 90, kHeight = 12;
   Parameters p = preset(Preset::kDeburrLine, 9);
   p.steps = 7;
   p.line_pixels = kWidth;
   EngineBench bench(p);
   const Frame pattern = noise(kPart, kHeight);
-  // The same pixels at both ends of a row, so that records are found in its first and last slots.
+  // The same pixels at both ends of a row, so that descriptors are found in its first and last
+  // slots.
   const Frame in = draw(kWidth, kHeight, [&](int x, int y) {
     return x < kPart             ? pattern.at(x, y)
            : x >= kWidth - kPart ? pattern.at(x - (kWidth - kPart), y)
@@ -30,7 +31,8 @@ TEST(SlotNumbers, WrapInTheWidestRows) {
   EXPECT_GT(bench.engine.area.descriptors.value(), 400u);
   EXPECT_EQ(bench.engine.extractor.descriptor_stalls.value(), 0u);
   int blended = 0;
-  // Extensions reach seven steps of at most a few pixels; the middle of the part sees no border.
+  // Extensions cover at most seven steps of a few pixels, so the middle of a part does not see its
+  // border.
   for (int y = 0; y < kHeight; ++y)
     for (int x = 40; x < 50; ++x) {
       ASSERT_EQ(out.at(x, y), out.at(x + kWidth - kPart, y)) << x << ' ' << y;
@@ -39,19 +41,19 @@ TEST(SlotNumbers, WrapInTheWidestRows) {
   EXPECT_GT(blended, 20);
 }
 
-TEST(Accounts, EveryClockOfAUnitHasItsClass) {
+TEST(CycleClasses, EveryCycleIsBusyStalledOrIdle) {
   EngineBench bench(deburr_line());
   bench.run(blocks());
   for (const rtl::Unit* unit : bench.engine.units())
     EXPECT_EQ(unit->busy_cycles() + unit->stalled_cycles() + unit->idle_cycles(),
               bench.clock.cycle());
-  // Every slot is a busy clock of the pipe.
+  // Every slot is one busy cycle of the pipeline.
   EXPECT_EQ(bench.engine.sequencer.busy_cycles(), (80u + 37u) * 90u);
   EXPECT_EQ(bench.engine.blender.busy_cycles(), 80u * 90u + 5u);
   EXPECT_EQ(bench.engine.beat_latency.count(), 80u * 90u);
 }
 
-// ---- memories, of rows of 1920 pixels; those of another build are on the page -------------------
+// ---- memories, for rows of 1920 pixels; the page lists those of another build -------------------
 
 struct Sized {
   const char* memory;
@@ -75,10 +77,10 @@ void expect_memories(Parameters p, const std::vector<Sized>& rows) {
   }
 }
 
-TEST(Memories, HoldTheRowsOfALine) {
+TEST(Memories, LineBuildHasTheseMemories) {
   Parameters p = deburr_line();
   p.edge_source = spec::morphological::EdgeSource::kPredicated;
-  expect_memories(p, {{"luma_lines", 144'000, "1R1W of 2 words"},  // a column and the one beside it
+  expect_memories(p, {{"luma_lines", 144'000, "1R1W of 2 words"},  // one column and the next one
                       {"depth_lines", 92'160, "1R1W"},
                       {"pixel_lines3", 614'400},
                       {"weight_lines", 92'160},
@@ -95,7 +97,7 @@ TEST(Memories, HoldTheRowsOfALine) {
                       {"descriptor_fifo_h0", 256 * 60}});
 }
 
-TEST(Memories, HaveThreeTablesAndABitARecordForLearnedShares) {
+TEST(Memories, LearnedWeightsAddTablesAndOneDescriptorBit) {
   Parameters p = deburr();
   p.lanes = spec::morphological::Lanes::kTwo;
   expect_memories(p, {{"row_descriptors", 1920 * 96},
@@ -106,7 +108,7 @@ TEST(Memories, HaveThreeTablesAndABitARecordForLearnedShares) {
                       {"weight_rom", 8 * 256, "8R"}});
 }
 
-TEST(Memories, HaveLinesOfHashesForTheTextGuard) {
+TEST(Memories, TextGuardAddsLinesOfHashes) {
   Parameters p = deburr();
   p.text_guard = true;
   expect_memories(p, {{"guard_row", 1920 * 6, "1R1W"},
@@ -115,8 +117,8 @@ TEST(Memories, HaveLinesOfHashesForTheTextGuard) {
                       {"guards", 29 * 1920 + 32}});
 }
 
-// A place for each line that may come back, read or written: its 512 bits and two of status.
-TEST(Memories, HoldTheLinesThatAreUnderWay) {
+// One entry per line in flight, read or written: 512 bits and two status bits.
+TEST(Memories, MemoryBuildHoldsLinesInFlight) {
   Parameters p = in_memory();
   p.memory_outstanding = 32;
   expect_memories(p, {{"pixel_lines3", 61'440},
@@ -126,8 +128,8 @@ TEST(Memories, HoldTheLinesThatAreUnderWay) {
                       {"response_buffer", 2 * 32 * 514}});
 }
 
-// A row of one pixel still has a column beside it.
-TEST(Memories, OfTheNarrowestRowsHaveTheirBanks) {
+// Even a row of one pixel has a column next to it.
+TEST(Memories, NarrowestRowsKeepTheirBanks) {
   Parameters p;
   p.line_pixels = 1;
   EngineBench bench(p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SlotSequencer, LumaUnit and EdgeDetector as they follow each other: pixels in, edge bits out.
+// SlotSequencer, LumaUnit and EdgeDetector in sequence: pixels in, edge bits out.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct Bits {
   friend bool operator==(const Bits&, const Bits&) = default;
 };
 
-// Frame in, edge bits out; rules may be written before each.
+// Frame in, edge bits out; the configuration may be written before each frame.
 struct Front {
   explicit Front(const Parameters& p)
       : lanes(lanes_of(p)),
@@ -37,7 +37,7 @@ struct Front {
     sink.beats_in(bits);
     clock.add(done);
   }
-  // Bits of each pixel in raster order.
+  // Returns the edge bits of each pixel in raster order.
   std::vector<Bits> detect(const Frame& frame, const Parameters* configuration = nullptr) {
     reset_by(clock);
     if (configuration != nullptr) registers.software.set_configuration(*configuration);

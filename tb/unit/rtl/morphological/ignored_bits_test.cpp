@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What the morphological engine is given and has no use for: depths where edges need none, alphas
-// where nothing is marked, lanes behind the last pixel of a row, what lies between the rows of a
-// frame in memory, bits of registers that no field has. Whatever is there, pixels, taps, work and
-// cycles are the same; and what is not ignored counts, or the noise would prove nothing.
+// Inputs that the morphological engine must ignore: depths when edges do not use depth, alphas
+// without a bypass, lanes after the last pixel of a row, bytes between the rows of a frame in
+// memory, and unused register bits. Random values there must not change pixels, probes, work or
+// cycles. As a control, noise in used bits must change them.
 #include <algorithm>
 #include <bit>
 #include <functional>
@@ -31,16 +31,16 @@ void PrintTo(const Build& b, std::ostream* out) {
        << b.settings;
 }
 
-// What comes of a frame; of alpha nothing, which passes.
+// The result of a frame, without alpha, which passes unchanged.
 struct Trail {
-  std::vector<std::array<int, 7>> pixels;  // R, G, B, and the tap
+  std::vector<std::array<int, 7>> pixels;  // R, G, B, and the blend probe
   std::vector<Cycle> cycles;               // of the beats
   std::vector<std::string> state;
 };
 
 class IgnoredBits : public ::testing::TestWithParam<Build> {
  protected:
-  static constexpr int kWidth = 29, kHeight = 21;  // whole neither in beats nor in lines of memory
+  static constexpr int kWidth = 29, kHeight = 21;  // multiples of neither beats nor lines of memory
   static Parameters parameters() {
     Parameters p = preset(GetParam().preset, 8, 20);
     p.line_pixels = 64;
@@ -48,7 +48,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     apply_settings(p, GetParam().settings);
     return p;
   }
-  // Stairs, nearer where they are brighter; every seventh pixel is marked.
+  // Stairs that are nearer where they are brighter; every seventh pixel is marked.
   static Frame stairs() {
     const auto above = [](int x, int y) { return (x + 3 * y) / 7 % 2; };
     Frame frame = draw(kWidth, kHeight, [&](int x, int y) {
@@ -61,10 +61,11 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
           4'000'000 + 9'000'000 * static_cast<std::uint32_t>(above(i % kWidth, i / kWidth));
     return frame;
   }
-  // A frame whose beats are changed on their way; `written` once its registers are.
+  // Runs a frame whose beats are modified by `change`; calls `written` after its registers have
+  // been written.
   Trail run(
       const std::function<void(PixelBeat&)>& change,
-      const std::function<void()>& each_clock = [] {},
+      const std::function<void()>& each_cycle = [] {},
       const std::function<void()>& written = [] {}) {
     reset_by(bench.clock, 40);
     const Cycle begin = bench.clock.cycle();
@@ -79,7 +80,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
     written();
     bench.bench->run(
         [&] {
-          each_clock();
+          each_cycle();
           return bench.sink.received() == beats.size() && bench.engine.idle();
         },
         100'000);
@@ -104,7 +105,7 @@ class IgnoredBits : public ::testing::TestWithParam<Build> {
   Random random{1, "noise"};
 };
 
-TEST_P(IgnoredBits, ChangeNothing) {
+TEST_P(IgnoredBits, InputNoiseChangesNothing) {
   const Trail fresh = run([](PixelBeat&) {});
   ASSERT_GT(bench.engine.work().blended_pixels, 50u);
   const bool depth_counts =
@@ -114,7 +115,7 @@ TEST_P(IgnoredBits, ChangeNothing) {
       for (std::uint32_t& depth : beat.depth) depth ^= random.word() & bits;
     });
   };
-  // 24 bits, and these where edges are of depth.
+  // Only 24 bits are used, and only by edges from depth.
   EXPECT_EQ(difference(fresh, depths(0xFF000000)), "");
   EXPECT_EQ(!difference(fresh, depths(0xFFFFFFFF)).empty(), depth_counts);
   const auto alphas = [&](std::uint32_t bits) {
@@ -123,10 +124,10 @@ TEST_P(IgnoredBits, ChangeNothing) {
         pixel[3] = static_cast<std::uint8_t>(pixel[3] ^ (random.word() & bits));
     });
   };
-  // The mark is bit 0, where one is looked for.
+  // The mark is bit 0, if the bypass uses it.
   EXPECT_EQ(difference(fresh, alphas(0xFE)), "");
   EXPECT_EQ(!difference(fresh, alphas(0xFF)).empty(), p.bypass != Bypass::kNone);
-  // Lanes behind the last pixel of a row.
+  // Lanes after the last pixel of a row.
   const auto lanes = [&](bool used) {
     return run([&, used](PixelBeat& beat) {
       for (std::size_t i = used ? 0 : beat.count; i < beat.pixel.size(); ++i) {
@@ -140,8 +141,8 @@ TEST_P(IgnoredBits, ChangeNothing) {
   EXPECT_NE(difference(fresh, lanes(true)), "");
 }
 
-// Bits of every register that no field has.
-TEST_P(IgnoredBits, OfRegistersChangeNothing) {
+// Writes noise to the unused bits of every register.
+TEST_P(IgnoredBits, RegisterNoiseChangesNothing) {
   const Trail fresh = run([](PixelBeat&) {});
   std::uint64_t ignored = 0;
   for (int round = 0; round < 3; ++round) {
@@ -154,13 +155,14 @@ TEST_P(IgnoredBits, OfRegistersChangeNothing) {
     const auto written = [&] {
       for (const spec::RegisterInfo& info : spec::morphological::kRegisters)
         if (info.writable() != 0) ignored += noisy(info);
-      bench.bus.write(reg::kWeightsAddress, 0);  // the write of an entry has moved it on
+      bench.bus.write(reg::kWeightsAddress, 0);  // writing an entry has incremented the address
     };
-    // CONTROL while a frame is inside, too; its many writes would hide that no other was written.
-    const auto each_clock = [&] {
+    // CONTROL is also written while a frame is inside. These writes are not counted: their number
+    // would hide that no other register was written.
+    const auto each_cycle = [&] {
       noisy(*spec::register_named(spec::morphological::kRegisters, "CONTROL"));
     };
-    EXPECT_EQ(difference(fresh, run([](PixelBeat&) {}, each_clock, written)), "");
+    EXPECT_EQ(difference(fresh, run([](PixelBeat&) {}, each_cycle, written)), "");
   }
   EXPECT_GT(ignored, 100u);
 }
@@ -177,12 +179,12 @@ INSTANTIATE_TEST_SUITE_P(
         Build{spec::morphological::Preset::kDeburr, "lanes=4 storage=memory bypass=masked"},
         Build{spec::morphological::Preset::kDeburr, "lanes=2 text_guard=true"}));
 
-// Padding is written 0 and read back with its line.
+// Padding is written as 0 and read back with its line.
 class Padding : public IgnoredBits {};
-TEST_P(Padding, OfRowsInMemoryIsNotLookedAt) {
+TEST_P(Padding, RowPaddingIsIgnored) {
   constexpr std::uint32_t kStride = 128;
   const Trail fresh = run([](PixelBeat&) {});
-  // In every clock, so that no line is read without it.
+  // In every cycle, so that every line is read with noise.
   const auto noise = [&](std::uint32_t from, std::uint32_t to) {
     return run([](PixelBeat&) {},
                [&, from, to] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The morphological engine for the suites of every engine (tb/harness/engine_kit.h).
+// The morphological engine for the test suites that every engine runs (tb/harness/engine_kit.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -20,11 +20,11 @@ class Kit : public EngineKit {
     int lanes_code;
     spec::morphological::Storage storage;
     int divider_interval;
-    int width;  // of the whole job's frame
+    int width;  // of the frame of the job kWhole
     std::uint32_t memory_latency;
-    bool smaa = false;          // with all of its blocks
-    bool learned = false;       // weights
-    const char* settings = "";  // beside that
+    bool smaa = false;          // with all SMAA blocks
+    bool learned = false;       // learned weights
+    const char* settings = "";  // in addition
   };
   static const std::array<Build, 28> kBuilds;
   static std::string text_of(const Build& build) {
@@ -34,8 +34,8 @@ class Kit : public EngineKit {
                        build.divider_interval, build.width, build.smaa ? ", smaa" : "",
                        build.learned ? ", learned" : "", build.settings);
   }
-  // Small steps, and beside them an edge that is longer than the reach. Neither this frame nor the
-  // broken job's ends with a line of memory, so that lines are padded.
+  // Small steps, and an edge longer than the search range. The rows of this frame and of the job
+  // kBroken do not end with a line of memory, so lines are padded.
   explicit Kit(const Build& build, const Disturbance& disturbance = {})
       : Kit(parameters(build), build.memory_latency, disturbance,
             draw(build.width, 11, [&](int x, int y) {
@@ -64,7 +64,7 @@ class Kit : public EngineKit {
     lines_.clear();
     begin_ = bench_.clock.cycle();
     if (!queued_) return;
-    // Disabled while the frame is inside, so that the next one waits for its size.
+    // Disabled while the frame is inside, so that the next frame waits until its size is set.
     bench_.bus.write(reg::kControl, reg::kControlEnable);
     bench_.clock.run(5);
     EXPECT_EQ(bench_.bus.read(reg::kStatus) & reg::kStatusIdle, 0u);
@@ -94,7 +94,7 @@ class Kit : public EngineKit {
     }
     return outcome;
   }
-  // Steps that narrow keep no line where weights are learned.
+  // With learned weights, narrow steps have no line.
   void expect_enough(Job job) {
     if (job == Job::kWhole) {
       EXPECT_FALSE(lines_.empty());
@@ -119,7 +119,7 @@ class Kit : public EngineKit {
     for (const Job job : jobs) send(job == Job::kWhole ? whole_ : broken_);
     queued_ = true;
   }
-  // A frame without a size, or one that is too wide: nothing is taken.
+  // A frame of size 0 or one that is too wide: it is not accepted.
   static constexpr int kRejected = 2;
   void reject(int kind, Cycle cycles) {
     start(Job::kBroken);
@@ -128,14 +128,14 @@ class Kit : public EngineKit {
     EXPECT_EQ(bench_.engine.work(), spec::morphological::Work{});
     EXPECT_EQ((bench_.bus.read(reg::kStatus) & reg::kStatusFraming) != 0, cycles > 1);
   }
-  // The tables that WEIGHTS_DATA writes stay in a reset.
+  // A reset keeps the tables that WEIGHTS_DATA writes.
   static constexpr std::array kKept = {reg::kControl, reg::kWeightsData};
   void spoil() {
     if (bench_.memory)
       bench_.memory->fail_request(bench_.memory->reads() + bench_.memory->writes() + 3);
     bench_.software.set_size(broken_.width, broken_.height);
     send(broken_);
-    beats_[40].start_of_frame = true;  // not as SIZE says
+    beats_[40].start_of_frame = true;  // contradicts SIZE
     bench_.clock.run(50);
     bench_.bus.write(reg::kThreshold, 77);  // while a frame is inside
     EXPECT_TRUE(bench_.clock.run_until([&] { return bench_.driver.done() && bench_.engine.idle(); },
@@ -150,7 +150,7 @@ class Kit : public EngineKit {
     EXPECT_EQ(bench_.bus.read(reg::kControl), 0u);
   }
 
-  // --- register noise: while pixels come ---
+  // --- register noise, while pixels arrive ---
   static constexpr std::uint32_t kMostOffset = 0x200, kCycles = 80;
   static constexpr int kAccesses = 60;
   static constexpr std::uint64_t kNoiseSeeds = 60;
@@ -165,7 +165,7 @@ class Kit : public EngineKit {
     endless_ = true;
   }
   void disturb(Random&) {}
-  // Weights that were learned: the noise may have loaded others.
+  // Restores the learned weights, which the noise may have overwritten.
   void restore() {
     if (tables_.empty()) return;
     bench_.software.load_weights(tables_);
@@ -188,7 +188,7 @@ class Kit : public EngineKit {
   static constexpr const char* kTables = "reference/morphological/memories.md";
   static constexpr const char* kHeader = "rtl_model/morphological/morphological_engine.h";
   static constexpr const char* kFigure = "reference/morphological/index.md";
-  // Figures have all that an engine can be built with: learned weights exclude diagonals.
+  // The drawn figures cover every build option; learned weights and diagonals exclude each other.
   static std::vector<Drawn<Parameters>> drawn_builds() {
     Parameters memory = in_memory(), guarded = deburr(), learned = deburr(), diagonal = smaa();
     memory.lanes = spec::morphological::Lanes::kFour;
@@ -265,7 +265,7 @@ class Kit : public EngineKit {
     p.text_guard = random.chance(500);
     return p;
   }
-  // With depths, and marks for who looks at them.
+  // Adds depths, and marks for builds with a bypass.
   static Frame marked(Frame frame) {
     for (std::size_t i = 0; i < frame.pixel.size(); ++i) {
       frame.depth[i] = std::uint32_t{frame.pixel[i][0]} << 16;
@@ -300,9 +300,9 @@ class Kit : public EngineKit {
 };
 
 using spec::morphological::Storage;
-// The frame of one beat a row has its first record a few cycles after the reset. Where a line is
-// answered in the clock in which another is written, its read waits. Then every rule of edges,
-// lines and areas in some build, and every time of a trial.
+// In a frame with one beat per row, the first descriptor comes a few cycles after the reset. Where
+// a line is answered in the cycle in which another is written, its read waits. The other builds
+// cover every configuration of edges, lines and areas, and every duration of a trial.
 inline constexpr std::array<Kit::Build, 28> Kit::kBuilds = {{
     {0, Storage::kLineBuffers, 16, 9, 20},
     {1, Storage::kLineBuffers, 8, 9, 20},

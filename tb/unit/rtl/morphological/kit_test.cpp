@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reset, register noise, stress and tokens of the morphological engine, by its kit.
+// Runs the suites for reset, register noise, stress and tokens with the morphological engine.
 #include "tb/unit/rtl/morphological/kit.h"
 
 #include "tb/unit/rtl/engine_suites.h"

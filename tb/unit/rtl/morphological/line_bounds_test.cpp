@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// LineBounds against the definition of the contract: a corner more is consistent with the others if
-// the largest lower bound of the slope between any two is below the least upper one.
+// LineBounds against the definition of the contract: one more corner is consistent with the others
+// if the largest lower bound of the slope between any two corners is below the smallest upper
+// bound.
 #include "rtl_model/morphological/runs/line_bounds.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using rtl::morphological::LineBounds;
 using Fit = LineBounds::Fit;
 using Corners = std::deque<int>;  // X of consecutive corners
 
-// Word for word: compared by cross multiplication.
+// The definition, literally; fractions are compared by cross multiplication.
 bool consistent(const Corners& corners) {
   std::int64_t low_over = -1'000'000, low_under = 1, high_over = 1'000'000, high_under = 1;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -64,7 +65,7 @@ struct Checked {
   std::uint64_t alone = 0, both = 0, rejected = 0, bends = 0;
 };
 
-// Steps 3 and 4 of the contract for every pair of steps that could come now.
+// Steps 3 and 4 of the contract for every pair of steps that could come next.
 void check(const Growth& now, Checked& checked) {
   for (const bool other : {false, true}) {
     const bool right = now.bounds.right(other) != Fit::kNone;
@@ -85,7 +86,7 @@ void check(const Growth& now, Checked& checked) {
     }
 }
 
-// Every order in which so many corners can be added, from either end.
+// Adds `more` corners at either end, in every order.
 void grow(const Growth& now, int more, Checked& checked) {
   check(now, checked);
   if (more == 0 || ::testing::Test::HasFatalFailure()) return;
@@ -103,7 +104,7 @@ void grow(const Growth& now, int more, Checked& checked) {
   }
 }
 
-TEST(LineBounds, AreThoseOfTheDefinitionInEveryShortGrowth) {
+TEST(LineBounds, EveryShortGrowthMatchesTheDefinition) {
   Checked checked;
   for (const auto& [length, other] :
        {std::pair{1, 2}, {2, 1}, {2, 3}, {7, 6}, {7, 8}, {2047, 2048}, {2048, 2047}})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// LineUnit: the lines of spec/morphological/vectors.h, latency and interval of its divider, and how
-// much it holds.
+// LineUnit: the lines of spec/morphological/vectors.h, latency and interval of its divider, and its
+// capacity.
 #include <cstdint>
 #include <vector>
 
@@ -57,7 +57,7 @@ struct Dividing {
   unit_bench::Sink<LineToken> sink;
 };
 
-TEST(LineUnitBlock, FitOfTheContractsTable) {
+TEST(LineUnitBlock, LinesMatchTheContractTable) {
   Dividing bench(preset(spec::morphological::Preset::kDeburrLine));
   const auto& vectors = spec::morphological::kRunVectors;
   for (const spec::morphological::RunVector& v : vectors)
@@ -91,12 +91,12 @@ void PrintTo(const DividerTime& t, std::ostream* out) {
 }
 class Divider : public ::testing::TestWithParam<DividerTime> {};
 
-TEST_P(Divider, HasItsLatencyAndInterval) {
+TEST_P(Divider, LatencyAndIntervalMatchDatasheet) {
   const DividerTime time = GetParam();
   const Parameters p = time.parameters();
   Dividing bench(p);
   for (int i = 0; i < 10; ++i) bench.source.add(sums_of(i + 1));
-  // Pushed in 0, popped in 1, the quotient is sent in 1 + latency.
+  // Pushed in 0, popped in 1; the quotient is sent in 1 + latency.
   const rtl::Datasheet sheet = LineUnit::datasheet(p);
   const Cycle ready = 1 + sheet.latency.cycles;
   bench.clock.run(ready);
@@ -115,16 +115,16 @@ INSTANTIATE_TEST_SUITE_P(Times, Divider,
                                            DividerTime{24, 5}, DividerTime{15, 16},
                                            DividerTime{64, 3}));
 
-// A record without a line passes the divider in the clock that pops it, also one that waits for its
-// interval; it gives way to a quotient.
-TEST(LineUnitBlock, ALearnedDescriptorPassesTheDivider) {
+// A descriptor without a line passes the divider in the cycle that pops it, even while the divider
+// waits for its interval. A quotient takes precedence.
+TEST(LineUnitBlock, LearnedDescriptorPassesTheDivider) {
   Dividing bench(DividerTime{14, 20}.parameters());
   SumsToken learned = sums_of(1);
   learned.learned = true;
   learned.start_class = 7;
   learned.end_class = 3;
   bench.source.add(0, learned);     // popped in 1
-  bench.source.add(1, sums_of(2));  // begins in 2, goes in 16
+  bench.source.add(1, sums_of(2));  // starts in 2, leaves in 16
   bench.source.add(2, learned);     // popped in 3
   bench.source.add(15, learned);    // would be popped in 16: a quotient leaves
   bench.clock.run(60);
@@ -146,7 +146,7 @@ TEST(LineUnitBlock, ALearnedDescriptorPassesTheDivider) {
   }
   EXPECT_FALSE(bench.sink.taken[2].token.line.learned);
   EXPECT_EQ(bench.unit.divides.value(), 1u);
-  // In each clock that passes one, and while it divides: 1 to 17.
+  // Busy in each cycle that passes a descriptor, and while dividing: 1 to 17.
   EXPECT_EQ(bench.unit.busy_cycles(), 17u);
 }
 
@@ -154,8 +154,8 @@ TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
   Dividing bench(DividerTime{14, 20}.parameters());
   for (int i = 1; i <= 6; ++i) bench.source.add(0, sums_of(i));
   bench.clock.run(140);
-  // One starts in 1, 21, .., 101; its quotient goes 14 cycles later; then five cycles of waiting,
-  // but for the last.
+  // One starts in 1, 21, ..., 101; its quotient leaves 14 cycles later; five stalled cycles follow,
+  // except after the last.
   ASSERT_EQ(bench.sink.taken.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(bench.sink.taken[i].cycle, 16 + 20 * i);
   EXPECT_EQ(stalls(bench.unit, "interval"), 5u * 5u);
@@ -163,11 +163,11 @@ TEST(LineUnitBlock, WaitsForTheIntervalOfTheDivider) {
   EXPECT_EQ(bench.unit.busy_cycles(), 6u * 15u);
 }
 
-class DividerPlaces : public ::testing::TestWithParam<DividerTime> {};
+class DividerCapacity : public ::testing::TestWithParam<DividerTime> {};
 
-// With nobody to take the lines, the divider holds as many as it has under way when it runs freely,
-// and the link two; then it says that it waits downstream. None is lost, and the order is kept.
-TEST_P(DividerPlaces, AreThoseOfItsPipe) {
+// While the lines are not taken, the divider holds the same number as in free running, and the link
+// two. Then it stalls downstream. No line is lost, and the order is kept.
+TEST_P(DividerCapacity, CapacityMatchesThePipeline) {
   const auto [latency, interval] = GetParam();
   constexpr Cycle kOpens = 400;
   Dividing bench(GetParam().parameters(), kOpens);
@@ -176,19 +176,20 @@ TEST_P(DividerPlaces, AreThoseOfItsPipe) {
   const int under_way = (latency + interval - 1) / interval;
   EXPECT_EQ(bench.unit.divides.value(), static_cast<std::uint64_t>(under_way + 2));
   EXPECT_EQ(bench.sums.pops(), static_cast<std::uint64_t>(under_way + 2));
-  // The last one starts `interval` after the one before, and is busy until its quotient is there.
+  // The last one starts `interval` cycles after the previous one and is busy until its quotient is
+  // ready.
   const std::uint64_t stalled = stalls(bench.unit, "downstream");
   EXPECT_GT(stalled, kOpens - static_cast<Cycle>((under_way + 2) * interval + latency + 3));
   bench.clock.run(1700);
   ASSERT_EQ(bench.sink.taken.size(), 100u);
   for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bench.sink.taken[i].token.line.span, i + 1);
 }
-INSTANTIATE_TEST_SUITE_P(Times, DividerPlaces,
+INSTANTIATE_TEST_SUITE_P(Times, DividerCapacity,
                          ::testing::Values(DividerTime{14, 1}, DividerTime{24, 1},
                                            DividerTime{24, 5}, DividerTime{15, 16},
                                            DividerTime{16, 4}));
 
-TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
+TEST(LineUnitBlock, DividerStartsRightAfterReset) {
   Dividing bench(DividerTime{14, 16}.parameters());
   bench.source.add(0, sums_of(3));
   bench.clock.run(3);
@@ -202,16 +203,16 @@ TEST(LineUnitBlock, AResetLetsTheDividerStartAtOnce) {
   EXPECT_EQ(bench.sink.taken[0].token.line.span, 5);
 }
 
-// ---- what a memory does not do ------------------------------------------------------------------
+// ---- memory access checks -----------------------------------------------------------------------
 
-TEST(LineUnitMemory, AWordIsNotThereInTheClockOfItsAddress) {
+TEST(LineUnitMemory, WordNeedsOneCycleAfterItsAddress) {
   Dividing bench(preset(spec::morphological::Preset::kDeburrLine));
   bench.source.add(sums_of({0, 3}, 0, 3));
   bench.clock.run(2);
   expect_used_early(bench.unit, bench.clock, "inverse_rom");
 }
 
-TEST(LineUnitMemory, HasNoWordForMoreCornersThanThereAre) {
+TEST(LineUnitMemory, RejectsMoreCornersThanTheTableHas) {
   Dividing bench(preset(spec::morphological::Preset::kDeburrLine));
   SumsToken sums = sums_of({0, 3}, 0, 3);
   sums.left = sums.right = 17;

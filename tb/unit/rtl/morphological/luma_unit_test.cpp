@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// LumaUnit: the weights by hand, and its clock.
+// LumaUnit: hand-computed luma values, and its cycles.
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/morphological/parts.h"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace rtl::morphological;  // NOLINT: a test of these
 
-TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
+TEST(LumaUnitBlock, LumaIsExactAfterTwoCycles) {
   ClockDomain clock("clock", period());
   Parameters p = preset(spec::morphological::Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kTwo;
@@ -31,7 +31,7 @@ TEST(LumaUnitBlock, AddsTheWeightsExactlyTwoClocksLater) {
   EXPECT_TRUE(ends.out.can_pop(clock.cycle()));
   clock.run(4);
   ASSERT_EQ(ends.sink.taken.size(), 3u);
-  // Pushed in 0, popped in 1; a datasheet that is a clock off is noticed.
+  // Pushed in 0, popped in 1. A datasheet that is off by one cycle fails.
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(ends.sink), 1);
   };

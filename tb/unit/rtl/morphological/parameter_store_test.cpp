@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Registers of the morphological engine: what a frame sees of each field, when a write counts,
-// sizes, counters, and the tables of learned weights. Access and bits of each register are compared
-// by the suite RegisterFile, what a rule does by the comparison of whole runs with the golden
-// model.
+// Registers of the morphological engine: the value of each field that a frame sees, when a write
+// takes effect, sizes, counters, and the tables of learned weights. The suite RegisterFile tests
+// access and bits of each register; whole runs compared with the golden model test the effect of
+// each field.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -20,7 +20,7 @@ namespace {
 using spec::morphological::Preset;
 namespace reg = spec::morphological::reg;
 
-TEST(ParameterStoreBlock, LatchesRulesWithTheFrame) {
+TEST(ParameterStoreBlock, LatchesConfigurationWithTheFrame) {
   constexpr std::uint32_t kTrimBit = 1u << 17;
   WiredRegisters on(preset(spec::morphological::Preset::kDeburrLine));
   const std::uint32_t reset_value = on.bus.read(reg::kConfiguration);
@@ -29,25 +29,25 @@ TEST(ParameterStoreBlock, LatchesRulesWithTheFrame) {
   EXPECT_TRUE(on.frame(8, 8).trim);
   on.bus.write(reg::kConfiguration, reset_value & ~kTrimBit);
   EXPECT_EQ(on.bus.read(reg::kConfiguration), reset_value & ~kTrimBit);
-  EXPECT_TRUE(on.units_see().trim) << "until the next frame begins";
+  EXPECT_TRUE(on.seen_by_units().trim) << "until the next frame begins";
   ASSERT_TRUE(on.latch());
-  EXPECT_FALSE(on.units_see().trim);
-  EXPECT_TRUE(on.units_see().safe);
+  EXPECT_FALSE(on.seen_by_units().trim);
+  EXPECT_TRUE(on.seen_by_units().safe);
   on.bus.write(reg::kConfiguration, ~0u);
   EXPECT_EQ(on.bus.read(reg::kConfiguration), 0x1FFFFFFFu) << "no bits beyond";
   on.control.reset();
   EXPECT_EQ(on.bus.read(reg::kConfiguration), reset_value);
 }
 
-TEST(ParameterStoreBlock, LetsFramesInWhileEnabled) {
+TEST(ParameterStoreBlock, AcceptsFramesWhileEnabled) {
   WiredRegisters registers(small());
-  EXPECT_TRUE(registers.lets_frames_in());
+  EXPECT_TRUE(registers.accepts_frames());
   registers.bus.write(reg::kControl, 0);
-  EXPECT_FALSE(registers.lets_frames_in());
-  EXPECT_EQ(registers.units_see(), rtl::morphological::FrameConfiguration{})
+  EXPECT_FALSE(registers.accepts_frames());
+  EXPECT_EQ(registers.seen_by_units(), rtl::morphological::FrameConfiguration{})
       << "nothing is latched";
   registers.bus.write(reg::kControl, reg::kControlEnable);
-  EXPECT_TRUE(registers.lets_frames_in());
+  EXPECT_TRUE(registers.accepts_frames());
 }
 
 TEST(ParameterStoreBlock, EachPulseSetsItsStatusBit) {
@@ -64,8 +64,8 @@ TEST(ParameterStoreBlock, EachPulseSetsItsStatusBit) {
   }
 }
 
-// The register SMAA: its reset value, and values that no range has.
-TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
+// The register SMAA: its reset value, and values outside each range.
+TEST(ParameterStoreBlock, SmaaFieldsAreClampedToTheBuild) {
   Parameters p = smaa();
   p.diagonal_steps = 6;
   p.search_steps = 17;
@@ -89,30 +89,30 @@ TEST(ParameterStoreBlock, SmaaIsLimitedToItsRangesAndToWhatIsBuilt) {
   }
 }
 
-TEST(ParameterStoreBlock, DiagonalStepsAreAtMostTheReach) {
+TEST(ParameterStoreBlock, DiagonalStepsAreClampedToTheSearchRange) {
   Parameters p = smaa();
   p.window_rows = 10;
   p.diagonal_steps = 4;
   WiredRegisters store(p);
   store.bus.write(reg::kSmaa, 4u | 31u << 8);
   store.frame(8, 8);
-  EXPECT_EQ(store.units_see().diagonal_steps, 4);
+  EXPECT_EQ(store.seen_by_units().diagonal_steps, 4);
 }
 
-TEST(ParameterStoreBlock, StepsAreAtMostWhatTheWindowAllows) {
+TEST(ParameterStoreBlock, StepsAreClampedToTheWindow) {
   for (const int window_rows : {10, 12, 34, 66}) {
     Parameters p = preset(Preset::kDeburrLine);
     p.window_rows = window_rows;
     WiredRegisters store(p);
     store.bus.write(reg::kConfiguration, 1u << 7 | 31u << 9);
     store.frame(8, 8);
-    EXPECT_EQ(store.units_see().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
+    EXPECT_EQ(store.seen_by_units().steps, std::min(16, window_rows / 2 - 2)) << window_rows;
   }
 }
 
-// ---- what is decoded ----------------------------------------------------------------------------
+// ---- decoded fields -----------------------------------------------------------------------------
 
-// The fields that are not as in `from`.
+// Names and values of the fields that differ from `from`.
 std::string text_of(const rtl::morphological::FrameConfiguration& f,
                     const rtl::morphological::FrameConfiguration& from) {
   std::vector<std::pair<std::string_view, int>> fields;
@@ -142,32 +142,32 @@ void expect_configuration(const Parameters& p, const std::vector<ConfigurationRo
   }
 }
 
-TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
+TEST(FrameConfiguration, EachConfigurationBitSetsItsField) {
   Parameters p = smaa();
   p.window_rows = 42;
   p.diagonal_steps = 8;
   p.contiguous = true;
-  const auto as_it_is = [](int v) { return v; };
+  const auto unchanged = [](int v) { return v; };
   struct Field {
     const char* name;
     int low, bits;
     int (*shown)(int);
   };
-  for (const Field& field : {Field{"source", 0, 2, as_it_is},
-                             {"dynamic", 2, 1, as_it_is},
-                             {"dynamic_luma", 3, 2, as_it_is},
-                             {"local_contrast", 5, 2, as_it_is},
+  for (const Field& field : {Field{"source", 0, 2, unchanged},
+                             {"dynamic", 2, 1, unchanged},
+                             {"dynamic_luma", 3, 2, unchanged},
+                             {"local_contrast", 5, 2, unchanged},
                              {"predictor", 7, 2, [](int v) { return v % 3; }},
                              {"steps", 9, 5, [](int) { return 0; }},  // without a predictor
-                             {"contiguous", 14, 1, as_it_is},
-                             {"safe", 15, 1, as_it_is},
-                             {"linear_light", 16, 1, as_it_is},
-                             {"trim", 17, 1, as_it_is},
-                             {"crossings", 18, 1, as_it_is},
-                             {"table", 19, 1, as_it_is},
+                             {"contiguous", 14, 1, unchanged},
+                             {"safe", 15, 1, unchanged},
+                             {"linear_light", 16, 1, unchanged},
+                             {"trim", 17, 1, unchanged},
+                             {"crossings", 18, 1, unchanged},
+                             {"table", 19, 1, unchanged},
                              {"diagonal_steps", 20, 1, [](int v) { return 5 * v; }},
-                             {"corners", 21, 1, as_it_is},
-                             {"strongest", 22, 1, as_it_is},
+                             {"corners", 21, 1, unchanged},
+                             {"strongest", 22, 1, unchanged},
                              {"learned", 23, 1, [](int) { return 0; }},  // not built
                              {"bypass", 24, 3, [](int v) { return v < 5 ? v : 0; }}})
     for (int value = 0; value < 1 << field.bits; ++value) {
@@ -186,7 +186,7 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
                            {1u << 27 | 1u << 19, "table 1"},
                            {1u << 27 | 3u << 18, "crossings 1, clamp 1, table 1"},
                            {0xF0000000, ""},
-                           // Not with every source of edges.
+                           // Only with some sources of edges.
                            {1u << 2 | 1, "source 1"},
                            {1u << 2 | 2, "source 2"},
                            {1u << 2 | 3, "source 3"},
@@ -197,8 +197,8 @@ TEST(FrameConfiguration, EachBitOfRulesIsItsFields) {
   p.text_guard = true;
   expect_configuration(p, {{1u << 28, "text_guard 1"}, {0xE0000000, ""}});
 }
-// Bits of no field count nowhere, whatever holds the registers.
-TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
+// Unused bits have no effect, even if the register file stores them.
+TEST(FrameConfiguration, UnusedBitsAreIgnored) {
   rtl::ControlRegisters raw("raw", spec::morphological::kRegisters,
                             rtl::morphological::control_layout());
   const auto decoded = [&] { return rtl::morphological::decode(raw, smaa()); };
@@ -216,11 +216,12 @@ TEST(FrameConfiguration, OtherBitsAreNotLookedAt) {
   EXPECT_EQ(decoded().configuration.diagonal_steps, 0);
   EXPECT_EQ(decoded().configuration.corner_loss, 256);
 }
-TEST(FrameConfiguration, BlocksThatAreNotBuiltAreOff) {
+TEST(FrameConfiguration, UnbuiltBlocksAreOff) {
   Parameters p = small();
   p.contiguous = false;
   expect_configuration(p, {{15u << 18 | 1u << 14 | 1u << 23 | 3u << 27, ""}});
-  // Learned weights alone: all but what ends at bit 16, and the highest bit of leave.
+  // A build with learned weights only. The second row sets all fields above bit 16 except `learned`
+  // and the highest bit of `bypass`.
   expect_configuration(deburr(),
                        {{1u << 23, "learned 1"},
                         {0x7FE0000u & ~(1u << 23) & ~(1u << 26), "trim 1, strongest 1, bypass 3"},
@@ -228,7 +229,7 @@ TEST(FrameConfiguration, BlocksThatAreNotBuiltAreOff) {
                         {1u << 14, "contiguous 1"}});
 }
 
-TEST(FrameConfiguration, ThresholdsAreThoseOfTheirRegisters) {
+TEST(FrameConfiguration, ThresholdsMatchTheirRegisters) {
   WiredRegisters r(preset(Preset::kMlaa));
   std::uint32_t value = 100;
   std::vector<std::uint32_t> wanted;
@@ -272,18 +273,19 @@ TEST(FrameConfiguration, SizesInBeatsAndRows) {
   }
 }
 
-// Out of them a frame is rejected, and says so; one that was inside before is not touched.
-TEST(FrameConfiguration, LimitsOfASize) {
+// A frame outside the limits is rejected with an error; a previous frame that is inside is not
+// affected.
+TEST(FrameConfiguration, RejectsSizesBeyondTheLimits) {
   Parameters p = small();
   p.line_pixels = 100;
   WiredRegisters r(p);
   const auto takes = [&](std::uint32_t width, std::uint32_t height) {
     r.bus.write(reg::kSize, width | height << 16);
     r.bus.write(reg::kStatus, ~0u);
-    const rtl::morphological::FrameConfiguration before = r.units_see();
+    const rtl::morphological::FrameConfiguration before = r.seen_by_units();
     const bool taken = r.latch();
     EXPECT_EQ((r.bus.read(reg::kStatus) & reg::kStatusFraming) == 0, taken);
-    EXPECT_EQ(r.units_see().width, taken ? width : before.width);
+    EXPECT_EQ(r.seen_by_units().width, taken ? width : before.width);
     return taken;
   };
   EXPECT_TRUE(takes(1, 1));
@@ -294,8 +296,8 @@ TEST(FrameConfiguration, LimitsOfASize) {
   EXPECT_FALSE(takes(100, 8193));
 }
 
-// Bits that a register does not have stay 0 on this way as well.
-TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
+// Unused register bits stay 0 for debug writes as well.
+TEST(DebugWrites, DebugWritesTakeEffectFromTheNextFrame) {
   EngineBench bench(in_memory());
   ASSERT_TRUE(bench.bus.debug_write(reg::kPixelBase, 0x12345));
   ASSERT_TRUE(bench.bus.debug_write(reg::kSize, 97u | 61u << 16 | 0xC000C000u));
@@ -314,14 +316,14 @@ TEST(DebugWrites, CountFromTheNextFrameWithTheBitsThatExist) {
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 0u);
 }
 
-// ---- in a frame ---------------------------------------------------------------------------------
+// ---- during a frame -----------------------------------------------------------------------------
 
 TEST(Registers, CountersAddUpAndAreCleared) {
   EngineBench bench(smaa());
   for (const std::uint32_t frames : {1u, 2u}) {
     bench.run(noise());
     EXPECT_EQ(bench.bus.read(reg::kPixels), frames * 97u * 61u);
-    EXPECT_EQ(bench.bus.read(reg::kDiagonals), frames * 258u);  // of the contract's vector
+    EXPECT_EQ(bench.bus.read(reg::kDiagonals), frames * 258u);  // as in the contract's vector
   }
   bench.bus.write(reg::kControl, reg::kControlEnable | reg::kControlClearCounters);
   EXPECT_EQ(bench.bus.read(reg::kControl), reg::kControlEnable);
@@ -329,7 +331,7 @@ TEST(Registers, CountersAddUpAndAreCleared) {
   EXPECT_EQ(bench.engine.work(), spec::morphological::Work{});
 }
 
-TEST(Registers, IgnoreWritesWhileAFrameIsInside) {
+TEST(Registers, WritesAreIgnoredDuringAFrame) {
   EngineBench bench(deburr_line());
   bench.send(line());
   bench.clock.run(500);
@@ -351,7 +353,7 @@ TEST(Registers, IgnoreWritesWhileAFrameIsInside) {
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusWrittenWhileBusy);
 }
 
-TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
+TEST(Registers, DisablingLetsTheCurrentFrameFinish) {
   EngineBench bench(deburr_line());
   bench.send(noise());
   bench.send(noise());
@@ -364,8 +366,8 @@ TEST(Registers, ClearingEnableLetsTheFrameInsideFinish) {
   EXPECT_EQ(bench.sink.received(), 2u * 97u * 61u);
 }
 
-// What always reads as 0 is not kept either.
-TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
+// Registers that always read as 0 are not stored.
+TEST(RegisterBits, UnbuiltWeightRegistersStoreNothing) {
   WiredRegisters without(small());
   for (const std::uint32_t offset : {reg::kWeightsAddress, reg::kWeightsData}) {
     without.bus.write(offset, 0xFFFFFFFF);
@@ -374,16 +376,15 @@ TEST(RegisterBits, OfLearnedSharesAreNotBuiltWithoutThem) {
 }
 
 // ---- the tables of learned weights
-// ---------------------------------------------------------------
 
-TEST(WeightsRegisters, LoadAnEntryAfterTheOther) {
+TEST(WeightsRegisters, EntriesLoadInSequence) {
   EngineBench bench(deburr());
   EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 0u);
   EXPECT_EQ(bench.bus.read(reg::kWeightsSum), spec::morphological::kWeightsSum);
   const auto shipped = [](std::int8_t entry) {
     return std::uint32_t{static_cast<std::uint8_t>(entry)};
   };
-  // A read moves nothing, a write moves on.
+  // A read keeps the address, a write increments it.
   bench.bus.write(reg::kWeightsAddress, 1023);
   EXPECT_EQ(bench.bus.read(reg::kWeightsData), shipped(spec::morphological::kWeightsOfCodes[1023]));
   EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 1023u);
@@ -397,7 +398,7 @@ TEST(WeightsRegisters, LoadAnEntryAfterTheOther) {
   EXPECT_EQ(bench.bus.read(reg::kWeightsSum), sum);
   bench.bus.write(reg::kWeightsAddress, 1023);
   EXPECT_EQ(bench.bus.read(reg::kWeightsData), 0x5Au);
-  // Beyond the tables nothing is kept; the address goes round.
+  // Addresses beyond the tables store nothing; the address wraps.
   bench.bus.write(reg::kWeightsAddress, 0xFFFFFFFF);
   EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 4095u);
   bench.bus.write(reg::kWeightsData, 77);
@@ -410,15 +411,15 @@ TEST(WeightsRegisters, LoadAnEntryAfterTheOther) {
   EXPECT_EQ(bench.bus.try_write(reg::kWeightsSum, 1), tlm::TLM_COMMAND_ERROR_RESPONSE);
 }
 
-// What is loaded counts, to the pixel, and a reset leaves it as it is.
-TEST(WeightsRegisters, CountFromTheNextFrameAndStayInAReset) {
+// Loaded weights take effect to the pixel, and a reset keeps them.
+TEST(WeightsRegisters, LoadedWeightsSurviveAReset) {
   EngineBench bench(deburr());
   const Frame frame = blocks();
   const Frame before = bench.run(frame);
   bench.software.load_weights(std::vector<std::int8_t>(2304, -128));
   const std::uint32_t sum = bench.bus.read(reg::kWeightsSum);
   EXPECT_EQ(sum, 0x80u * (2304u * 2305u / 2));
-  // All weights 0: only runs that extend are blended.
+  // All weights are 0, so only runs that are extended are blended.
   const Frame after = bench.run(frame);
   EXPECT_NE(after.pixel, before.pixel);
   reset_by(bench.clock, 2);
@@ -427,7 +428,7 @@ TEST(WeightsRegisters, CountFromTheNextFrameAndStayInAReset) {
   EXPECT_EQ(bench.bus.read(reg::kWeightsData), 0x80u);
 }
 
-TEST(WeightsRegisters, AreIgnoredWhileAFrameIsInside) {
+TEST(WeightsRegisters, WeightWritesAreIgnoredDuringAFrame) {
   EngineBench bench(deburr());
   bench.bus.write(reg::kWeightsAddress, 7);
   const std::uint32_t entry = bench.bus.read(reg::kWeightsData);
@@ -440,15 +441,15 @@ TEST(WeightsRegisters, AreIgnoredWhileAFrameIsInside) {
   EXPECT_EQ(bench.bus.read(reg::kWeightsData), entry);
   EXPECT_EQ(bench.bus.read(reg::kWeightsSum), spec::morphological::kWeightsSum);
   EXPECT_TRUE(bench.bus.read(reg::kStatus) & reg::kStatusWrittenWhileBusy);
-  // A debug write is not rejected.
+  // A debug write is accepted.
   bench.bus.debug_write(reg::kWeightsData, entry ^ 1);
   EXPECT_EQ(bench.bus.read(reg::kWeightsAddress), 8u);
   EXPECT_EQ(bench.bus.read(reg::kWeightsSum),
             spec::morphological::kWeightsSum + 8 * ((entry ^ 1) - entry));
 }
 
-// Each counter register shows a count of its own: all differ, so that none can stand for another.
-TEST(CounterRegisters, ShowTheirCounters) {
+// Each counter register shows its own counter: all values differ, so swapped counters are noticed.
+TEST(CounterRegisters, EachCounterRegisterShowsItsCounter) {
   Parameters p = preset(Preset::kMlaaSlope);
   p.storage = spec::morphological::Storage::kMemory;
   p.line_pixels = 64;
@@ -490,7 +491,7 @@ TEST(CounterRegisters, ShowTheirCounters) {
   const spec::morphological::Work work = e.work();
   for (const spec::morphological::WorkCount& each : spec::morphological::kWorkCounts)
     EXPECT_EQ(work.*each.count, bench.bus.read(each.offset)) << each.offset;
-  // Two causes in one number.
+  // One number for two causes.
   EXPECT_GT(e.extractor.interlock_stalls.value(), 0u);
   EXPECT_GT(e.extractor.descriptor_stalls.value(), e.extractor.interlock_stalls.value());
   EXPECT_EQ(e.pixel_store.memory_errors.value(), 2u * 3u);

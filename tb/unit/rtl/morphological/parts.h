@@ -25,11 +25,11 @@ struct RegisterFile {
   const Parameters parameters;
 };
 
-// For units without a SlotSequencer: a frame is inside when the test says so.
+// For units without a SlotSequencer: the test starts each frame.
 struct Registers : RegisterFile {
   explicit Registers(const Parameters& p) : RegisterFile(p) {}
   Registers(const Parameters& p, int width, int height) : Registers(p) { frame(width, height); }
-  // Units see it in the clock after this one.
+  // Units see the configuration in the next cycle.
   void frame(int width, int height, Cycle cycle = 0) {
     software.set_size(width, height);
     const rtl::morphological::Decoded decoded = rtl::morphological::decode(control, parameters);
@@ -40,7 +40,8 @@ struct Registers : RegisterFile {
       "configuration", rtl::morphological::FrameConfiguration{}};
 };
 
-// With a ParameterStore, for a SlotSequencer; without one each call has a clock of its own.
+// With a ParameterStore, for a SlotSequencer. Without a sequencer, each call advances the time by
+// one cycle.
 struct WiredRegisters : RegisterFile {
   explicit WiredRegisters(const Parameters& p)
       : RegisterFile(p), store("parameter_store", control, p) {
@@ -62,11 +63,11 @@ struct WiredRegisters : RegisterFile {
     sequencer.framing_out(framing);
     control.on_busy([&] { return !sequencer.idle(); });
   }
-  bool lets_frames_in() {
+  bool accepts_frames() {
     first_beat.raise(++now_);
     return enabled.read(now_);
   }
-  // False: the size is not one that the engine takes.
+  // False if the engine rejects the size.
   bool latch() {
     latch_pulse.raise(++now_);
     return latched.read(now_).valid;
@@ -74,11 +75,11 @@ struct WiredRegisters : RegisterFile {
   const rtl::morphological::FrameConfiguration& frame(int width, int height) {
     software.set_size(width, height);
     EXPECT_TRUE(latch());
-    EXPECT_EQ(latched.read(now_).configuration, units_see());
-    return units_see();
+    EXPECT_EQ(latched.read(now_).configuration, seen_by_units());
+    return seen_by_units();
   }
-  // In the clock after.
-  const rtl::morphological::FrameConfiguration& units_see() const {
+  // The configuration in the cycle after the last call.
+  const rtl::morphological::FrameConfiguration& seen_by_units() const {
     return configuration.read(now_ + 1);
   }
 
@@ -96,13 +97,13 @@ struct WiredRegisters : RegisterFile {
 
 using unit_bench::cycles_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;
 
-// With a stage less from now on a word of this memory is used before it is there.
+// Runs the unit one stage early from now on; this memory must report that a word is used too early.
 inline void expect_used_early(rtl::Unit& unit, ClockDomain& clock, const char* memory) {
   EXPECT_THAT(of_a_stage_less(unit, clock),
               ::testing::AllOf(::testing::HasSubstr(memory), ::testing::HasSubstr("is used")));
 }
 
-// An engine small enough for single blocks: four rows of reach, no predictor.
+// An engine small enough for single blocks: a search range of four rows, no predictor.
 inline constexpr int kReach = 4, kLag = kReach + spec::morphological::kRowLag;
 
 inline Parameters small(int lanes_code = 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the morphological engine keeps its pixels: the PixelStore to the clock, on the chip and in
-// memory, the order and the addresses of its lines, and what an error of memory does.
+// PixelStore, cycle by cycle, with line buffers and with storage in memory: order and addresses of
+// lines, and the effect of memory errors.
 #include <cstdint>
 #include <vector>
 
@@ -51,7 +51,7 @@ struct Storing {
     return {static_cast<std::uint32_t>(row * beats_a_row + beat), static_cast<std::uint16_t>(row),
             static_cast<std::uint16_t>(beat)};
   }
-  // Sends beat `b` of row y at clock `at`; asks for that of row y, which slot row y + kLag does.
+  // Sends beat `b` of row y in cycle `at`.
   void store_beat(Cycle at, int y, int b) {
     BeatToken token{};
     token.slot = slot(y, b);
@@ -64,7 +64,7 @@ struct Storing {
       for (int b = 0; b < beats_a_row; ++b) store_beat(0, y, b);
   }
   void fetch_beat(Cycle at, int y, int b) { fetch_driver.add(at, {slot(y + kLag, b)}); }
-  // Place among the lines under way, line in its row, row on the chip: as a request's tag has them.
+  // Tag of a request: index among the outstanding lines, line in its row, row buffer.
   std::uint32_t tag(std::uint32_t line, bool write) const {
     const auto row_lines = static_cast<std::uint32_t>((frame.width + 15) / 16);
     return line % outstanding | line % row_lines << 8 | (write ? 0 : line / row_lines % 4 << 17);
@@ -76,14 +76,14 @@ struct Storing {
     response.data = data;
     response_driver.add(at, response);
   }
-  // Line `number` of the frame as memory has it, in rows of whole lines.
+  // Line `number` of the frame as memory stores it, for rows that are multiples of a line.
   rtl::Line line(std::uint32_t number) const {
     rtl::Line data{};
     for (std::size_t i = 0; i < 64; ++i)
       data[i] = frame.pixel[16 * std::size_t{number} + i / 4][i % 4];
     return data;
   }
-  // Pixel for pixel what the frame has there, as far as it has.
+  // Compares every neighbour that lies inside the frame.
   void expect_around(const PixelToken& token, int y, int b) const {
     SCOPED_TRACE("row " + std::to_string(y) + ", beat " + std::to_string(b));
     const int first = b * lanes, end = std::min(first + lanes, frame.width);
@@ -102,7 +102,7 @@ struct Storing {
     std::uint32_t line;
     Cycle taken;
   };
-  // The newest requests.
+  // `in_all` requests have been made; checks the last ones.
   void expect_requests(std::size_t in_all, const std::vector<Request>& newest) const {
     ASSERT_EQ(request_gate.taken.size(), in_all);
     for (std::size_t i = 0; i < newest.size(); ++i) {
@@ -112,7 +112,7 @@ struct Storing {
       EXPECT_EQ(cycle, newest[i].taken) << i;
     }
   }
-  // The first beats of the frame have come.
+  // The first beats of the frame have come out.
   void expect_pixels(std::size_t beats_taken) const {
     ASSERT_GE(pixel_gate.taken.size(), beats_taken);
     for (std::size_t i = 0; i < beats_taken; ++i)
@@ -147,25 +147,25 @@ Parameters built(spec::morphological::Storage storage, int lanes_code) {
   return p;
 }
 
-// ---- on the chip --------------------------------------------------------------------------------
+// ---- storage = line_buffers ---------------------------------------------------------------------
 
 class PixelStoreLanes : public ::testing::TestWithParam<int> {};
 
-// While a beat a clock comes in, a beat a clock goes out, two cycles after it was asked for.
-TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
+// One beat per cycle goes in and one comes out, two cycles after it was requested.
+TEST_P(PixelStoreLanes, LatencyAndIntervalMatchDatasheet) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, GetParam()), colours(9, 24));
   Cycle at = 0;
   for (int y = 0; y < 24 + kLag; ++y)
     for (int b = 0; b < bench.beats_a_row; ++b, ++at) {
       if (y < 24) bench.store_beat(at, y, b);
-      // Two cycles behind the beat of the same slot, as the extractor is.
+      // Two cycles after the beat of the same slot, like the extractor.
       if (y >= kLag) bench.fetch_beat(at + 2, y - kLag, b);
     }
   bench.clock.run(at + 5);
   const std::size_t before = static_cast<std::size_t>(kLag * bench.beats_a_row);
   ASSERT_EQ(bench.pixel_gate.taken.size(), static_cast<std::size_t>(24 * bench.beats_a_row));
   for (std::size_t i = 0; i < bench.pixel_gate.taken.size(); ++i) {
-    // Pushed in i + before + 2, popped and read a clock later.
+    // Pushed in i + before + 2, popped and read one cycle later.
     const rtl::Datasheet sheet = PixelStore::datasheet();
     ASSERT_EQ(bench.pixel_gate.taken[i].cycle,
               before + 3 + i * sheet.interval.cycles + sheet.latency.cycles);
@@ -178,7 +178,8 @@ TEST_P(PixelStoreLanes, LatencyAndIntervalOfTheDatasheet) {
 }
 INSTANTIATE_TEST_SUITE_P(Each, PixelStoreLanes, ::testing::Values(0, 1, 2));
 
-// Of three rows each beat reads its own, those above it but in the first, below it but in the last.
+// In a frame of three rows, each beat reads its own row, the row above except in the first, and the
+// row below except in the last.
 TEST(PixelStoreBlock, ReadsNoRowBeyondTheFrame) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 3));
   for (int y = 0; y < 3; ++y)
@@ -194,9 +195,9 @@ TEST(PixelStoreBlock, ReadsNoRowBeyondTheFrame) {
   EXPECT_EQ(reads, 6u * (3 + 2 + 2));
 }
 
-// R + 7 rows, in fours: the first beat of the row behind them needs the place of row 0, which the
-// first beat of row 1 asks for last, in slot row R + 6.
-TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
+// R + 7 rows, rounded up to a multiple of four. The first beat of the next row replaces row 0,
+// whose last use is the first beat of row 1, in slot row R + 6.
+TEST(PixelStoreBlock, BeatStallsUntilItsRowIsFree) {
   constexpr int kRows = (kReach + 7 + 3) / 4 * 4, kWidth = 5;
   constexpr Cycle kAsked = 100;
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(kWidth, kRows + 2));
@@ -205,18 +206,18 @@ TEST(PixelStoreBlock, ABeatWaitsForItsPlaceAndSaysSo) {
   for (int y = 0; y < kRows + 2; ++y)
     for (int b = 0; b < kWidth; ++b) bench.fetch_beat(at++, y, b);
   bench.clock.run(kAsked);
-  // Beat k is popped in clock k + 1; the first of row R + 7 waits from then on.
+  // Beat k is popped in cycle k + 1; the first beat of row R + 7 waits from then on.
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
   EXPECT_EQ(bench.store.busy_cycles(), static_cast<std::uint64_t>(kRows * kWidth));
   EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth - 1);
-  // Row 0 is asked for in kWidth cycles from kAsked + 1 on, the first beat of row 1 after that.
+  // Row 0 is requested in kWidth cycles from kAsked + 1 on, then the first beat of row 1.
   bench.clock.run(kWidth + 1);
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth));
   bench.clock.run(1);
   EXPECT_EQ(bench.beats.pops(), static_cast<std::uint64_t>(kRows * kWidth + 1));
   bench.clock.run(100);
   bench.expect_pixels(static_cast<std::size_t>((kRows + 2) * kWidth));
-  EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth);  // then the other side works
+  EXPECT_EQ(stalls(bench.store, "rows"), kAsked - kRows * kWidth);  // then the read side is busy
 }
 
 TEST(PixelStoreBlock, WaitsDownstream) {
@@ -227,7 +228,7 @@ TEST(PixelStoreBlock, WaitsDownstream) {
       bench.fetch_beat(14, y, b);
     }
   bench.clock.run(80);
-  // The link takes two, sent in 16 and 17; taken from 50 on, so that the third is sent in 51.
+  // The link holds two, sent in 16 and 17; they are taken from 50 on, so the third is sent in 51.
   EXPECT_EQ(stalls(bench.store, "downstream"), 51u - 18u);
   ASSERT_EQ(bench.pixel_gate.taken.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
@@ -237,10 +238,10 @@ TEST(PixelStoreBlock, WaitsDownstream) {
   }
 }
 
-// ---- in memory ----------------------------------------------------------------------------------
+// ---- storage = memory ---------------------------------------------------------------------------
 
-// 20 pixels a row: a line of 16 and one of 4 with padding.
-TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
+// 20 pixels per row: one line of 16 pixels and one of 4 with padding.
+TEST(PixelStoreMemory, LineIsSentWithItsLastPixel) {
   const Frame frame = colours(20, 3);
   Storing bench(built(spec::morphological::Storage::kMemory, 0), frame);
   bench.store_all();
@@ -257,31 +258,32 @@ TEST(PixelStoreMemory, ALineIsSentInTheClockOfItsLastPixel) {
       EXPECT_EQ(request.data[static_cast<std::size_t>(i)],
                 x < 20 ? frame.at(x, y)[static_cast<std::size_t>(i % 4)] : 0);
     }
-    // Pixel k is sent in k, popped in k + 1, and so is its line; taken in k + 2.
+    // Pixel k is sent in k and popped in k + 1, and its line is sent in the same cycle; taken in k
+    // + 2.
     const int last = y * 20 + (line % 2 ? 19 : 15);
     EXPECT_EQ(bench.request_gate.taken[line].cycle, static_cast<Cycle>(last + 2));
   }
 }
 
-// Line 1 is answered before line 0: neither is read before line 0 is, then one a clock.
-TEST(PixelStoreMemory, ALineIsReadAfterItsWriteAndAllBeforeItWereAnswered) {
+// Line 1 is answered before line 0: neither is read until line 0 is answered, then one per cycle.
+TEST(PixelStoreMemory, LineIsReadAfterAllEarlierWrites) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
   bench.store_all();
   bench.answer(60, 1, true);
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
   bench.clock.run(120);
-  // An answer is sent in c, popped in c + 1, and so is the read; taken in c + 2.
+  // A response sent in c is popped in c + 1, when the read is sent; it is taken in c + 2.
   bench.expect_requests(6, {{false, 0, 72}, {false, 1, 73}, {false, 2, 82}});
 }
 
-// Four lanes, 16 pixels: a line every four cycles. Whenever an answer comes, the write of that
-// clock goes first and the read follows.
+// Four lanes, 16 pixels: one line every four cycles. When a response arrives, the write of that
+// cycle goes first and the read follows.
 TEST(PixelStoreMemory, WritesGoBeforeReads) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
   bench.store_all();
-  // Line y is sent in clock 4 y + 4. The answer to line 0 is popped in 12, when line 2 is sent;
-  // that to line 1 in 17, a clock after line 3.
+  // Line y is sent in cycle 4 y + 4. The response to line 0 is popped in 12, when line 2 is sent;
+  // the response to line 1 in 17, one cycle after line 3.
   bench.answer(11, 0, true);
   bench.answer(16, 1, true);
   bench.clock.run(60);
@@ -297,8 +299,8 @@ TEST(PixelStoreMemory, WritesGoBeforeReads) {
   EXPECT_EQ(bench.store.lines_read.value(), 2u);
 }
 
-// Rows of one beat are a line a clock: reads have to wait for the end of the writes.
-TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
+// Rows of one beat write one line per cycle, so reads wait until the writes end.
+TEST(PixelStoreMemory, WritesInEveryCycleBlockReads) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(4, 9));
   bench.store_all();
   bench.answer(3, 0, true);
@@ -309,9 +311,9 @@ TEST(PixelStoreMemory, AWriteAClockLeavesNoRoomForReads) {
   bench.expect_requests(11, wanted);
 }
 
-// Four rows on the chip: row 4 takes the place of row 0, which is asked for last with row 1. Of a
-// row of two lines, each as soon as its own place is free.
-TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
+// Four row buffers: row 4 replaces row 0, which is last requested with row 1. In a row of two
+// lines, each is read as soon as its own words are free.
+TEST(PixelStoreMemory, LineIsReadOnceItsBufferIsFree) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 6));
   constexpr Cycle kAsked = 230;
   bench.store_all();
@@ -320,13 +322,13 @@ TEST(PixelStoreMemory, ALineIsReadInTheClockInWhichItsPlaceIsFree) {
   for (int y = 0; y < 2; ++y)
     for (int b = 0; b < 32; ++b) bench.fetch_beat(kAsked, y, b);
   bench.clock.run(330);
-  // Beat 15 of row 1 is sent in kAsked + 47 and popped a clock later, and so is the read.
+  // Beat 15 of row 1 is sent in kAsked + 47 and popped one cycle later, when the read is sent.
   bench.expect_requests(12 + 10, {{false, 8, kAsked + 49}, {false, 9, kAsked + 65}});
   bench.expect_pixels(64);
 }
 
-// Each beat waits for the line that its own lower neighbour is in, and for no other.
-TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
+// Each beat waits only for the line of the pixel below it.
+TEST(PixelStoreMemory, BeatWaitsForTheLineBelow) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(32, 3));
   bench.store_all();
   for (std::uint32_t line = 0; line < 6; ++line) bench.answer(110, line, true);
@@ -336,16 +338,16 @@ TEST(PixelStoreMemory, ABeatWaitsForTheLineBelow) {
   bench.clock.run(240);
   ASSERT_EQ(bench.pixel_gate.taken.size(), 32u);
   for (std::size_t b = 0; b < 32; ++b) {
-    // Sent in 150 + b, popped a clock later, then sent, then taken. Of the answer, eight beats are
-    // stored in 201 and in 202.
+    // Sent in 150 + b, popped one cycle later, then sent, then taken. Eight beats each of the
+    // response are stored in 201 and in 202.
     EXPECT_EQ(bench.pixel_gate.taken[b].cycle, b < 16 ? 153 + b : 205 + b - 16);
     bench.expect_around(bench.pixel_gate.taken[b].token, 0, static_cast<int>(b));
   }
 }
 
-// Lines that were loaded are there a clock after their response was popped; until then the slot
-// waits for memory and says so.
-TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
+// Loaded lines are available one cycle after their response was popped. Until then the slot waits
+// with the stall `memory`.
+TEST(PixelStoreMemory, SlotWaitsForItsLine) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 1));
   for (int b = 0; b < 4; ++b) {
     bench.store_beat(0, 0, b);
@@ -360,34 +362,34 @@ TEST(PixelStoreMemory, ASlotWaitsForItsLine) {
     EXPECT_EQ(bench.pixel_gate.taken[b].cycle, 44 + b);
     bench.expect_around(bench.pixel_gate.taken[b].token, 0, static_cast<int>(b));
   }
-  // From 11 to 41, but for the cycles of the two answers.
+  // From 11 to 41, except in the cycles of the two responses.
   EXPECT_EQ(stalls(bench.store, "memory"), 31u - 2u);
 }
 
-// As many lines as `outstanding` says are written without an answer; then a beat waits.
-TEST(PixelStoreMemory, AWriteWaitsForRoom) {
+// At most `memory_outstanding` lines are written without a response; then a beat waits.
+TEST(PixelStoreMemory, WriteWaitsForAnOutstandingEntry) {
   Parameters p = built(spec::morphological::Storage::kMemory, 2);
   p.memory_outstanding = 3;
   Storing bench(p, colours(16, 6));
   bench.store_all();
   bench.answer(50, 0, true);
   bench.clock.run(80);
-  // Lines 0, 1, 2 in 4, 8, 12; three beats of line 3 until 15, the fourth waits. The answer is
-  // popped in 51, behind the side that stores: line 0 is read in that clock, line 3 goes in 52; the
-  // last beat of line 4 waits from 56 on.
+  // Lines 0, 1, 2 in 4, 8, 12; three beats of line 3 until 15, the fourth waits. The response is
+  // popped in 51, after the store side has run: line 0 is read in that cycle, line 3 is written in
+  // 52; the last beat of line 4 waits from 56 on.
   bench.expect_requests(5, {{true, 2, 13}, {false, 0, 52}, {true, 3, 53}});
   EXPECT_EQ(stalls(bench.store, "memory"), (50u - 15u) + (79u - 55u));
 }
 
-// Each of the things that a clock may have alone: an answer before its turn, a turn that comes
-// behind such an answer, a read that has waited for the link.
-TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
+// Each kind of work that can be alone in a cycle: a response out of order, a line that is released
+// after such a response, a read that has waited for the link.
+TEST(PixelStoreMemory, LineCyclesAreBusyOthersIdle) {
   Storing bench(built(spec::morphological::Storage::kMemory, 0), colours(48, 1));
   bench.store_all();  // stored in 1 to 48
   bench.answer(60, 1, true);
   bench.answer(70, 0, true);
   bench.answer(80, 2, true);
-  // A line is stored in two cycles with one lane.
+  // With one lane, a line is stored in two cycles.
   bench.answer(90, 1, false, bench.line(1));
   bench.answer(100, 0, false, bench.line(0));
   bench.answer(110, 2, false, bench.line(2));
@@ -397,16 +399,17 @@ TEST(PixelStoreMemory, IsBusyInTheClocksOfItsLinesAndInNoOther) {
     bench.clock.run(1);
   }
   bench.clock.run(120 - 73);
-  // The writes of lines 1 and 0 are answered in 61 and 71, the turn of line 1 is in 72; both are
-  // read when the link has room, in 73 and 74; line 2 in 81, with its answer. Of what is read line
-  // 1 comes in 91 and 92, line 0 in 101 and 102, the turn of line 1 is in 103; line 2 in 111, 112.
+  // The writes of lines 1 and 0 are answered in 61 and 71, and line 1 is released in 72; both are
+  // read when the link has room, in 73 and 74; line 2 in 81, with its response. The reads of line 1
+  // arrive in 91 and 92, of line 0 in 101 and 102, line 1 is released in 103; line 2 arrives in 111
+  // and 112.
   bench.expect_requests(6, {{false, 0, 74}, {false, 1, 75}, {false, 2, 82}});
   EXPECT_EQ(bench.store.busy_cycles(), 48u + 6u + 7u);
   EXPECT_EQ(bench.store.idle_cycles(), 120u - 48u - 6u - 7u);
 }
 
-// Rows 4 and 5 wait for the places of rows 0 and 1, of which none has been asked for: no work.
-TEST(PixelStoreMemory, IsIdleWhileReadsWaitForAPlace) {
+// Rows 4 and 5 wait for rows 0 and 1, which have not been requested yet: idle.
+TEST(PixelStoreMemory, IdleWhileReadsWaitForABuffer) {
   Storing bench(built(spec::morphological::Storage::kMemory, 2), colours(16, 6));
   bench.store_all();
   for (std::uint32_t line = 0; line < 6; ++line) bench.answer(40, line, true);
@@ -417,9 +420,9 @@ TEST(PixelStoreMemory, IsIdleWhileReadsWaitForAPlace) {
   EXPECT_EQ(bench.store.idle_cycles(), 100u - 24u - 6u - 4u);
 }
 
-// Line 1 is written and may be read when a reset comes, but one read is under way and there is room
-// for no other.
-TEST(PixelStoreMemory, AResetForgetsTheLinesThatWaitToBeRead) {
+// When the reset comes, line 1 has been written and may be read, but one read is outstanding and
+// there is no room for another.
+TEST(PixelStoreMemory, ResetDropsLinesThatWaitForARead) {
   Parameters p = built(spec::morphological::Storage::kMemory, 2);
   p.memory_outstanding = 1;
   Storing bench(p, colours(16, 3));
@@ -435,7 +438,7 @@ TEST(PixelStoreMemory, AResetForgetsTheLinesThatWaitToBeRead) {
   EXPECT_EQ(bench.store.busy_cycles(), 0u);
 }
 
-// ---- errors of memory ---------------------------------------------------------------------------
+// ---- memory errors ------------------------------------------------------------------------------
 
 struct Failure {
   const char* name;
@@ -445,9 +448,9 @@ struct Failure {
 void PrintTo(const Failure& f, std::ostream* out) { *out << f.name; }
 class MemoryError : public ::testing::TestWithParam<Failure> {};
 
-// A write that fails leaves memory as it was, and that is what is read: 0x5A here. A read that
-// fails gives zeros. Either is one error, and no other line knows of it.
-TEST_P(MemoryError, OfAWriteGivesWhatMemoryHoldsAndOfAReadGivesZeros) {
+// A failing write leaves memory unchanged, and its old content is read: 0x5A here. A failing read
+// returns zeros. Either counts as one error and affects no other line.
+TEST_P(MemoryError, FailedWriteKeepsMemoryFailedReadGivesZeros) {
   const Failure failure = GetParam();
   Parameters p = built(spec::morphological::Storage::kMemory, static_cast<int>(failure.lanes));
   EngineBench::Options options;
@@ -478,12 +481,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ---- the whole engine ---------------------------------------------------------------------------
 
-TEST(Addresses, WrapAt4GiB) {
+TEST(Addresses, AddressesWrapAt4GiB) {
   EngineBench bench(in_memory());
   bench.bus.write(reg::kPixelBase, 0xFFFFFFC0);
   const Frame in = draw(16, 3, [](int x, int y) { return grey(10 * x + y); });
   const Frame out = bench.run(in);
-  // The memory ends long before the first line, and holds the others at 0 and 0x40.
+  // The memory ends long before the first line; the other lines are at 0 and 0x40.
   EXPECT_EQ(bench.bus.read(reg::kMemoryErrors), 2u);
   const auto bytes = bench.memory->dump(0, 128);
   for (int x = 0; x < 16; ++x) {
@@ -495,7 +498,7 @@ TEST(Addresses, WrapAt4GiB) {
   }
 }
 
-TEST(Memory, OutstandingIsKept) {
+TEST(Memory, OutstandingLimitIsKept) {
   Parameters p = preset(Preset::kMlaa);
   p.storage = spec::morphological::Storage::kMemory;
   p.lanes = spec::morphological::Lanes::kFour;
@@ -507,10 +510,10 @@ TEST(Memory, OutstandingIsKept) {
   EXPECT_EQ(bench.memory->max_outstanding(), 6u);
 }
 
-// ---- how large it is --------------------------------------------------------------------------
+// ---- sizes ------------------------------------------------------------------------------------
 
-// R + 7 rows, rounded up to fours, of whole lines of memory.
-TEST(PixelStoreLines, HoldTheRowsOfThePage) {
+// R + 7 rows, rounded up to a multiple of four, of whole lines of memory.
+TEST(PixelStoreLines, LineBuffersMatchThePage) {
   struct Row {
     int search_range, line_pixels, lanes_code;
     std::uint64_t words;  // of each of the four
@@ -534,9 +537,9 @@ TEST(PixelStoreLines, HoldTheRowsOfThePage) {
   }
 }
 
-// ---- what a memory does not do ------------------------------------------------------------------
+// ---- memory access checks -----------------------------------------------------------------------
 
-TEST(PixelStoreLines, AWordIsNotThereInTheClockOfItsAddress) {
+TEST(PixelStoreLines, WordNeedsOneCycleAfterItsAddress) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
   bench.store_beat(0, 0, 0);
   bench.fetch_beat(10, 0, 0);
@@ -544,7 +547,7 @@ TEST(PixelStoreLines, AWordIsNotThereInTheClockOfItsAddress) {
   expect_used_early(bench.store, bench.clock, "pixel_lines0");
 }
 
-TEST(PixelStoreLines, HaveNoBeatBeyondTheLongestRow) {
+TEST(PixelStoreLines, RejectsBeatsBeyondTheLongestRow) {
   Storing bench(built(spec::morphological::Storage::kLineBuffers, 0), colours(6, 2));
   bench.fetch_beat(10, 0, 4000);
   EXPECT_THAT([&] { bench.clock.run(20); },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RunExtractor: the runs of the golden model, each once, its record to the clock, and what counts
-// as waiting.
+// RunExtractor: finds every run of the golden model once; the latency of its descriptors, and its
+// stalls.
 #include <map>
 #include <string>
 #include <tuple>
@@ -42,7 +42,7 @@ std::vector<RunDescriptor> runs_by_golden(const EdgePlanes& planes, const Parame
   return runs;
 }
 
-// Takes every record and finishes it some cycles later, at random.
+// Takes every descriptor and finishes it after a random number of cycles.
 class Finisher final : public rtl::Unit {
  public:
   LanePorts<rtl::In<RunToken>> h, v;
@@ -154,7 +154,7 @@ void PrintTo(const Frames& f, std::ostream* out) {
 }
 class RunExtraction : public ::testing::TestWithParam<std::tuple<Frames, const char*>> {};
 
-// Planes that no image gives: every code at both ends, runs of all lengths, long runs.
+// Edge planes that no image produces: every code at both ends, runs of all lengths, long runs.
 TEST_P(RunExtraction, FindsEveryRunOfGoldenOnce) {
   const auto& [f, settings] = GetParam();
   Parameters p = preset(Preset::kMlaa, f.search_rows, f.search_columns);
@@ -169,7 +169,8 @@ TEST_P(RunExtraction, FindsEveryRunOfGoldenOnce) {
   EdgePlanes planes = empty(f.width, f.height);
   for (int y = 0; y < f.height; ++y)
     for (int x = 0; x < f.width; ++x) {
-      // With crossings a band of each axis has few of the other one, else no run would be long.
+      // With crossings, a band of each axis has few edges of the other axis; otherwise no run would
+      // be long.
       if (x > 0 && random.chance(crossings && y % 16 < 6 ? 30 : f.permille)) planes.left.set(x, y);
       if (y > 0 && random.chance(crossings && x % 16 < 4 ? 30 : f.permille)) planes.top.set(x, y);
     }
@@ -191,7 +192,7 @@ TEST_P(RunExtraction, FindsEveryRunOfGoldenOnce) {
   EXPECT_EQ(bench.extractor.horizontal_runs.value(), horizontal);
   EXPECT_EQ(bench.extractor.long_runs.value(), heads);
   EXPECT_EQ(bench.finisher.tokens.size(), descriptors);  // those with a side, each once
-  // Runs of a column take its two entries in turn, those without a side as well.
+  // Runs of a column use its two entries alternately, including runs without a side.
   std::map<std::pair<int, int>, std::uint8_t> entry;
   std::uint8_t turn = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -205,7 +206,7 @@ TEST_P(RunExtraction, FindsEveryRunOfGoldenOnce) {
     const bool vertical = token.run.axis == Axis::kVertical;
     ASSERT_EQ(token.entry, vertical ? entry.at({token.run.line, token.run.start}) : 0);
     if (token.run.part != RunPart::kWhole) continue;
-    // Edges go on before its start, after its end.
+    // Whether edges continue before its start and after its end.
     const RunDescriptor& run = token.run;
     const auto along = [&planes, &run, vertical](int at) {
       return vertical ? planes.left.at(run.line, at) : planes.top.at(at, run.line);
@@ -213,7 +214,7 @@ TEST_P(RunExtraction, FindsEveryRunOfGoldenOnce) {
     ASSERT_EQ(token.beyond,
               (along(run.start - 1) ? 1 : 0) | (along(run.start + run.length) ? 2 : 0));
   }
-  // The row being blended comes out with its edges.
+  // The row being blended leaves with its edges.
   for (const AreaSlotToken& token : bench.area_sink.beats()) {
     const int y = token.slot.row - f.search_rows - spec::morphological::kRowLag;
     for (int i = 0; i < lanes_of(p); ++i) {
@@ -236,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "ends=crossings area=table_full border=clamp",
                           "ends=crossings area=table_full border=clamp round_corners=true")));
 
-TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
+TEST(RunExtractorBlock, SlotAndDescriptorLatenciesMatchDatasheet) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   EdgePlanes planes = empty(30, 12);
   for (int x = 5; x < 9; ++x) planes.top.set(x, 3);
@@ -249,23 +250,24 @@ TEST(RunExtractorBlock, SlotsAndRecordsHaveTheLatenciesOfTheDatasheet) {
   ASSERT_FALSE(bench.finisher.tokens.empty());
   for (const auto& [cycle, token] : bench.finisher.tokens) {
     if (token.run != expected) continue;
-    // Row 3 in slot row 3 + 4 + 2, closed by column 9.
+    // Row 3 is in slot row 3 + 4 + 2; column 9 closes the run.
     EXPECT_EQ(token.slot, 9u * 30u + 9u);
-    // Slot k is taken in clock k + 1.
+    // Slot k is taken in cycle k + 1.
     expect_latency(RunExtractor::descriptor_datasheet(), cycle - (token.slot + 1));
     expect_latency(RunExtractor::slot_datasheet(),
                    bench.area_sink.cycles()[token.slot] - (token.slot + 1));
   }
 }
 
-// A slot behind which none comes: taken, its words a clock later, its run known three cycles after
-// that. Then there is nothing to do.
-TEST(RunExtractorBlock, IsBusyUntilARunIsKnownAndThenIdle) {
+// The last slot that arrives: it is taken, its words arrive one cycle later, and its run is known
+// three cycles after that. Then the unit is idle.
+TEST(RunExtractorBlock, BusyUntilTheRunIsKnownThenIdle) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   EdgePlanes planes = empty(30, 12);
   for (int x = 5; x < 9; ++x) planes.top.set(x, 3);
   bench.send(planes);
-  // Row 3 in slot row 3 + 4 + 2, closed by column 9; sent in the clock of its number.
+  // Row 3 is in slot row 3 + 4 + 2, column 9 closes the run; a slot is sent in the cycle of its
+  // number.
   bench.clock.run(9 * 30 + 9 + 1);
   std::string busy;
   for (int i = 0; i < 20; ++i) {
@@ -278,7 +280,7 @@ TEST(RunExtractorBlock, IsBusyUntilARunIsKnownAndThenIdle) {
   EXPECT_EQ(busy, std::string(5, 'b') + std::string(15, '.'));
 }
 
-TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheSearchRangeGivesHeadAndTailWithoutAStall) {
+TEST(RunExtractorBlock, RunOneLongerThanSearchRangeSplitsWithoutStall) {
   Extraction bench(preset(spec::morphological::Preset::kMlaa, 4, 8));
   EdgePlanes planes = empty(20, 12);
   for (int x = 11; x < 20; ++x) planes.top.set(x, 3);
@@ -290,8 +292,8 @@ TEST(RunExtractorBlock, AHorizontalRunOfOneMoreThanTheSearchRangeGivesHeadAndTai
   EXPECT_EQ(bench.extractor.descriptor_stalls.value(), 0u);
 }
 
-// A record a column, axis and clock, and one more where a row ends: nobody waits.
-TEST(RunExtractorBlock, ADescriptorInEveryColumnDoesNotStall) {
+// One descriptor per column, axis and cycle, and one more at the end of a row, cause no stall.
+TEST(RunExtractorBlock, DescriptorInEveryColumnDoesNotStall) {
   Parameters p = preset(spec::morphological::Preset::kMlaa, 4, 8);
   p.ends = spec::morphological::Ends::kCrossings;
   p.round_corners = true;
@@ -307,8 +309,8 @@ TEST(RunExtractorBlock, ADescriptorInEveryColumnDoesNotStall) {
   EXPECT_EQ(bench.extractor.descriptor_stalls.value(), 0u);
 }
 
-// DESCRIPTOR_STALLS: cycles in which a slot waits, not those in which none has come.
-TEST(DescriptorStalls, CountOnlyWhereASlotWaits) {
+// DESCRIPTOR_STALLS counts cycles in which a slot waits, not cycles without a slot.
+TEST(DescriptorStalls, CountsOnlyCyclesOfWaitingSlots) {
   Parameters p = preset(Preset::kDeburrLine);
   p.lanes = spec::morphological::Lanes::kFour;
   p.descriptor_fifo = 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SlotSequencer: what disagrees with SIZE, and the clock in which a frame is inside.
+// SlotSequencer: beats that contradict SIZE, and the cycle in which a frame is inside.
 #include "tb/unit/rtl/morphological/front.h"
 #include "tb/unit/rtl/morphological/vectors.h"
 
@@ -10,7 +10,7 @@ using namespace rtl::morphological;  // NOLINT: a test of these
 using spec::morphological::Preset;
 namespace reg = spec::morphological::reg;
 
-TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
+TEST(SlotSequencerBlock, ReportsBeatsThatContradictSize) {
   Front front(preset(spec::morphological::Preset::kMlaa));
   const Frame frame = row({0, 1, 2});
   front.detect(frame);
@@ -31,8 +31,8 @@ TEST(SlotSequencerBlock, SaysWhatDisagreesWithSize) {
   EXPECT_EQ(front.registers.bus.read(reg::kStatus), reg::kStatusFraming);
 }
 
-// A frame is inside when its first beat has been taken, and not before.
-TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
+// A frame is inside once its first beat has been taken, and not before.
+TEST(FirstBeat, FrameIsInsideOnceItsFirstBeatIsTaken) {
   EngineBench bench(preset(Preset::kDeburrLine));
   bench.send(noise());
   for (int i = 0; i < 28; ++i) {
@@ -43,7 +43,7 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   }
   EXPECT_EQ(bench.in.pops(), 0u);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle);
-  // A rule that is written now counts for this frame.
+  // A configuration written now applies to this frame.
   const std::uint32_t configuration = bench.bus.read(reg::kConfiguration);
   bench.bus.write(reg::kConfiguration, 1u << 16 | 1u << 7 | 4u << 9);
   EXPECT_NE(bench.bus.read(reg::kConfiguration), configuration);
@@ -55,8 +55,8 @@ TEST(FirstBeat, TakesTheFrameInTheClockThatTakesIt) {
   EXPECT_EQ(bench.engine.sequencer.frames.value(), 1u);
 }
 
-// Nor where the TextGuard has no room for it.
-TEST(FirstBeat, WaitsForTheTextGuardBeforeTheFrameIsInside) {
+// Nor is a frame inside while the TextGuard has no room for it.
+TEST(FirstBeat, FrameWaitsForTheTextGuard) {
   Parameters p = preset(Preset::kDeburrLine);
   p.text_guard = true;
   EngineBench bench(p);
@@ -71,8 +71,8 @@ TEST(FirstBeat, WaitsForTheTextGuardBeforeTheFrameIsInside) {
   EXPECT_EQ(bench.bus.read(reg::kFrameCycles), (61u + 37u) * 97u + kPipe);
 }
 
-// A frame whose slots go to the TextGuard, too, waits as any other: for a beat that has not come,
-// and for room; and each slot goes to it once.
+// A frame whose slots also go to the TextGuard waits for a beat and for room like any other, and
+// each slot goes to the TextGuard once.
 class GuardedFrame : public ::testing::Test {
  protected:
   static Parameters parameters() {
@@ -106,7 +106,7 @@ struct BadSize {
 };
 void PrintTo(const BadSize& s, std::ostream* out) { *out << s.width << 'x' << s.height; }
 class BadSizes : public ::testing::TestWithParam<BadSize> {};
-TEST_P(BadSizes, TakeNoFrameAndSetTheFramingBit) {
+TEST_P(BadSizes, BadSizesAreRejectedWithTheFramingBit) {
   EngineBench bench(deburr_line());
   bench.bus.write(reg::kSize, GetParam().width | GetParam().height << 16);
   bench.driver.send(beats_of(noise(10, 10), 1));
@@ -114,7 +114,7 @@ TEST_P(BadSizes, TakeNoFrameAndSetTheFramingBit) {
   EXPECT_EQ(bench.sink.received(), 0u);
   EXPECT_EQ(bench.in.pops(), 0u);
   EXPECT_EQ(bench.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusFraming);
-  // The right size heals it.
+  // A valid size recovers the engine.
   bench.software.set_size(10, 10);
   bench.clock.run(3000);
   EXPECT_EQ(bench.sink.received(), 100u);
@@ -123,10 +123,10 @@ INSTANTIATE_TEST_SUITE_P(Bad, BadSizes,
                          ::testing::Values(BadSize{0, 0}, BadSize{0, 10}, BadSize{10, 0},
                                            BadSize{257, 10}, BadSize{8193, 10}, BadSize{10, 8193}));
 
-TEST(Framing, SizeWinsAndDataGoOn) {
+TEST(Framing, SizeOverridesTheFramingOfBeats) {
   EngineBench bench(deburr_line());
   bench.software.set_size(20, 10);
-  // Beats of a frame of 25 x 8: the same number. They are pixels of 20 x 10 now.
+  // The beats of a frame of 25 x 8, the same number; they are used as pixels of 20 x 10.
   const Frame sent = noise(25, 8);
   bench.driver.send(beats_of(sent, 1));
   bench.bench->run([&] { return bench.sink.received() == 200 && bench.engine.idle(); }, 10'000);

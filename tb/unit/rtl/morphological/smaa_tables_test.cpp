@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// SMAA's tables in the hardware: every word by the contract's hashes, vectors and cycles of the
+// SMAA's tables in the hardware: every word by the contract's hashes; vectors and cycles of the
 // three layouts.
 #include <array>
 #include <stdexcept>
@@ -33,7 +33,7 @@ rtl::Memory<Word>& rom(const std::string& name) {
   return *found;
 }
 
-// Of an engine's ROMs: T and U, of the layout that has them alone; S; R; D.
+// Hashes of an engine's ROMs: T and U, from the layout that stores only them; S; R; D.
 struct RomHashes {
   std::array<std::uint64_t, 2> tiles;
   std::uint64_t roots, mix, diagonals;
@@ -65,8 +65,8 @@ struct OwnedTable : sc_core::sc_module {
   AreaTable table;
 };
 
-// By the table of docs/reference/morphological/memories.md, of one lane and of two.
-TEST(SmaaTables, RomsAreThoseOfThePage) {
+// The table of docs/reference/morphological/memories.md, for one lane and for two.
+TEST(SmaaTables, RomsMatchThePage) {
   struct Row {
     AreaSource layout;
     int lanes;
@@ -96,7 +96,7 @@ TEST(SmaaTables, RomsAreThoseOfThePage) {
   }
 }
 
-TEST(SmaaTables, WordsHaveTheContractsHashes) {
+TEST(SmaaTables, WordsMatchTheContractHashes) {
   const RomHashes exact = rom_hashes(AreaValues::kExact),
                   published = rom_hashes(AreaValues::kPublished);
   const spec::morphological::TableHashes got = {
@@ -104,16 +104,17 @@ TEST(SmaaTables, WordsHaveTheContractsHashes) {
       exact.diagonals, published.tiles[0], published.tiles[1], published.diagonals};
   EXPECT_EQ(differences(spec::morphological::kTableHashes, got), "");
   expect_each_value_is_compared(spec::morphological::kTableHashes, got);
-  // Not of the areas.
+  // The roots and the mix table do not depend on the area values.
   EXPECT_EQ(published.roots, exact.roots);
   EXPECT_EQ(published.mix, exact.mix);
 }
 
 class TableCycles : public ::testing::TestWithParam<AreaSource> {
  protected:
-  // Of a query and of one with other addresses in every ROM, what the table says to this.
+  // The table's error when `use` runs with a query and another one that has different addresses in
+  // every ROM.
   template <class Use>
-  static std::string said(Use&& use) {
+  static std::string error_of(Use&& use) {
     OwnedTable owner("owner", GetParam());
     AreaTable::Query query{5, 3, 9}, other{100, 60, 9};
     try {
@@ -123,10 +124,11 @@ class TableCycles : public ::testing::TestWithParam<AreaSource> {
     }
     return "nothing";
   }
-  // The table's words: `text`, and why they may not be used.
+  // `text` names the memory, `why` gives the reason of the rejection.
   template <class Use>
   static void expect_stop(const char* text, const char* why, Use&& use) {
-    EXPECT_THAT(said(use), ::testing::AllOf(::testing::HasSubstr(text), ::testing::HasSubstr(why)));
+    EXPECT_THAT(error_of(use),
+                ::testing::AllOf(::testing::HasSubstr(text), ::testing::HasSubstr(why)));
   }
   static AreaTable::Weights read(AreaTable& table, Cycle cycle, AreaTable::Query query) {
     table.address_roots(cycle, 0, query);
@@ -135,8 +137,8 @@ class TableCycles : public ::testing::TestWithParam<AreaSource> {
   }
 };
 
-// The contract's: T and U of an L and a U on the second side.
-TEST_P(TableCycles, SharesOfTheContractComeInTheirClock) {
+// The vectors of the contract: T and U of an L and a U on the second side.
+TEST_P(TableCycles, WeightsMatchTheContractOnTime) {
   OwnedTable owner("owner", GetParam());
   Cycle cycle = 1;
   for (const spec::morphological::TableVector& v : spec::morphological::kTableVectors) {
@@ -151,8 +153,8 @@ TEST_P(TableCycles, SharesOfTheContractComeInTheirClock) {
     EXPECT_EQ(half.first + dip.first, 0);
   }
 }
-// A query a clock, each of three stages at work: no word of one is another's.
-TEST_P(TableCycles, TakeAQueryAClock) {
+// One query per cycle with all three stages busy: no word is taken from another query.
+TEST_P(TableCycles, TablesTakeOneQueryPerCycle) {
   OwnedTable pipelined("pipelined", GetParam()), alone("alone", GetParam());
   std::vector<AreaTable::Query> queries;
   for (unsigned i = 0; i < 400; ++i)
@@ -171,7 +173,7 @@ TEST_P(TableCycles, TakeAQueryAClock) {
     if (c < queries.size()) pipelined.table.address_roots(c, 0, queries[c]);
   }
 }
-TEST_P(TableCycles, WordsAreNotUsedAClockEarlyOrLate) {
+TEST_P(TableCycles, RejectsUseOneCycleEarlyOrLate) {
   expect_stop("sqrt_rom", "is used", [](AreaTable& table, auto& query, auto&) {
     table.address_roots(1, 0, query);
     table.address_entries(1, 0, query);
@@ -196,14 +198,14 @@ TEST_P(TableCycles, WordsAreNotUsedAClockEarlyOrLate) {
                 table.weights(4, 0, query);
               });
 }
-// A port gives a word a clock: a second query of a reader in the same clock is rejected.
-TEST_P(TableCycles, AReaderAsksOnceAClock) {
-  EXPECT_THAT(said([](AreaTable& table, auto& query, auto& other) {
+// A port returns one word per cycle, so a second query of the same reader in a cycle is rejected.
+TEST_P(TableCycles, ReaderAsksOncePerCycle) {
+  EXPECT_THAT(error_of([](AreaTable& table, auto& query, auto& other) {
                 table.address_roots(1, 0, query);
                 table.address_roots(1, 0, other);
               }),
               ::testing::HasSubstr("second access"));
-  EXPECT_THAT(said([](AreaTable& table, auto& query, auto&) {
+  EXPECT_THAT(error_of([](AreaTable& table, auto& query, auto&) {
                 table.address_roots(1, 1, query);
                 table.address_roots(1, 0, query);
               }),

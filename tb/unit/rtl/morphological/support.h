@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of the morphological engine's hardware model weight: the images of the contract's
-// test vectors, the whole engine between a driver and a sink, and single blocks between tokens.
+// Shared by the tests of the morphological engine's RTL model: the images of the contract's test
+// vectors, the whole engine between a driver and a sink, and single blocks between tokens.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ using rtl::Link;
 using spec::morphological::Parameters;
 using spec::morphological::Rgba8;
 
-// RESET_N is low for some cycles.
+// Holds RESET_N low for the given cycles.
 inline void reset_by(ClockDomain& clock, Cycle cycles = 1) {
   clock.set_reset_n(false);
   clock.run(cycles);
@@ -82,7 +82,7 @@ inline std::uint64_t hash(const Frame& frame) {
   return stimuli::hash(image);
 }
 
-// A preset's rules with R and C; line_pixels small, so that tests are quick.
+// The configuration of a preset with R and C; a small line_pixels keeps tests fast.
 inline Parameters preset(spec::morphological::Preset which, int search_rows = 32,
                          int search_columns = 256) {
   Parameters p = preset_parameters(which);
@@ -92,7 +92,7 @@ inline Parameters preset(spec::morphological::Preset which, int search_rows = 32
   return p;
 }
 
-// The SMAA presets, with the window of the quality.
+// The SMAA presets, with the window of the given quality.
 inline Parameters smaa(spec::morphological::Quality quality = spec::morphological::Quality::kHigh,
                        spec::morphological::Preset which = spec::morphological::Preset::kSmaa) {
   Parameters p = preset_parameters(which, quality);
@@ -121,14 +121,14 @@ inline std::vector<spec::morphological::PixelBeat> beats_of(const Frame& frame, 
   return platform::beats_of({frame.width, frame.height, frame.pixel, frame.depth}, lanes);
 }
 
-// driver -> engine -> sink, a memory if the engine wants one, and the harness around them.
+// driver -> engine -> sink, a memory if the engine needs one, and the test harness around them.
 struct EngineBench {
   struct Options {
     BenchOptions bench;
     EndOptions driver, sink;
     std::uint32_t memory_latency = 20, memory_scatter = 0;
     platform::MemoryModelParameters memory;
-    bool program = false;  // rules are written after each reset(), over others
+    bool program = false;  // write the configuration after each reset(), over other values
     sc_core::sc_time period = unit_bench::period();
   };
   explicit EngineBench(const Parameters& p) : EngineBench(p, Options{}) {}
@@ -168,15 +168,15 @@ struct EngineBench {
     driver.send(beats_of(frame, lanes_of(engine.parameters())));
     wanted += static_cast<std::uint64_t>(beats_a_row(frame, engine.parameters()) * frame.height);
   }
-  // Until all that was sent is out.
-  void finish(const std::function<void()>& each_clock = {}, Cycle limit = 5'000'000) {
+  // Runs until everything that was sent has come out.
+  void finish(const std::function<void()>& each_cycle = {}, Cycle limit = 5'000'000) {
     const auto done = [&] {
-      if (each_clock) each_clock();
+      if (each_cycle) each_cycle();
       return sink.received() == wanted && engine.idle();
     };
     bench->run(done, limit);
   }
-  // Runs one frame after another that was added; the frames come back in order.
+  // Runs one frame and returns it. Frames that were sent before come out first.
   Frame run(const Frame& frame, Cycle limit = 5'000'000) {
     send(frame);
     finish({}, limit);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TextGuard: drawings of the contract, any picture against the golden model, its cycles; and in the
-// engine: what is left, and that nothing waits for it.
+// TextGuard: the drawings of the contract, arbitrary pictures against the golden model, and its
+// cycles. In the engine: bypassed pixels, and that nothing waits for the TextGuard.
 #include "golden/morphological/text_guard.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ Parameters guarded(int lanes_code = 0, int search_rows = kReach) {
   return p;
 }
 
-// '#' for each guarded pixel, '.' for the others, a line a row.
+// '#' for each guarded pixel, '.' for the others, one string per row.
 Rows by_golden(const Frame& frame) {
   const golden::morphological::TextGuard guard({frame.pixel, frame.width, frame.height});
   Rows rows;
@@ -58,7 +58,8 @@ struct GuardBench {
     guard.slots_in(slots);
     gate.in(guard.guards());
   }
-  // The slots of a frame, from a clock on: rows beyond it, too, and noise wherever nothing is read.
+  // Sends the slots of a frame from the given cycle on, including the rows after the frame, with
+  // noise where nothing is read.
   void send(const Frame& frame, Cycle from = 0) {
     registers.frame(frame.width, frame.height, clock.cycle());
     width = frame.width;
@@ -121,7 +122,7 @@ struct GuardBench {
   std::size_t sent = 0, wanted = 0;
 };
 
-// Rows of the contract's drawings.
+// Splits the contract's drawings into rows.
 Rows split(std::string_view text) {
   Rows rows(1);
   for (const char c : text) {
@@ -149,7 +150,7 @@ Frame drawing(const Rows& rows) {
 class Drawings : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Lanes, Drawings, ::testing::Range(0, 3));
 
-TEST_P(Drawings, OfTheContractAreGuardedAsItSays) {
+TEST_P(Drawings, GuardedPixelsMatchTheContract) {
   GuardBench bench(guarded(GetParam()));
   for (const spec::morphological::GuardVector& v : spec::morphological::kGuardVectors) {
     Rows expected = split(v.guarded);
@@ -160,7 +161,7 @@ TEST_P(Drawings, OfTheContractAreGuardedAsItSays) {
   }
 }
 
-// Stretches of two colours; at times a third one, or one that passes for the first.
+// Stretches of two colours; some pictures add a third colour, or one with the hash of the first.
 Frame text(int width, int height, std::uint64_t seed) {
   Random random(seed);
   const std::uint32_t weight = random.between(100, 900), other = random.below(3);
@@ -184,9 +185,9 @@ struct Size {
   int width, height;
 };
 void PrintTo(const Size& size, std::ostream* out) { *out << size.width << 'x' << size.height; }
-class AnyPicture : public ::testing::TestWithParam<std::tuple<Size, int>> {};
+class RandomPictures : public ::testing::TestWithParam<std::tuple<Size, int>> {};
 
-TEST_P(AnyPicture, IsAsGoldenSays) {
+TEST_P(RandomPictures, GuardedPixelsMatchGolden) {
   const auto& [size, lanes_code] = GetParam();
   Parameters p = guarded(lanes_code);
   p.line_pixels = std::max(size.width, 1);
@@ -209,14 +210,14 @@ TEST_P(AnyPicture, IsAsGoldenSays) {
   EXPECT_EQ(stalls(bench.guard, "downstream"), 0u);
 }
 INSTANTIATE_TEST_SUITE_P(
-    Sizes, AnyPicture,
+    Sizes, RandomPictures,
     ::testing::Combine(::testing::Values(Size{1, 1}, Size{2, 1}, Size{1, 2}, Size{3, 200},
                                          Size{200, 3}, Size{5, 30}, Size{9, 17}, Size{23, 23},
                                          Size{64, 20}, Size{kSanitized ? 320 : 1920, 14}),
                        ::testing::Range(0, 3)));
 
-// Frames of other sizes and pictures behind each other; nothing is left of the one before.
-TEST(TextGuardBlock, KeepsNothingFromFrameToFrame) {
+// Frames of other sizes and other pictures follow each other; nothing remains of the previous one.
+TEST(TextGuardBlock, FramesDoNotAffectEachOther) {
   GuardBench bench(guarded(1));
   for (const Size size : {Size{40, 30}, Size{7, 9}, Size{64, 12}, Size{3, 3}, Size{12, 40}}) {
     const Frame frame = text(size.width, size.height, static_cast<std::uint64_t>(size.width));
@@ -231,8 +232,8 @@ TEST(TextGuardBlock, KeepsNothingFromFrameToFrame) {
 class TextGuardCycles : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Lanes, TextGuardCycles, ::testing::Range(0, 3));
 
-// From the last beat of row 8 to the first beat of row 0, then a beat a clock.
-TEST_P(TextGuardCycles, ARowComesEightRowsLater) {
+// Measured from the last beat of row 8 to the first beat of row 0; then one beat per cycle.
+TEST_P(TextGuardCycles, RowLeavesEightRowsLater) {
   const Parameters p = guarded(GetParam());
   GuardBench bench(p);
   const Frame frame = text(40, 12, 1);
@@ -247,9 +248,9 @@ TEST_P(TextGuardCycles, ARowComesEightRowsLater) {
   expect_stages_in_order(TextGuard::datasheet(p));
 }
 
-// A row whose last beat comes later is later by as much, and one that has begun is not: its last
-// beats need no beat of the next row.
-TEST_P(TextGuardCycles, ARowWaitsForItsLastBeatAndForNoneAfter) {
+// If the last beat of a row is late, the row is late by the same number of cycles. A row that has
+// started is not delayed: its last beats need no beat of the next row.
+TEST_P(TextGuardCycles, RowWaitsOnlyForItsOwnLastBeat) {
   const Parameters p = guarded(GetParam());
   const Frame frame = text(40, 12, 1);
   const auto beats = static_cast<std::size_t>(beats_a_row(frame, p));
@@ -259,20 +260,20 @@ TEST_P(TextGuardCycles, ARowWaitsForItsLastBeatAndForNoneAfter) {
     bench.reset();
     const Cycle begin = bench.clock.cycle();
     bench.send(frame, begin);
-    bench.source.delay(held, begin + 2000);  // pushed; popped a clock later
+    bench.source.delay(held, begin + 2000);  // pushed; popped one cycle later
     ASSERT_EQ(bench.finish(), by_golden(frame));
     const Cycle first = begin + (held < 9 * beats ? 2001 : 9 * beats) + latency,
                 second = begin + 2000 + 10 * beats - held + latency;
     for (std::size_t beat = 0; beat < beats; ++beat) {
       ASSERT_EQ(bench.gate.taken[beat].cycle, first + beat) << held;
-      // Of the row after it, whose last beat is late in any case.
+      // The next row, whose last beat is late in any case.
       ASSERT_EQ(bench.gate.taken[beats + beat].cycle, second + beat) << held;
     }
   }
 }
 
-// Nobody takes the bits: the unit stops when the FIFO is full, and nothing is lost.
-TEST_P(TextGuardCycles, WaitsDownstream) {
+// While the bits are not taken, the unit stalls once the FIFO is full, and nothing is lost.
+TEST_P(TextGuardCycles, DownstreamStallLosesNothing) {
   const Parameters p = guarded(GetParam());
   const Frame frame = text(60, 40, 2);
   GuardBench bench(p, 3000);
@@ -294,7 +295,7 @@ void PrintTo(const Build& b, std::ostream* out) {
   *out << spec::morphological::kPresetNames[static_cast<std::size_t>(b.preset)] << " R "
        << b.search_rows << ' ' << b.settings;
 }
-Parameters of(const Build& b) {
+Parameters parameters_of(const Build& b) {
   Parameters p = preset(b.preset, b.search_rows, 20);
   p.steps = std::min(p.steps, 2);
   p.diagonal_steps = std::min(p.diagonal_steps, 4);
@@ -330,9 +331,10 @@ std::string text_of(const std::vector<Cycle>& cycles) {
   return text;
 }
 
-// As it was without: each beat is taken and delivered in its clock, whatever waits.
-TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
-  const Parameters p = of(GetParam());
+// Every beat is taken and delivered in the same cycle as in a build without the TextGuard, with
+// stalls on either side.
+TEST_P(TextGuardEngine, GuardDelaysNoBeat) {
+  const Parameters p = parameters_of(GetParam());
   Parameters without = p;
   without.text_guard = false;
   for (const std::uint32_t source : {0u, 300u, 900u})
@@ -347,7 +349,7 @@ TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
                   fewest = p.storage == spec::morphological::Storage::kMemory ? 17 : 1;
         const auto cycles = [&](const Parameters& q) {
           return forked_text([&] {
-            Parameters as_wide = q;  // so that the FIFO has no word more
+            Parameters as_wide = q;  // so that the FIFO has the same size
             as_wide.line_pixels = std::max(line_pixels, fewest);
             EngineBench bench(as_wide, options);
             std::vector<Cycle> taken;
@@ -367,14 +369,15 @@ TEST_P(TextGuardEngine, NothingWaitsForItAnyClock) {
     }
 }
 
-// A source that stops in the middle of a row: what has come suffices for each beat as before.
-TEST_P(TextGuardEngine, ASourceThatStopsHoldsNoOtherBeatAnyClock) {
-  const Parameters p = of(GetParam());
+// The source stops in the middle of a row: the beats that have come deliver the same output as
+// without the TextGuard.
+TEST_P(TextGuardEngine, GuardDelaysNoBeatOfAStoppedSource) {
+  const Parameters p = parameters_of(GetParam());
   Parameters without = p;
   without.text_guard = false;
   const Frame frame = page(32, 60);
   const auto row = static_cast<std::size_t>(beats_a_row(frame, p));
-  // Slots before the first one that delivers.
+  // Slots before the first one that delivers a beat.
   const std::size_t before = static_cast<std::size_t>(GetParam().search_rows + 5) * row;
   for (const std::size_t more :
        {std::size_t{1}, row / 2, row - 1, row, row + 1, 3 * row + row / 2, 4 * row - 1}) {
@@ -395,9 +398,9 @@ TEST_P(TextGuardEngine, ASourceThatStopsHoldsNoOtherBeatAnyClock) {
   }
 }
 
-// As golden has it, with stalls at each link, and noise where nobody wrote.
-TEST_P(TextGuardEngine, PixelsAreThoseOfGolden) {
-  const Parameters p = of(GetParam());
+// With stalls at each link, and noise in words that were not written.
+TEST_P(TextGuardEngine, PixelsMatchGolden) {
+  const Parameters p = parameters_of(GetParam());
   const Frame frame = page(61, 30);
   const auto hash_with = [&](const EngineBench::Options& options) {
     return forked<std::uint64_t>([&] {

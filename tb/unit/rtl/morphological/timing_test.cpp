@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cycles of the whole engine against the contract: latency by formula, throughput, back-pressure,
-// the interlock, and that time may change but data may not.
+// Cycles of the whole engine against the contract: latency by formula, throughput, back-pressure
+// and the interlock. Stalls must not change data.
 #include <string>
 #include <tuple>
 
@@ -19,7 +19,7 @@ using spec::morphological::Axis;
 using spec::morphological::Preset;
 using spec::morphological::Quality;
 
-// When beats were popped (the driver's push, a clock later if the pipe was ready) and pushed out.
+// The cycles in which beats were popped from the driver's link and pushed into the output link.
 struct Times {
   std::vector<Cycle> popped, pushed;
   explicit Times(EngineBench& bench)
@@ -53,11 +53,11 @@ Parameters smaa_of() {
 
 class LatencyFormula : public ::testing::TestWithParam<Case> {};
 
-// Every beat, flush included, if rows are long enough for the records: BPR >= T (N + 1) +
-// divider.latency + 12 if none waits for another, else the bound of bounds_test.cpp
-// (docs/reference/morphological/hardware.md). SMAA's blocks cost no clock, and half of the frame is
-// random pixels of 37 % edges then.
-TEST_P(LatencyFormula, HoldsForEveryBeat) {
+// Holds for every beat, the flush included, if rows are long enough for the descriptors: BPR >= T
+// (N + 1) + divider.latency + 12 if no descriptor waits for another, otherwise the bound of
+// bounds_test.cpp (docs/reference/morphological/hardware.md). SMAA's blocks add no cycle; in those
+// builds half of the frame has random pixels with 37 % edges.
+TEST_P(LatencyFormula, LatencyFormulaHoldsForEveryBeat) {
   const Case& c = GetParam();
   Parameters p = c.configuration();
   p.lanes = static_cast<spec::morphological::Lanes>(c.lanes_code);
@@ -113,9 +113,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"smaa_ultra_hd", 1920, 6, 0, smaa_of<Quality::kUltra>}),
     [](const auto& param) { return param.param.name; });
 
-// A row of fewer beats than a diagonal takes: rows wait for the one before, and all goes on.
+// A row of fewer beats than a diagonal needs waits for the previous row, and the frame completes.
 class ShortRows : public ::testing::TestWithParam<int> {};
-TEST_P(ShortRows, WaitForTheDiagonalsOfTheRowBefore) {
+TEST_P(ShortRows, ShortRowsWaitForDiagonalsOfThePreviousRow) {
   Parameters p = smaa(Quality::kUltra);
   p.line_pixels = 64;
   EngineBench bench(p);
@@ -126,22 +126,22 @@ TEST_P(ShortRows, WaitForTheDiagonalsOfTheRowBefore) {
 }
 INSTANTIATE_TEST_SUITE_P(Beats, ShortRows, ::testing::Values(1, 2, 4, 5, 16, 17, 18));
 
-// The way of a record, from the clock that takes the slot in which its run is found.
+// Path of a descriptor, from the cycle that takes the slot in which its run is found.
 constexpr int kFound = 6;  // until a predictor takes it
 constexpr int kFinished =
-    5;  // and divider.latency: from there, if not extended, until it is finished
+    5;  // plus divider.latency: from there until it is finished, if not extended
 
-// A row shorter than that waits for its records: the bound is not far from the reference. The line
-// takes a stage more at the entrance of an AreaUnit with a table.
+// A row shorter than that path waits for its descriptors. With a table, the line takes one stage
+// more at the input of the AreaUnit.
 class Interlock : public ::testing::TestWithParam<spec::morphological::AreaSource> {};
-TEST_P(Interlock, StallsWhereARowIsShorterThanThePathOfARecord) {
+TEST_P(Interlock, StallsIfRowIsShorterThanDescriptorPath) {
   Parameters p = preset(Preset::kMlaa);
   p.area = GetParam();
   EngineBench bench(p);
-  // One L at the right border: the run closes in the last slot of the row.
+  // One L at the right border: the run ends in the last slot of the row.
   bench.run(draw(20, 40, [](int x, int y) { return grey(x >= 17 && y >= 20 ? 255 : 0); }));
-  // Nothing else is inside: the row two below begins when the record is finished. Its slot was
-  // taken in clock e; the slot two rows below would have come in e + 21.
+  // Nothing else is inside: the row two below starts when the descriptor is finished. Its slot was
+  // taken in cycle e; the slot two rows below would have come in e + 21.
   const unsigned lost = kFound + 24 + kFinished - 21 + has_table(p);
   EXPECT_EQ(bench.engine.extractor.interlock_stalls.value(), lost);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (40u + 37u) * 20u + kPipe + lost);
@@ -150,9 +150,9 @@ INSTANTIATE_TEST_SUITE_P(Areas, Interlock,
                          ::testing::Values(spec::morphological::AreaSource::kAnalytic,
                                            spec::morphological::AreaSource::kTableFull));
 
-// The same with one more clock of room a row for each clock of stall, down to none at the bound.
+// Each additional beat per row saves one stall cycle, down to none at the bound.
 class InterlockBound : public ::testing::TestWithParam<int> {};
-TEST_P(InterlockBound, IsExact) {
+TEST_P(InterlockBound, InterlockBoundIsExact) {
   const int width = GetParam();
   EngineBench bench(preset(Preset::kMlaa));
   bench.run(
@@ -170,13 +170,13 @@ struct Load {
 };
 void PrintTo(const Load& load, std::ostream* out) { *out << load.name; }
 
-// So many pixels of a thousand are white.
+// The given number of pixels per thousand is white.
 template <int kPermille>
 Frame random_pixels() {
   Random random(kPermille);
   return draw(640, 160, [&](int, int) { return grey(random.chance(kPermille) ? 255 : 0); });
 }
-// Stairs whose steps are some pixels long, and some rows between them.
+// Stairs with steps of kRun pixels, kApart rows apart.
 template <int kRun, int kApart>
 Frame stairs() {
   return draw(640, 160,
@@ -188,16 +188,16 @@ Frame verticals() {
 
 class Throughput : public ::testing::TestWithParam<Load> {};
 
-void expect_a_beat_a_clock(Preset which, const Load& load);
+void expect_one_beat_per_cycle(Preset which, const Load& load);
 
-// One beat a clock on random patterns, and on lines whose steps are so long, or so far from each
-// other, that the predictors have the time that each of them takes.
-TEST_P(Throughput, IsOneBeatAClock) { expect_a_beat_a_clock(Preset::kDeburrLine, GetParam()); }
-TEST_P(Throughput, IsOneBeatAClockWithLearnedShares) {
-  expect_a_beat_a_clock(Preset::kDeburr, GetParam());
+// One beat per cycle on random patterns, and on lines whose steps are long enough, or far enough
+// apart, for the predictors.
+TEST_P(Throughput, OneBeatPerCycle) { expect_one_beat_per_cycle(Preset::kDeburrLine, GetParam()); }
+TEST_P(Throughput, OneBeatPerCycleWithLearnedWeights) {
+  expect_one_beat_per_cycle(Preset::kDeburr, GetParam());
 }
 
-void expect_a_beat_a_clock(Preset which, const Load& load) {
+void expect_one_beat_per_cycle(Preset which, const Load& load) {
   Parameters p = preset(which);
   p.line_pixels = 640;
   p.lanes = static_cast<spec::morphological::Lanes>(load.lanes_code);
@@ -231,8 +231,8 @@ INSTANTIATE_TEST_SUITE_P(Loads, Throughput,
 
 class FullWidth : public ::testing::TestWithParam<std::tuple<int, Preset>> {};
 
-// The defaults at the width of 1080p: a pixel is taken in every clock, and none waits on its way.
-TEST_P(FullWidth, TakesRandomEdgesAtAPixelAClock) {
+// The defaults at the width of 1080p: one pixel is taken in every cycle, and no pixel waits.
+TEST_P(FullWidth, RandomEdgesTakeOneCyclePerPixel) {
   const auto [permille, which] = GetParam();
   Parameters p = preset(which);
   const Parameters defaults;
@@ -267,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(EdgePermille, FullWidth,
                            return std::to_string(std::get<0>(each.param)) + weights;
                          });
 
-// Beyond that the slots wait, are counted, and nothing else changes.
+// Beyond that load the slots wait and are counted; nothing else changes.
 TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   Parameters p = preset(Preset::kDeburrLine);
   p.predictor_units = 1;
@@ -280,15 +280,15 @@ TEST(BackPressure, StallsAreCountedAndNothingIsLost) {
   const std::uint64_t stalls = bench.engine.extractor.descriptor_stalls.value();
   EXPECT_GT(stalls, 200u);
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (61u + 37u) * 97u + kPipe + stalls);
-  // A beat is inside for 37 rows of slots, and for the stalls that come while it is.
+  // A beat is inside for 37 rows of slots, plus the stalls during that time.
   constexpr Cycle kUnstalled = 37 * 97 + kPipe;
   EXPECT_GT(bench.engine.beat_latency.min(), kUnstalled);
   EXPECT_GT(bench.engine.beat_latency.max(), bench.engine.beat_latency.min());
   EXPECT_LT(bench.engine.beat_latency.max(), kUnstalled + stalls);
 }
 
-// The next frame is taken in the clock after the last beat of this one has been pushed.
-TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
+// The next frame is taken in the cycle after the last beat of this one has been pushed.
+TEST(FramesBackToBack, NextFrameStartsOneCycleAfterTheLast) {
   Parameters p = preset(Preset::kDeburrLine);
   EngineBench bench(p);
   Times times(bench);
@@ -306,8 +306,8 @@ TEST(FramesBackToBack, BeginTheClockAfterTheLast) {
   }
 }
 
-// Waits that come from outside are waits of that long, and no longer.
-TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
+// External stalls cost exactly their duration.
+TEST(Stalls, UpstreamStallsCostTheirDuration) {
   EngineBench::Options options;
   options.driver = {250, 3};
   EngineBench bench(preset(Preset::kDeburrLine), options);
@@ -317,7 +317,7 @@ TEST(Stalls, UpstreamAndDownstreamAreSeenAndCostWhatTheyLast) {
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe + upstream);
 }
 
-TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
+TEST(Stalls, SlowSinkStallsBlenderWithoutLoss) {
   EngineBench::Options options;
   options.sink = {500, 3};
   EngineBench bench(preset(Preset::kDeburrLine), options);
@@ -325,7 +325,7 @@ TEST(Stalls, ASlowSinkStallsTheBlenderAndNothingIsLost) {
   EXPECT_GT(bench.engine.blender.stalled_cycles(), 10'000u);
 }
 
-// Memory that answers in time costs nothing; slow memory stalls the pixel store alone.
+// Memory that answers in time costs nothing; slow memory stalls only the pixel store.
 TEST(MemoryTime, FastMemoryCostsNothing) {
   Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
@@ -336,7 +336,7 @@ TEST(MemoryTime, FastMemoryCostsNothing) {
   EXPECT_EQ(bench.engine.sequencer.frame_cycles.value(), (150u + 37u) * 200u + kPipe);
 }
 
-TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
+TEST(MemoryTime, SlowMemoryStallsWithoutLoss) {
   Parameters p = preset(Preset::kDeburrLine);
   p.storage = spec::morphological::Storage::kMemory;
   p.memory_outstanding = 1;
@@ -348,9 +348,9 @@ TEST(MemoryTime, SlowMemoryStallsAndNothingIsLost) {
   EXPECT_GT(stalls(bench.engine.pixel_store, "memory"), 1000u);
 }
 
-// ---- the way of a record ------------------------------------------------------------------------
+// ---- path of a descriptor -----------------------------------------------------------------------
 
-// record -> EndpointPredictor -> LineUnit -> AreaUnit -> finished.
+// descriptor -> EndpointPredictor -> LineUnit -> AreaUnit -> finished.
 struct Path {
   explicit Path(const Parameters& p)
       : registers(p, 40, 30),
@@ -394,16 +394,16 @@ struct Path {
   unit_bench::Sink<FinishToken> finished_gate{"finished_gate", clock};
 };
 
-class WayOfARecord : public ::testing::TestWithParam<int> {};
+class DescriptorPath : public ::testing::TestWithParam<int> {};
 
-// The extractor takes its finish divider.latency + 5 cycles after the predictor let it go; the
-// contract allows divider.latency + 8.
-TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
+// The extractor takes the finished descriptor divider.latency + 5 cycles after the predictor
+// released it; the contract allows divider.latency + 8.
+TEST_P(DescriptorPath, PathTakesDividerLatencyPlusFive) {
   Parameters p = small();
   p.divider_latency = GetParam();
   Path bench(p);
   bench.slot_driver.add(0, {});
-  // No trials: a record is let go in the clock of its pop, one behind the other.
+  // Without trials, a descriptor is released in the cycle of its pop, one per cycle.
   constexpr Cycle kSent = 40, kLetGo = kSent + 1;
   for (int i = 0; i < 3; ++i) bench.driver.add(kSent, run_of(3, 2));
   bench.clock.run(kLetGo + 100);
@@ -411,15 +411,15 @@ TEST_P(WayOfARecord, TakesTheLatencyOfTheDividerAndFive) {
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(bench.finished_gate.taken[i].cycle, kLetGo + i + static_cast<Cycle>(GetParam()) + 5);
 }
-// A learned record passes the divider: 5 cycles, whatever the divider takes.
-TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
+// A learned descriptor passes the divider: 5 cycles, whatever the divider's latency.
+TEST_P(DescriptorPath, LearnedPathTakesFiveCycles) {
   Parameters p = small();
   p.area = spec::morphological::AreaSource::kLearned;
   p.divider_latency = GetParam();
   p.divider_interval = 9;
   Path bench(p);
   bench.slot_driver.add(0, {});
-  // No crossing to look at: let go in the clock of the pop.
+  // There is no crossing to examine: released in the cycle of the pop.
   constexpr Cycle kSent = 40, kLetGo = kSent + 1;
   RunToken token = run_of(3, 2);
   token.run.shape = 0;
@@ -428,7 +428,7 @@ TEST_P(WayOfARecord, OfALearnedOneTakesFive) {
   ASSERT_EQ(bench.finished_gate.taken.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(bench.finished_gate.taken[i].cycle, kLetGo + i + 5);
 }
-INSTANTIATE_TEST_SUITE_P(Latencies, WayOfARecord, ::testing::Values(14, 24, 64));
+INSTANTIATE_TEST_SUITE_P(Latencies, DescriptorPath, ::testing::Values(14, 24, 64));
 
 }  // namespace
 }  // namespace deburr::tb::morphological_rtl::timing_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contract's test vectors, as tests of the hardware model ask for them.
+// The contract's test vectors, as used by the tests of the RTL model.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace deburr::tb::morphological_rtl {
 
-// Of what comes of a frame, by the name of its vector.
+// Hash of the pixels that the named vector expects.
 inline std::uint64_t vector_hash(std::string_view name) {
   return morphological::frame_vector(name).result.hash;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The test vectors of the contract (spec/morphological/vectors.h): pixels by hash, work by number,
-// whatever the lanes, the storage, the stalls or the order of evaluation.
+// The test vectors of the contract (spec/morphological/vectors.h): the hash of the pixels and the
+// work counters, for every number of lanes, storage, stall pattern and evaluation order.
 #include "tb/unit/rtl/morphological/vectors.h"
 
 #include <string>
@@ -46,7 +46,7 @@ class Vectors : public ::testing::TestWithParam<FrameVector> {
 
 TEST_P(Vectors, OneLane) { check(parameters_of(GetParam()), {}); }
 
-TEST_P(Vectors, FourLanesStalledShuffled) {
+TEST_P(Vectors, FourLanesWithStallsAndShuffle) {
   Parameters p = parameters_of(GetParam());
   p.lanes = Lanes::kFour;
   EngineBench::Options options;
@@ -80,7 +80,7 @@ TEST(FrameVectors, EachValueIsCompared) {
   expect_each_value_is_compared(v.result, result_of(v, parameters_of(v), {}));
 }
 
-// The layouts of the table give the same pixels.
+// All layouts of the table give the same pixels.
 class SmaaVectors : public Vectors {};
 
 TEST_P(SmaaVectors, MergedTable) {
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class Patterns : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(Patterns, AreTheContracts) {
+TEST_P(Patterns, ResultMatchesTheContract) {
   const spec::morphological::PatternVector& v = spec::morphological::kPatternVectors[GetParam()];
   EngineBench bench(smaa(v.quality));
   const Frame out = bench.run(morphological::vector_image(v));
@@ -118,9 +118,9 @@ INSTANTIATE_TEST_SUITE_P(Contract, Patterns,
                          ::testing::Range(std::size_t{0},
                                           spec::morphological::kPatternVectors.size()));
 
-class Limits : public ::testing::TestWithParam<std::size_t> {};
+class SearchLimits : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(Limits, AreTheContracts) {
+TEST_P(SearchLimits, ResultMatchesTheContract) {
   const spec::morphological::LimitVector& v = spec::morphological::kLimitVectors[GetParam()];
   EngineBench bench(smaa(Quality::kLow));
   const spec::morphological::LimitResult got = {hash(bench.run(morphological::vector_image(v)))};
@@ -128,7 +128,7 @@ TEST_P(Limits, AreTheContracts) {
   expect_each_value_is_compared(v.result, got);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contract, Limits,
+INSTANTIATE_TEST_SUITE_P(Contract, SearchLimits,
                          ::testing::Range(std::size_t{0},
                                           spec::morphological::kLimitVectors.size()));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// WeightsRom: addresses by hand from the contract, words to the clock, and loading.
+// WeightsRom: addresses of the contract by hand, cycles of the words, and loading.
 #include "rtl_model/morphological/blend/weights_rom.h"
 
 #include <array>
@@ -23,7 +23,7 @@ struct Row {
   std::array<int, 3> first, second;  // a, b, c
 };
 
-// docs/reference/morphological/vectors.md, "Learned weights", and ends that are not seen.
+// docs/reference/morphological/vectors.md, "Learned weights", and ends that were not found.
 const Row kRows[] = {
     {"upper left of a box", 2, 2, 2, 2, 0, 7, RunPart::kWhole, {645, 419, 439}, {325, 131, 151}},
     {"fourth of eight", 2, 2, 2, 2, 3, 4, RunPart::kWhole, {668, 431, 435}, {348, 143, 147}},
@@ -33,13 +33,14 @@ const Row kRows[] = {
     {"middle of five", 2, 1, 5, 6, 2, 2, RunPart::kWhole, {594, 522, 266}, {594, 554, 234}},
     {"single pixel", 2, 2, 1, 1, 0, 0, RunPart::kWhole, {640, 384, 384}, {320, 96, 96}},
     {"T at the other end", 3, 1, 0, 2, 4, 0, RunPart::kWhole, {452, 130, 50}, {708, 418, 50}},
-    // The end of a head is farther than any other, however far its pixel is from the start.
+    // The end of a head counts as farther away than any other, whatever the pixel's distance from
+    // the start.
     {"head", 1, 0, 2, 0, 5, 0, RunPart::kHead, {295, 147, 31}, {551, 435, 31}},
     {"head, far out", 1, 0, 2, 0, 100, 27, RunPart::kHead, {319, 159, 31}, {575, 447, 31}},
     {"tail", 0, 2, 0, 1, 40, 9, RunPart::kTail, {567, 411, 31}, {311, 123, 31}},
 };
 
-TEST(WeightsRomAddresses, AreThoseOfTheContract) {
+TEST(WeightsRomAddresses, AddressesMatchTheContract) {
   for (const Row& row : kRows) {
     const WeightsRom::Query query =
         WeightsRom::ask({static_cast<std::uint8_t>(row.start_code + 4 * row.end_code),
@@ -55,7 +56,7 @@ TEST(WeightsRomAddresses, AreThoseOfTheContract) {
   }
 }
 
-TEST(WeightsRomAddresses, OfAGapAreTheLastOfNoCrossing) {
+TEST(WeightsRomAddresses, GapUsesTheLastEntriesWithoutCrossing) {
   const WeightsRom::Query query = WeightsRom::ask_gap();
   for (const std::size_t side : {0u, 1u}) {
     EXPECT_EQ(query.a[side], 63);
@@ -64,8 +65,8 @@ TEST(WeightsRomAddresses, OfAGapAreTheLastOfNoCrossing) {
   }
 }
 
-// All three tables at their ends: the sum is limited, not cut.
-TEST(WeightsRomWords, AreLimitedToEightBits) {
+// All three tables at their limits: the sum saturates.
+TEST(WeightsRomWords, SumSaturatesAtEightBits) {
   WeightsRom rom(1);
   for (const int entry : {127, -128}) {
     for (std::size_t i = 0; i < WeightsRom::kEntries; ++i)
@@ -79,8 +80,8 @@ TEST(WeightsRomWords, AreLimitedToEightBits) {
   }
 }
 
-// Which of the three words is asked for first is the compiler's choice.
-TEST(WeightsRomCycles, AWordIsNotThereInTheClockOfItsAddress) {
+// The order in which the three words are requested is the compiler's choice.
+TEST(WeightsRomCycles, WordNeedsOneCycleAfterItsAddress) {
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;
   WeightsRom rom(1);
@@ -100,7 +101,7 @@ TEST(WeightsRomCycles, AWordIsNotThereInTheClockOfItsAddress) {
               ThrowsMessage<spec::CheckFailed>(HasSubstr("weights_")));
 }
 
-TEST(WeightsRomLoad, KeepsEntriesAndTheirSum) {
+TEST(WeightsRomLoad, LoadUpdatesEntriesAndSum) {
   WeightsRom rom(1);
   EXPECT_EQ(rom.sum(), spec::morphological::kWeightsSum);
   std::uint32_t sum = 0;

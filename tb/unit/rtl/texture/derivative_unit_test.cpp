@@ -12,7 +12,9 @@ namespace {
 using namespace rtl::texture;
 
 struct DerivativeBench {
-  DerivativeBench() {
+  explicit DerivativeBench(
+      spec::texture::Derivatives derivatives = spec::texture::Derivatives::kFine)
+      : unit("unit", clock, store.control, store.descriptors.for_derivatives, probe, derivatives) {
     unit.quads_in(ends.in);
     unit.derivatives_out(ends.out);
     spec::texture::Descriptor d;
@@ -24,7 +26,7 @@ struct DerivativeBench {
   ClockDomain clock{"clock", period()};
   Store store{clock};
   rtl::LatencyProbe probe;
-  DerivativeUnit unit{"unit", clock, store.control, store.descriptors.for_derivatives, probe};
+  DerivativeUnit unit;
   Ends<spec::texture::Quad, DerivativeToken> ends{clock};
 };
 
@@ -49,6 +51,33 @@ TEST(TextureRtlDerivative, RoundsToNearestAndSaturates) {
   EXPECT_EQ(b.ends.sink.taken[1].token.size_t_y, 8192u << 16);
   EXPECT_EQ(b.ends.sink.taken[2].token.size_s_x, 0x7FFFFFFFu);
   EXPECT_EQ(b.unit.saturated.value(), 1u);
+}
+
+// Lanes 0 to 3 of s are 0, 1, 10 and 15, of t 0, 20, 2 and 50 coordinate units; by lane s_x, t_x,
+// s_y and t_y.
+using Differences = std::array<std::array<std::int64_t, 4>, 4>;
+void expect_differences(spec::texture::Derivatives derivatives, const Differences& expected) {
+  DerivativeBench b(derivatives);
+  spec::texture::Quad q;
+  q.s = {0, 1, 10, 15};
+  q.t = {0, 20, 2, 50};
+  b.ends.source.add(q);
+  b.clock.run(12);
+  ASSERT_EQ(b.ends.sink.taken.size(), 4u);
+  EXPECT_EQ(b.ends.sink.taken[0].cycle, 1 + DerivativeUnit::datasheet().latency.cycles);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const DerivativeToken& d = b.ends.sink.taken[lane].token;
+    EXPECT_THAT(expected[lane], testing::ElementsAre(d.s_x, d.t_x, d.s_y, d.t_y)) << lane;
+    EXPECT_EQ(d.s, q.s[lane]);
+  }
+}
+TEST(TextureRtlDerivative, FineUsesRowAndColumnOfTheLane) {
+  expect_differences(spec::texture::Derivatives::kFine,
+                     {{{1, 20, 10, 2}, {1, 20, 14, 30}, {5, 48, 10, 2}, {5, 48, 14, 30}}});
+}
+TEST(TextureRtlDerivative, CoarseUsesRow0AndColumn0) {
+  expect_differences(spec::texture::Derivatives::kCoarse,
+                     {{{1, 20, 10, 2}, {1, 20, 10, 2}, {1, 20, 10, 2}, {1, 20, 10, 2}}});
 }
 
 TEST(TextureRtlDerivative, TakesOneCyclePerCoveredLane) {

@@ -552,7 +552,7 @@ Verdict compare_addresser(const Parameters&, bool fault) {
 
 Verdict compare_filter(const Parameters& p, bool fault) {
   const FilterWork work = filter_work(p);
-  Pair<hw::TexelQuadToken, spec::texture::Colour> bench;
+  Pair<hw::TexelQuadToken, spec::texture::ColourGroup> bench;
   rtl::LatencyProbe probe;
   hw::FilterPipeline unit("unit", bench.clock, p, probe);
   unit.texels_in(bench.in);
@@ -566,7 +566,9 @@ Verdict compare_filter(const Parameters& p, bool fault) {
         return token;
       },
       work.colours.size(),
-      [&](std::uint64_t i, const spec::texture::Colour& got) { return got == work.colours[i]; });
+      [&](std::uint64_t i, const spec::texture::ColourGroup& got) {
+        return got.count == 1 && got.colour[0] == work.colours[i];
+      });
   return bench.verdict;
 }
 

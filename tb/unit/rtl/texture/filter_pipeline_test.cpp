@@ -16,11 +16,13 @@ using testing::ElementsAre;
 spec::texture::Configuration configuration(
     spec::texture::Kernel kernel = spec::texture::Kernel::kBox,
     spec::texture::CountRule count = spec::texture::CountRule::kFloor,
-    spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear) {
+    spec::texture::SrgbOutput output = spec::texture::SrgbOutput::kLinear,
+    spec::texture::Blend blend = spec::texture::Blend::kSample) {
   spec::texture::Configuration r;
   r.kernel = kernel;
   r.count = count;
   r.srgb_output = output;
+  r.blend = blend;
   return r;
 }
 
@@ -37,7 +39,7 @@ struct FilterBench {
   ClockDomain clock{"clock", period()};
   rtl::LatencyProbe probe;
   FilterPipeline unit;
-  Ends<TexelQuadToken, spec::texture::Colour> ends{clock};
+  Ends<TexelQuadToken, spec::texture::ColourGroup> ends{clock};
 };
 
 // A request that is a whole fragment.
@@ -71,7 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(configuration(),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
-                                  spec::texture::SrgbOutput::kEncoded)));
+                                  spec::texture::SrgbOutput::kEncoded),
+                    configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
+                                  spec::texture::SrgbOutput::kEncoded,
+                                  spec::texture::Blend::kLevel)));
 
 // Weight 0 for each sample, whatever its texels.
 TEST_P(FilterBuild, FragmentWithoutTextureIsZero) {
@@ -83,7 +88,7 @@ TEST_P(FilterBuild, FragmentWithoutTextureIsZero) {
   b.clock.run(30);
   ASSERT_EQ(b.ends.sink.taken.size(), 2u);
   for (const auto& taken : b.ends.sink.taken)
-    EXPECT_THAT(taken.token.rgba, ElementsAre(0, 0, 0, 0));
+    EXPECT_THAT(taken.token.colour[0].rgba, ElementsAre(0, 0, 0, 0));
 }
 
 TEST_P(FilterBuild, LatencyMatchesDatasheet) {
@@ -111,8 +116,8 @@ TEST_P(FilterBuild, TakesOneRequestPerCycleAndSurvivesStalls) {
   for (std::size_t i = 0; i < 100; ++i) {
     const Cycle alone = i + 1 + latency;
     EXPECT_EQ(b.ends.sink.taken[i].cycle, alone < 40 ? alone : alone + 17);
-    EXPECT_EQ(b.ends.sink.taken[i].token.tag, i);
-    EXPECT_EQ(b.ends.sink.taken[i].token.rgba[0], i);
+    EXPECT_EQ(b.ends.sink.taken[i].token.colour[0].tag, i);
+    EXPECT_EQ(b.ends.sink.taken[i].token.colour[0].rgba[0], i);
   }
   // The link takes one more colour and is free again one cycle after its consumer resumes: the
   // pipeline stalls as long as the consumer does, with a token in every stage.
@@ -120,6 +125,49 @@ TEST_P(FilterBuild, TakesOneRequestPerCycleAndSurvivesStalls) {
   for (std::size_t stage = 0; stage < FilterPipeline::kStages; ++stage)
     EXPECT_EQ(b.unit.occupancy[stage].value(), stage < latency ? 100u + 17 : 0u);
   EXPECT_EQ(b.unit.fragments.value(), 100u);
+}
+
+// Two equal samples of two levels: R, of which the coarser level has the share f / 256.
+struct BlendBench : FilterBench {
+  explicit BlendBench(spec::texture::Blend blend)
+      : FilterBench(configuration(spec::texture::Kernel::kBox, spec::texture::CountRule::kFloor,
+                                  spec::texture::SrgbOutput::kLinear, blend)),
+        by_level(blend == spec::texture::Blend::kLevel) {}
+  int red(const std::array<std::uint32_t, 4>& finer, const std::array<std::uint32_t, 4>& coarser,
+          std::uint16_t f) {
+    const Cycle start = clock.cycle();
+    for (std::uint8_t i = 0; i < 4; ++i) {
+      const bool second_level = by_level ? i >= 2 : i % 2 == 1,
+                 second_sample = by_level ? i % 2 == 1 : i >= 2;
+      TexelQuadToken t = request(Format::kRgba8, second_level ? coarser : finer, 4, 4);
+      t.control.level_weight = second_level ? f : static_cast<std::uint16_t>(256 - f);
+      t.control.index = second_sample;
+      t.control.last_index = 1;
+      t.control.last_of_sample = by_level ? second_sample : second_level;
+      t.control.last_of_fragment = i == 3;
+      add(t);
+    }
+    clock.run(20);
+    // The last of the four requests is taken in cycle 4.
+    EXPECT_EQ(ends.sink.taken.at(colours).cycle, start + 4 + 8);
+    return ends.sink.taken.at(colours++).token.colour[0].rgba[0];
+  }
+  bool by_level;
+  std::size_t colours = 0;
+};
+// Texels 1, 1, 1, 0 with fractions 4/256 give 4095/4096, half of which is 2047.5/4096: `sample`
+// rounds this to 2048, and then to 1; `level` rounds once, to 0.
+TEST(TextureRtlFilter, BlendSampleRoundsEachSample) {
+  BlendBench b(spec::texture::Blend::kSample);
+  EXPECT_EQ(b.red({1, 1, 1, 0}, {}, 128), 1);
+  EXPECT_EQ(b.red({100, 100, 100, 100}, {200, 200, 200, 200}, 64), 125);
+  EXPECT_EQ(b.red({255, 255, 255, 255}, {255, 255, 255, 255}, 255), 255);
+}
+TEST(TextureRtlFilter, BlendLevelRoundsOnce) {
+  BlendBench b(spec::texture::Blend::kLevel);
+  EXPECT_EQ(b.red({1, 1, 1, 0}, {}, 128), 0);
+  EXPECT_EQ(b.red({100, 100, 100, 100}, {200, 200, 200, 200}, 64), 125);
+  EXPECT_EQ(b.red({255, 255, 255, 255}, {255, 255, 255, 255}, 255), 255);
 }
 
 TEST(TextureRtlFilter, ResetDropsPartialSums) {
@@ -137,7 +185,7 @@ TEST(TextureRtlFilter, ResetDropsPartialSums) {
   b.add(request(Format::kRgba8, grey(3, 0, 0, 0)));
   b.clock.run(20);
   ASSERT_EQ(b.ends.sink.taken.size(), 1u);
-  EXPECT_EQ(b.ends.sink.taken[0].token.rgba[0], 3);
+  EXPECT_EQ(b.ends.sink.taken[0].token.colour[0].rgba[0], 3);
 }
 
 // A single request, in each stage in turn.

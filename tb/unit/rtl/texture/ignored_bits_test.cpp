@@ -75,7 +75,8 @@ class IgnoredBits : public testing::TestWithParam<Variant> {
     std::erase_if(
         trail, [](const std::string& line) { return line.find("TEXTURE") != std::string::npos; });
     for (const auto& taken : bench.sink.taken)
-      trail.push_back(std::to_string(taken.cycle - start) + ": " + rtl::payload_text(taken.token));
+      trail.push_back(std::to_string(taken.cycle - start) + ": " +
+                      rtl::payload_text(taken.token.colour[0]));
     for (const std::uint64_t line : bench.memory.lines_read())
       trail.push_back(std::to_string(line));
     return trail;

@@ -60,7 +60,7 @@ class Kit : public EngineKit {
   Outcome outcome() {
     NamedWords colours("colours"), cycles("cycles of colours");
     for (std::size_t i = before_; i < bench_.sink.taken.size(); ++i) {
-      colours.add(bench_.sink.taken[i].token);
+      for (const spec::texture::Colour& colour : bench_.sink.taken[i].token) colours.add(colour);
       cycles.add(bench_.sink.taken[i].cycle - begin_);
     }
     return {{colours}, {{"lines read", bench_.memory.lines_read()}}, {cycles}};

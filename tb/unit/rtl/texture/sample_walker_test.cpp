@@ -13,8 +13,9 @@ using namespace rtl::texture;
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name, spec::texture::Kernel kernel,
               std::int32_t spread,
-              spec::texture::CountRule count = spec::texture::CountRule::kFloor)
-      : unit((name + "unit").c_str(), clock, count, kernel, spread), ends(clock, name) {
+              spec::texture::CountRule count = spec::texture::CountRule::kFloor,
+              spec::texture::Blend blend = spec::texture::Blend::kSample)
+      : unit((name + "unit").c_str(), clock, count, kernel, spread, blend), ends(clock, name) {
     unit.levels_in(ends.in);
     unit.samples_out(ends.out);
   }
@@ -117,6 +118,60 @@ TEST(TextureRtlWalker, CostsNTimesLevelsCycles) {
   for (const auto& t : b.ends.sink.taken)
     if (t.token.last_of_fragment) got.push_back(t.cycle);
   EXPECT_EQ(got, last);
+}
+
+// Three samples of levels 4 and 5 along an axis of three units, at -1, 0 and 1: with `level` all of
+// level 4 come first, and both orders take the same cycles.
+TEST(TextureRtlWalker, BlendLevelEmitsFinerLevelFirst) {
+  struct Request {
+    std::int64_t s;
+    int level, index, weight;
+    bool last_of_sample, last_of_fragment;
+    bool operator==(const Request&) const = default;
+  };
+  using spec::texture::Blend;
+  const std::vector<Request> by_sample = {{99, 4, 0, 179, false, false},
+                                          {99, 5, 0, 77, true, false},
+                                          {100, 4, 1, 179, false, false},
+                                          {100, 5, 1, 77, true, false},
+                                          {101, 4, 2, 179, false, false},
+                                          {101, 5, 2, 77, true, true}},
+                             by_level = {
+                                 {99, 4, 0, 179, false, false}, {100, 4, 1, 179, false, false},
+                                 {101, 4, 2, 179, true, false}, {99, 5, 0, 77, false, false},
+                                 {100, 5, 1, 77, false, false}, {101, 5, 2, 77, true, true}};
+  ClockDomain clock("clock", period());
+  WalkerBench sample(clock, "sample_", spec::texture::Kernel::kBox, 64,
+                     spec::texture::CountRule::kAny, Blend::kSample),
+      level(clock, "level_", spec::texture::Kernel::kBox, 64, spec::texture::CountRule::kAny,
+            Blend::kLevel);
+  for (WalkerBench* b : {&sample, &level}) {
+    b->ends.source.add({ticket(), 100, 0, 3, -3, 2, 4, 77, true});
+    b->ends.source.add({ticket(), 100, 0, 3, -3, 2, 4, 0, true});  // only one level
+  }
+  clock.run(30);
+  for (const WalkerBench* b : {&sample, &level}) {
+    std::vector<Request> got;
+    std::vector<Cycle> cycles, expected_cycles;
+    for (const auto& t : b->ends.sink.taken) {
+      EXPECT_EQ(t.token.t, 100 - t.token.s);
+      cycles.push_back(t.cycle);
+      if (got.size() < 6)
+        got.push_back({t.token.s, t.token.level, t.token.index, t.token.level_weight,
+                       t.token.last_of_sample, t.token.last_of_fragment});
+    }
+    EXPECT_EQ(got, b == &level ? by_level : by_sample);
+    for (Cycle i = 0; i < 9; ++i)
+      expected_cycles.push_back(1 + sheet_of(spec::texture::CountRule::kAny).latency.cycles + i);
+    EXPECT_EQ(cycles, expected_cycles);
+    EXPECT_EQ(b->unit.samples.value(), 6u);
+    ASSERT_EQ(b->ends.sink.taken.size(), 9u);
+    for (std::size_t i = 6; i < 9; ++i) {
+      EXPECT_EQ(b->ends.sink.taken[i].token.level_weight, 256);
+      EXPECT_EQ(b->ends.sink.taken[i].token.last_of_sample, b == &sample || i == 8);
+      EXPECT_EQ(b->ends.sink.taken[i].token.last_of_fragment, i == 8);
+    }
+  }
 }
 
 }  // namespace

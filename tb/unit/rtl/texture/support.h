@@ -135,6 +135,7 @@ struct UnitBench {
                      std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
                      const sc_core::sc_time& clock_period = period())
       : clock("clock", clock_period),
+        colours("colours", 2, rtl::texture::colours_shape(parameters)),
         unit("unit", clock, parameters, {static_cast<std::int32_t>(latency + scatter), 1}),
         memory("memory", clock_period, memory_parameters(latency, scatter)) {
     unit.quads_in(quads);
@@ -156,10 +157,10 @@ struct UnitBench {
 
   ClockDomain clock;
   Link<spec::texture::Quad> quads{"quads"};
-  Link<spec::texture::Colour> colours{"colours"};
+  Link<spec::texture::ColourGroup> colours;
   Source<spec::texture::Quad> source{"source", clock};
   rtl::texture::TextureUnit unit;
-  Sink<spec::texture::Colour> sink{"sink", clock};
+  Sink<spec::texture::ColourGroup> sink{"sink", clock};
   platform::MemoryModel memory;
   platform::RegisterHost bus{"bus"};
 };

@@ -44,7 +44,7 @@ TEST(TextureRtlCache, TimesMatchTable) {
     SCOPED_TRACE(row.name);
     EXPECT_EQ(b.time_of(row.request), row.time);
     asked.push_back(row.request);
-    const TagStage& tags = b.cache.tag_stage;
+    const TagUnit& tags = b.cache.tag_stage;
     EXPECT_EQ(tags.hits.value() - hits, static_cast<std::uint64_t>(row.hits));
     EXPECT_EQ(tags.misses.value() - misses, static_cast<std::uint64_t>(row.misses));
     EXPECT_EQ(tags.evictions.value() - evictions, static_cast<std::uint64_t>(row.evictions));

@@ -47,7 +47,7 @@ TEST(TextureRtlUnit, NearestReturnsTexelsInOrder) {
     for (int lane = 0; lane < 4; ++lane) {
       if (!(i >> lane & 1)) continue;
       ASSERT_LT(at, b.sink.taken.size());
-      const spec::texture::Colour& c = b.sink.taken[at++].token;
+      const spec::texture::Colour& c = b.sink.taken[at++].token.colour[0];
       EXPECT_EQ(c.tag, static_cast<std::uint32_t>(1000 + i));
       EXPECT_EQ(c.lane, lane);
       EXPECT_EQ(c.last, (i & 15) >> (lane + 1) == 0);
@@ -189,7 +189,8 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
   ASSERT_TRUE(b.finish());
   ASSERT_EQ(b.sink.taken.size(), warm + 4 * quads.size());
   for (std::size_t i = warm + 1; i < b.sink.taken.size(); ++i)
-    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle, cost[b.sink.taken[i].token.tag]);
+    EXPECT_EQ(b.sink.taken[i].cycle - b.sink.taken[i - 1].cycle,
+              cost[b.sink.taken[i].token.colour[0].tag]);
   // The cache had a request in every cycle between the first and the last.
   EXPECT_EQ(b.unit.cache.tag_stage.requests.value(), b.bus.read(reg::kBilinears));
 }
@@ -213,7 +214,7 @@ TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
   for (std::size_t i = 0; i < 200; ++i) {
     const Cycle alone = start + 1 + 30 + i;
     EXPECT_EQ(b.sink.taken[warm + i].cycle, alone < start + 100 ? alone : alone + 63);
-    EXPECT_EQ(b.sink.taken[warm + i].token.tag, i / 4);
+    EXPECT_EQ(b.sink.taken[warm + i].token.colour[0].tag, i / 4);
   }
   EXPECT_GT(b.unit.filter.cycles_of(rtl::kStalledDownstream), 50u);
 }
@@ -309,9 +310,10 @@ TEST(TextureRtlUnit, InvalidDescriptorsGiveZeroAndAreCounted) {
   ASSERT_TRUE(b.finish());
   ASSERT_EQ(b.sink.taken.size(), 17u * 4);
   for (const auto& t : b.sink.taken) {
-    const bool valid = t.token.tag == 13 || t.token.tag == 14;
-    EXPECT_EQ(t.token.rgba[3], valid ? 255 : 0) << t.token.tag;
-    EXPECT_EQ(t.token.rgba[0], valid ? 8 + (t.token.lane & 1) : 0) << t.token.tag;
+    const bool valid = t.token.colour[0].tag == 13 || t.token.colour[0].tag == 14;
+    EXPECT_EQ(t.token.colour[0].rgba[3], valid ? 255 : 0) << t.token.colour[0].tag;
+    EXPECT_EQ(t.token.colour[0].rgba[0], valid ? 8 + (t.token.colour[0].lane & 1) : 0)
+        << t.token.colour[0].tag;
   }
   EXPECT_EQ(b.bus.read(reg::kInvalidFragments), 15u * 4);
   EXPECT_EQ(b.bus.read(reg::kFragments), 17u * 4);
@@ -338,9 +340,9 @@ TEST(TextureRtlUnit, MemoryErrorsAreReported) {
   b.source.add(q);
   ASSERT_TRUE(b.finish());
   ASSERT_EQ(b.sink.taken.size(), 8u);
-  EXPECT_THAT(b.sink.taken[1].token.rgba, ElementsAre(3, 4, 0, 255));
-  EXPECT_THAT(b.sink.taken[2].token.rgba, ElementsAre(0, 0, 0, 0));
-  EXPECT_THAT(b.sink.taken[4].token.rgba, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(b.sink.taken[1].token.colour[0].rgba, ElementsAre(3, 4, 0, 255));
+  EXPECT_THAT(b.sink.taken[2].token.colour[0].rgba, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(b.sink.taken[4].token.colour[0].rgba, ElementsAre(0, 0, 0, 0));
   EXPECT_EQ(b.bus.read(reg::kMemoryErrors), 3u);
   EXPECT_EQ(b.bus.read(reg::kStatus), reg::kStatusIdle | reg::kStatusMemoryError);
 }
@@ -371,7 +373,7 @@ TEST(TextureRtlUnit, DefaultLatencyFifoFitsTheMemory) {
   const rtl::texture::TextureUnit plain("plain", clock, {}), slow("slow", clock, {}, {300, 4}),
       slowest("slowest", clock, {}, {4090, 1}), as_ordered("as_ordered", clock, ordered, {300, 4});
   const auto depth = [](const rtl::texture::TextureUnit& unit) {
-    const std::uint64_t built = unit.cache.latency_fifo.entries.words();
+    const std::uint64_t built = unit.cache.narrow->latency_fifo.entries.words();
     EXPECT_EQ(static_cast<std::uint64_t>(unit.parameters().cache_fifo_depth), built);
     return built;
   };

@@ -66,12 +66,33 @@ TEST(TextureRtlTokens, TagWidthFollowsFillBufferEntries) {
   }
 }
 
+// With width 1, colours_out has the fields and bits of one colour; above, a count and W colours.
+TEST(TextureRtlTokens, ColourLinkFollowsWidth) {
+  const auto names = [](const Payload& payload) {
+    std::vector<std::string> all;
+    for (const Field& field : payload.fields())
+      all.push_back(field.name + " " + std::to_string(field.first_bit));
+    return all;
+  };
+  const Payload colour = Payload::of<spec::texture::Colour>();
+  spec::texture::Build p;
+  EXPECT_EQ(names(Payload::of<spec::texture::ColourGroup>(colours_shape(p))), names(colour));
+  for (const auto& [width, count_bits] : {std::pair{2, 2}, {4, 3}}) {
+    p.width = width;
+    const Payload wide = Payload::of<spec::texture::ColourGroup>(colours_shape(p));
+    EXPECT_EQ(wide.bits(), static_cast<std::uint32_t>(count_bits) +
+                               static_cast<std::uint32_t>(width) * colour.bits());
+    EXPECT_EQ(wide.fields()[1].name, "colour.0.tag");
+  }
+}
+
 // By default, tokens have the widths that the largest caches need.
 TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   spec::texture::Build large, many;
   large.cache_line_bytes = 128;
   large.cache_bytes = 512 * 128;
   many.cache_line_bytes = 32;
+  many.cache_lookups = spec::texture::kMostLookups;
   EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
   EXPECT_EQ(Payload::of<MissToken>(miss_shape(many)).bits(), Payload::of<MissToken>().bits());
 }

@@ -66,20 +66,20 @@ std::string lines(std::span<const LineVector> vectors) {
   return table.text();
 }
 
-TEST(GeometricVectorsPage, HasTheFrames) {
-  expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.HasTheFrames",
+TEST(GeometricVectorsPage, FrameTablesMatchSpec) {
+  expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.FrameTablesMatchSpec",
                    frames(kFrameVectors));
   expect_table_has_each_value(kFrameVectors, frames);
 }
 
-TEST(GeometricVectorsPage, HasTheSpecialCases) {
-  expect_generated("reference/geometric/vectors.md", "GeometricVectorsPage.HasTheSpecialCases",
-                   frames(kSpecialFrameVectors));
+TEST(GeometricVectorsPage, SpecialCaseTablesMatchSpec) {
+  expect_generated("reference/geometric/vectors.md",
+                   "GeometricVectorsPage.SpecialCaseTablesMatchSpec", frames(kSpecialFrameVectors));
   expect_table_has_each_value(kSpecialFrameVectors, frames);
 }
 
-TEST(GeometricVectorsPage, HasTheLines) {
-  expect_generated("reference/geometric/algorithm.md", "GeometricVectorsPage.HasTheLines",
+TEST(GeometricVectorsPage, LineTableMatchesSpec) {
+  expect_generated("reference/geometric/algorithm.md", "GeometricVectorsPage.LineTableMatchesSpec",
                    lines(kLineVectors));
   expect_table_has_each_value(kLineVectors, lines);
 }

@@ -116,53 +116,55 @@ std::string weights(std::span<const TableVector> vectors) {
 
 constexpr const char* kPage = "reference/morphological/vectors.md";
 
-TEST(MorphologicalVectorsPage, HasTheFrames) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFrames", frames(kFrameVectors));
+TEST(MorphologicalVectorsPage, FrameTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.FrameTableMatchesSpec", frames(kFrameVectors));
   expect_table_has_each_value(kFrameVectors, frames);
 }
 
-TEST(MorphologicalVectorsPage, HasTheFramesOfSmaa) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFramesOfSmaa", frames(kSmaaFrameVectors));
+TEST(MorphologicalVectorsPage, SmaaFrameTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.SmaaFrameTableMatchesSpec",
+                   frames(kSmaaFrameVectors));
 }
 
-TEST(MorphologicalVectorsPage, HasTheFramesOfTheGuard) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheFramesOfTheGuard",
+TEST(MorphologicalVectorsPage, GuardFrameTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.GuardFrameTableMatchesSpec",
                    frames(kGuardFrameVectors));
 }
 
-TEST(MorphologicalVectorsPage, HasTheDrawingsOfTheGuard) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheDrawingsOfTheGuard",
+TEST(MorphologicalVectorsPage, GuardDrawingTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.GuardDrawingTableMatchesSpec",
                    drawings(kGuardVectors));
   auto changed = kGuardVectors;
   changed.back().guarded = "--- --g ---";  // the injected fault
   EXPECT_NE(drawings(changed), drawings(kGuardVectors));
 }
 
-TEST(MorphologicalVectorsPage, HasTheRuns) {
-  expect_generated("reference/morphological/algorithm.md", "MorphologicalVectorsPage.HasTheRuns",
-                   runs(kRunVectors));
+TEST(MorphologicalVectorsPage, RunTableMatchesSpec) {
+  expect_generated("reference/morphological/algorithm.md",
+                   "MorphologicalVectorsPage.RunTableMatchesSpec", runs(kRunVectors));
   expect_table_has_each_value(kRunVectors, runs);
 }
 
-TEST(MorphologicalVectorsPage, HasThePatterns) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasThePatterns", patterns(kPatternVectors));
+TEST(MorphologicalVectorsPage, PatternTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.PatternTableMatchesSpec",
+                   patterns(kPatternVectors));
   expect_table_has_each_value(kPatternVectors, patterns);
 }
 
-TEST(MorphologicalVectorsPage, HasTheLimits) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheLimits", limits(kLimitVectors));
+TEST(MorphologicalVectorsPage, LimitTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.LimitTableMatchesSpec", limits(kLimitVectors));
   expect_table_has_each_value(kLimitVectors, limits);
 }
 
-TEST(MorphologicalVectorsPage, HasTheTables) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheTables", hashes(kTableHashes));
+TEST(MorphologicalVectorsPage, RomHashesMatchSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.RomHashesMatchSpec", hashes(kTableHashes));
   TableHashes changed = kTableHashes;
   changed.mix ^= 1;  // the injected fault
   EXPECT_NE(hashes(changed), hashes(kTableHashes));
 }
 
-TEST(MorphologicalVectorsPage, HasTheSharesOfTheTables) {
-  expect_generated(kPage, "MorphologicalVectorsPage.HasTheSharesOfTheTables",
+TEST(MorphologicalVectorsPage, AreaWeightTableMatchesSpec) {
+  expect_generated(kPage, "MorphologicalVectorsPage.AreaWeightTableMatchesSpec",
                    weights(kTableVectors));
   expect_table_has_each_value(kTableVectors, weights);
 }

@@ -162,7 +162,7 @@ TEST(FrameRoles, ListsCompositionNamesAsValuesAndHelp) {
   EXPECT_EQ(made.shorthands().front().parameter, "drawer.told");
 }
 
-// The value that the composition sets in the engine, and who set it.
+// The value that the composition sets in the engine, and its origin.
 std::string told(const std::string& smoothing, const std::string& engine) {
   FrameRoles made(roles());
   ParameterSet set;

@@ -36,19 +36,19 @@ TEST(GeometricConfiguration, RejectsParametersWithoutEffect) {
   };
   const std::string depth = "geometric.depth_test = off reads no depth";
   const std::string outermost =
-      "without geometric.depth_test = farther no pixel is known to be nearer than its neighbour: "
-      "outermost is max";
+      "without geometric.depth_test = farther no pixel is known to be nearer than its neighbour, "
+      "so outermost equals max";
   for (const Row& row : std::vector<Row>{
            {{}, ""},
            {{{"select", "all"}, {"crease", "off"}},
-            "geometric.select = all draws every edge, crease or not"},
+            "geometric.select = all draws every edge, whether it is a crease or not"},
            {{{"select", "all"}, {"crease_depth", "3"}}, "geometric.select = all has no creases"},
            {{{"select", "all"}, {"cull", "none"}},
             "geometric.select = all draws every edge, whichever way its faces are turned"},
            {{{"select", "all"}, {"face_limit", "16384"}},
             "geometric.select = all reads no facing bits"},
            {{{"select", "mesh"}, {"cull", "none"}},
-            "geometric.select = mesh never looks whichever way faces are turned"},
+            "geometric.select = mesh ignores which way faces are turned"},
            {{{"select", "mesh"}, {"face_limit", "16384"}},
             "geometric.select = mesh reads no facing bits"},
            {{{"select", "edges"}, {"cull", "none"}, {"face_limit", "16384"}}, ""},
@@ -62,9 +62,9 @@ TEST(GeometricConfiguration, RejectsParametersWithoutEffect) {
             "geometric.frame_copy = false copies nothing"},
            {{{"frame_copy", "true"}, {"copy_lines", "8"}}, ""},
            {{{"pipelined", "true"}, {"dividers", "1"}, {"reciprocal_table", "0"}},
-            "geometric.pipelined = true takes a line every clock: one divider is enough"},
+            "geometric.pipelined = true accepts a line every cycle with one divider"},
            {{{"pipelined", "true"}, {"reciprocal_table", "0"}},
-            "geometric.pipelined = true takes a line every clock without one"},
+            "geometric.pipelined = true accepts a line every cycle without one"},
            {{{"pipelined", "false"}, {"dividers", "2"}}, ""}})
     EXPECT_EQ(complaint(row.settings), row.said)
         << (row.settings.empty() ? "" : row.settings.back().first + row.settings[0].second);
@@ -89,8 +89,8 @@ TEST(GeometricConfiguration, ChecksFaceCountAgainstLimits) {
   constexpr std::uint64_t kStep = spec::geometric::kFacesInLine;
   EXPECT_EQ(said(1000, Select::kEdges, 1000), "");
   EXPECT_EQ(said(kStep + 1, Select::kEdges, kStep),
-            fmt::format("the mesh 'many' has {} faces, and the hardware holds the facing bits of "
-                        "{}: give it more (--set geometric.face_limit={}), or simplify the mesh",
+            fmt::format("the mesh 'many' has {} faces, the hardware has facing bits for {}: raise "
+                        "the limit (--set geometric.face_limit={}) or simplify the mesh",
                         kStep + 1, kStep, 2 * kStep));
   EXPECT_EQ(said(2 * kStep, Select::kEdges, kStep).find("face_limit=" + std::to_string(3 * kStep)),
             std::string::npos);
@@ -111,11 +111,10 @@ TEST(GeometricConfiguration, NotesThatAllEdgesWereDropped) {
   EXPECT_THAT(
       dropped_notes(work),
       ElementsAre(
-          "all 12,345 edges were dropped (1 turned away from the eye, 2 no crease, 3 behind "
-          "the eye or outside the guard band, 4 outside the frame, 5 without length, 6,000 "
-          "with an index out of range): nothing was smoothed; geometric.cull = none draws "
-          "those that are turned away, for an eye inside of a mesh or one wound the other "
-          "way"));
+          "all 12,345 edges were dropped (1 turned away from the eye, 2 no crease, 3 behind the "
+          "eye or outside the guard band, 4 outside the frame, 5 without length, 6,000 with an "
+          "index out of range): nothing was smoothed; for a camera inside the mesh, or a mesh with "
+          "the opposite winding order, set geometric.cull = none"));
   work = {};
   work.edges = work.flat_edges = 7;
   EXPECT_THAT(dropped_notes(work),
@@ -130,10 +129,8 @@ TEST(GeometricConfiguration, NotesLatencyFifoBelowTheFills) {
   p.latency_fifo = 8;
   EXPECT_THAT(build_notes(p), IsEmpty());
   p.latency_fifo = 7;
-  EXPECT_THAT(build_notes(p),
-              ElementsAre("geometric.latency_fifo = 7 is below geometric.fills = 8: "
-                          "look-ups wait before all lines that may be on their way "
-                          "are asked for"));
+  EXPECT_THAT(build_notes(p), ElementsAre("geometric.latency_fifo = 7 is below geometric.fills = "
+                                          "8: lookups stall before all fills are outstanding"));
 }
 
 // So that a run reveals each field that is not programmed.

@@ -29,7 +29,8 @@ TEST(EdgePictures, ShowLinesByClassAndWeights) {
   const tb::Image classes = class_picture(frame, {});
   EXPECT_EQ(classes.at(3, 5), (Rgba8{255, 40, 40, 255}));
   EXPECT_EQ(classes.at(9, 3), (Rgba8{85, 73, 0, 255}));
-  EXPECT_EQ(classes.at(9, 5), (Rgba8{255, 40, 40, 255})) << "what is seen goes over what is not";
+  EXPECT_EQ(classes.at(9, 5), (Rgba8{255, 40, 40, 255}))
+      << "visible lines are drawn over hidden ones";
   EXPECT_EQ(classes.at(3, 4), (Rgba8{30, 30, 30, 255}));
 
   spec::geometric::BlockRecord block;

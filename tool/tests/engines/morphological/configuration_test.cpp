@@ -43,10 +43,11 @@ TEST(MorphologicalConfiguration, RejectsParametersWithoutEffect) {
       "morphological.edges.source = depth compares depths, by edges.depth_threshold";
   const std::string own =
       "morphological.edges.source is neither luma nor colour and has thresholds of its own";
-  const std::string dynamic = "it belongs to morphological.edges.threshold_mode = dynamic";
+  const std::string dynamic = "it is only used with morphological.edges.threshold_mode = dynamic";
   const std::string none = "morphological.predictor = none extends no run";
-  const std::string depths = "it belongs to morphological.edges.source = depth or predicated";
-  const std::string predicated = "it belongs to morphological.edges.source = predicated";
+  const std::string depths =
+      "it is only used with morphological.edges.source = depth or predicated";
+  const std::string predicated = "it is only used with morphological.edges.source = predicated";
   for (const Row& row : std::vector<Row>{
            {{}, ""},
            {{{"edges.source", "depth"}, {"edges.local_contrast", "off"}}, of_depth},
@@ -76,17 +77,17 @@ TEST(MorphologicalConfiguration, RejectsParametersWithoutEffect) {
            {{{"predictor", "none"}, {"safe", "true"}}, none},
            {{{"predictor", "none"}, {"trim", "true"}}, none},
            {{{"preset", "mlaa"}, {"quality", "high"}},
-            "it belongs to morphological.preset = smaa or smaa-dynamic"},
+            "it is only used with morphological.preset = smaa or smaa-dynamic"},
            {{{"preset", "smaa"}, {"quality", "high"}}, ""},
            {{{"area", "analytic"}, {"search_steps", "8"}},
             "morphological.area = analytic and learned search nothing"},
            {{{"area", "learned"}, {"search_steps", "8"}},
             "morphological.area = analytic and learned search nothing"},
            {{{"diagonals", "false"}, {"diagonal_steps", "8"}},
-            "it belongs to morphological.diagonals = true"},
+            "it is only used with morphological.diagonals = true"},
            {{{"diagonals", "true"}, {"diagonal_steps", "8"}}, ""},
            {{{"round_corners", "false"}, {"corner_rounding", "8"}},
-            "it belongs to morphological.round_corners = true"},
+            "it is only used with morphological.round_corners = true"},
            {{{"round_corners", "true"}, {"corner_rounding", "8"}}, ""},
            {{{"storage", "line_buffers"}, {"memory.outstanding", "8"}},
             "morphological.storage = line_buffers uses no memory"},
@@ -103,7 +104,7 @@ TEST(MorphologicalConfiguration, NotesThresholdsBelowOneCode) {
   const auto note = [](const std::string& name, int value) {
     return fmt::format(
         "morphological.{} = {} is {:.5f} of a code, so noise makes edges: its unit is code / {}; "
-        "multiply a number from before 0.3.0 by 255",
+        "multiply values for versions before 0.3.0 by 255",
         name, value, double(value) / kOneCode, kOneCode);
   };
   const int low = kOneCode - 1;
@@ -133,8 +134,9 @@ TEST(MorphologicalConfiguration, NotesThresholdsBelowOneCode) {
   p.alpha = least - 1;
   const auto alpha = [&](const std::string& floor) {
     return fmt::format(
-        "morphological.edges.alpha = {} is {:.5f}, below a code even of white{}: its unit is 1 / "
-        "16777216; multiply a number from before 0.3.0 by 256",
+        "morphological.edges.alpha = {} is {:.5f}, below one code even for white{}: its unit is 1 "
+        "/ "
+        "16777216; multiply values for versions before 0.3.0 by 256",
         least - 1, double(least - 1) / (1 << 24), floor);
   };
   EXPECT_THAT(build_notes(p), ElementsAre(alpha(", so edges.floor alone decides")));
@@ -143,10 +145,11 @@ TEST(MorphologicalConfiguration, NotesThresholdsBelowOneCode) {
   p.floor = kOneCode;
   p.alpha = least;
   p.trial_cycles = 3;
-  EXPECT_THAT(build_notes(p),
-              ElementsAre("morphological.trial_cycles = 3: steps of a trial weight a clock, so the "
-                          "engine is not made for 250 MHz "
-                          "(docs/reference/morphological/hardware.md, Trials)"));
+  EXPECT_THAT(
+      build_notes(p),
+      ElementsAre(
+          "morphological.trial_cycles = 3: a trial weight needs more than one step per cycle, "
+          "which does not reach 250 MHz (docs/reference/morphological/hardware.md, Trials)"));
 }
 
 // Fields with the same value in both words.

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// What the tag stages and the data stages of all widths share: counters, and the tags.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <systemc>
+#include <vector>
+
+#include "rtl_model/fabric/lookups.h"
+#include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/tag_store.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
+
+namespace deburr::rtl::texture {
+
+using rtl::LookUp;
+
+// A word may be read at the last byte of the last line.
+inline constexpr std::size_t kWordPadding = 3;
+
+// Little-endian on every host.
+inline std::uint32_t load_word(const std::uint8_t* bytes) {
+  if constexpr (std::endian::native == std::endian::little) {
+    std::uint32_t word;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  } else {
+    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+           std::uint32_t{bytes[3]} << 24;
+  }
+}
+
+// A texel is in the low bits of the word.
+inline std::uint32_t texel_mask(const FilterControl& control) {
+  static constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
+  static_assert(kMask.size() == spec::texture::kFormatNames.size());
+  return kMask[control.format];
+}
+
+// TagStage, or WideTagStage.
+class TagUnit : public Unit, public Lookups {
+ public:
+  void invalidate() { tags_.invalidate(); }
+
+  // lookups = hits + merged + misses
+  Counter requests{"requests", "requests", "bilinear requests looked up"};
+  Counter hits{"hits", "lines", "lookups of a line in the data banks"};
+  Counter merged{"merged", "lines", "lookups of a line whose fill is in flight"};
+  Counter misses{"misses", "lines", "lookups that requested a fill"};
+  Counter evictions{"evictions", "lines", "valid lines replaced"};
+
+ protected:
+  TagUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
+          const spec::texture::Parameters& p)
+      : Unit(name, clock),
+        Lookups(static_cast<std::uint32_t>(p.cache_line_bytes)),
+        tags_("tags", p),
+        fill_number_(tags_.slots()),
+        miss_queue_full_(
+            declare_stall("miss_queue_full", "a line missed and the miss queue is not ready")),
+        fifo_full_(declare_stall("fifo_full", "the latency FIFO is full")) {}
+
+  TagStore tags_;
+  // Counters only, no hardware: number of the last fill requested for each slot, from 1. The line
+  // is in flight until that number of fills has been used.
+  std::vector<std::uint64_t> fill_number_;
+  std::uint64_t ordered_ = 0, used_ = 0;
+  Activity miss_queue_full_, fifo_full_;
+};
+
+// DataStage, or WideDataStage.
+class DataUnit : public Unit {
+ public:
+  Counter lines_written{"lines_written", "lines", "fills written to the data banks"};
+  Counter conflicts;
+
+ protected:
+  DataUnit(const sc_core::sc_module_name& name, ClockDomain& clock, const char* tokens,
+           const char* conflicting)
+      : Unit(name, clock),
+        conflicts("conflicts", tokens, conflicting),
+        wait_fill_(declare_stall("wait_fill", "waits for a line of the request")),
+        write_fill_(declare_stall("write_fill", "the request has more lines to write")),
+        bank_conflict_(
+            declare_stall("bank_conflict", "the request reads more words of one bank")) {}
+
+  Activity wait_fill_, write_fill_, bank_conflict_;
+};
+
+}  // namespace deburr::rtl::texture

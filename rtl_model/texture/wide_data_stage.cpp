@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "rtl_model/texture/wide_data_stage.h"
+
+#include <algorithm>
+#include <string>
+
+namespace deburr::rtl::texture {
+namespace {
+
+// One of the copies for R reads per bank and cycle.
+MemoryShape copy_shape(const spec::texture::Parameters& p) {
+  const auto words = static_cast<std::uint32_t>(p.cache_line_bytes / 4);
+  const std::uint32_t banks = words * static_cast<std::uint32_t>(p.cache_line_banks);
+  return {.words = static_cast<std::uint64_t>(p.cache_bytes / 4),
+          .word_bits = 32,
+          .kind = MemoryKind::kSram,
+          .read_ports = std::min(4 * static_cast<std::uint32_t>(p.width), banks),
+          .write_ports = static_cast<std::uint32_t>(p.cache_fill_writes),
+          .latency = 1,
+          .read_during_write = ReadDuringWrite::kOldWord,
+          .banks = banks,
+          .span = words,
+          .separate_banks = true,
+          .content = "lines, one word of each per bank"};
+}
+
+}  // namespace
+
+WideDataStage::Copy::Copy(const char* name, const spec::texture::Parameters& p)
+    : banks(name, copy_shape(p)) {
+  for (std::uint32_t i = 0; i < banks.shape().read_ports; ++i)
+    reads.emplace_back(banks, "word_" + std::to_string(i));
+  for (std::uint32_t i = 0; i < banks.shape().write_ports; ++i)
+    writes.emplace_back(banks, "fill_" + std::to_string(i));
+}
+
+WideDataStage::WideDataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
+                             const spec::texture::Parameters& p, const FillBuffer::Reader& fills)
+    : DataUnit(name, clock, "groups", "groups with more words of one bank than a cycle reads"),
+      fills_(fills),
+      line_log2_(log2_of(p.cache_line_bytes)),
+      words_a_line_(static_cast<std::uint32_t>(p.cache_line_bytes / 4)),
+      turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
+      line_bank_mask_(static_cast<std::uint32_t>(p.cache_line_banks) - 1),
+      bank_mask_(static_cast<std::uint32_t>(p.cache_line_banks) * words_a_line_ - 1),
+      reads_(static_cast<std::uint32_t>(p.cache_bank_reads)),
+      fill_writes_(static_cast<std::uint32_t>(p.cache_fill_writes)),
+      bytes_(static_cast<std::size_t>(p.cache_bytes) + kWordPadding),
+      banks_(bank_mask_ + 1) {
+  for (std::uint32_t i = 0; i < reads_; ++i)
+    copies_.push_back(
+        std::make_unique<Copy>(reads_ == 1 ? "banks" : ("banks_" + std::to_string(i)).c_str(), p));
+}
+
+Activity WideDataStage::tick(Cycle cycle) {
+  const std::uint64_t before = lines_written.value();
+  const Activity activity = work(cycle);
+  fills_.read_ahead(cycle);
+  const auto written = static_cast<std::uint8_t>(lines_written.value() - before);
+  if (lines_used_out.driven() != written) lines_used_out.drive(cycle, written);
+  if (stall_out.driven() != stall_) stall_out.drive(cycle, stall_);
+  stall_ = activity == wait_fill_            ? SlotStall::kWaitFill
+           : activity == write_fill_         ? SlotStall::kWriteFill
+           : activity == bank_conflict_      ? SlotStall::kBankPass
+           : activity == kStalledDownstream ? SlotStall::kOutput
+                                             : SlotStall::kNone;
+  return activity;
+}
+
+// Last stage first.
+inline Activity WideDataStage::work(Cycle cycle) {
+  const bool waits = waits_;
+  if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
+  if (issued_) issued_->check(cycle, issued_word_, issued_at_);
+  issued_ = nullptr;
+  if (waits) {
+    texels_out.push(cycle, waiting_);
+    waits_ = false;
+  }
+  if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
+  const CacheGroup& group = requests_in.front(cycle);
+  if (!started_) schedule(group);
+  if (passes_done_ < passes_) read(cycle, passes_done_++);
+  // A line may replace one that is still read: write it no earlier than in the last pass, which
+  // still reads the old word.
+  if (passes_done_ < passes_) return bank_conflict_;
+  const std::uint32_t written = fills_left_ == 0 ? 0 : write_fills(cycle, group);
+  if (fills_left_ != 0) return written != 0 ? write_fill_ : wait_fill_;
+  finish(cycle, group);
+  return kBusy;
+}
+
+// Pass and port of each texel that hits.
+inline void WideDataStage::schedule(const CacheGroup& group) {
+  started_ = true;
+  ++group_;
+  hits_ = passes_ = passes_done_ = 0;
+  next_line_ = fills_left_ = 0;
+  std::array<std::uint32_t, spec::texture::kMostLookups> base{};
+  for (std::size_t k = 0; k < group.lines; ++k) {
+    base[k] = std::uint32_t{group.slot[k]} << line_log2_ | (group.turned[k] ? turn_ : 0);
+    fills_left_ += group.missed[k];
+  }
+  for (std::uint32_t r = 0; r < group.count; ++r) {
+    const GroupRequest& request = group.at[r];
+    if (!request.ticket.valid) continue;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t k = request.index[i];
+      if (group.missed[k]) continue;
+      Read& read = schedule_[hits_++];
+      read.place = base[k] ^ request.offset[i];
+      read.texel = static_cast<std::uint8_t>(4 * r + i);
+      const std::uint32_t word = read.place >> 2;
+      Bank& bank = banks_[word & bank_mask_];
+      if (bank.group != group_) {
+        bank.group = group_;
+        bank.words = 0;
+      }
+      std::uint32_t n = 0;
+      while (n < bank.words && bank.word[n] != word) ++n;
+      read.first = n == bank.words;
+      if (read.first) bank.word[bank.words++] = word;
+      const std::uint32_t pass = n / reads_;
+      read.pass = static_cast<std::uint8_t>(pass);
+      read.copy = static_cast<std::uint8_t>(n % reads_);
+      passes_ = std::max(passes_, pass + 1);
+    }
+  }
+  if (passes_ > 1) ++conflicts;
+}
+
+inline void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
+  std::array<std::uint32_t, spec::texture::kMostBankReads> ports{};
+  for (std::uint32_t i = 0; i < hits_; ++i) {
+    const Read& read = schedule_[i];
+    if (read.pass != pass) continue;
+    if (read.first) {
+      ReadPort<void>& port = copies_[read.copy]->reads[ports[read.copy]++];
+      port.read(cycle, read.place >> 2);
+      // All words of a cycle arrive together, so one of them is enough for the check.
+      issued_ = &port;
+      issued_word_ = read.place >> 2;
+      issued_at_ = cycle;
+    }
+    texel(read.texel) = load_word(&bytes_[read.place]);
+  }
+}
+
+// The number of lines written.
+std::uint32_t WideDataStage::write_fills(Cycle cycle, const CacheGroup& group) {
+  std::uint32_t written = 0, line_banks = 0;
+  while (written < fill_writes_ && fills_left_ != 0 && fills_.ready(cycle)) {
+    while (!group.missed[next_line_]) ++next_line_;
+    const std::uint32_t bank = 1u << (group.slot[next_line_] & line_bank_mask_);
+    if ((line_banks & bank) != 0) break;
+    line_banks |= bank;
+    write_fill(cycle, group, next_line_++, written++);
+    --fills_left_;
+  }
+  return written;
+}
+
+void WideDataStage::write_fill(Cycle cycle, const CacheGroup& group, std::size_t k,
+                               std::uint32_t port) {
+  const std::uint8_t* const line = fills_.line(cycle);
+  for (std::uint32_t r = 0; r < group.count; ++r) {
+    if (!group.at[r].ticket.valid) continue;
+    for (std::uint32_t i = 0; i < 4; ++i)
+      if (group.at[r].index[i] == k) texel(4 * r + i) = load_word(line + group.at[r].offset[i]);
+  }
+  const std::size_t slot = group.slot[k], line_bytes = std::size_t{1} << line_log2_;
+  for (const auto& copy : copies_)
+    copy->writes[port].write(cycle, slot * words_a_line_, words_a_line_);
+  const std::size_t turn = group.turned[k] ? turn_ : 0;
+  for (std::size_t at = 0; at < line_bytes; at += turn_)
+    std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
+  fills_.release(cycle);
+  ++lines_written;
+}
+
+// Passes the group to stage 2; the texels of an invalid texture are 0.
+inline void WideDataStage::finish(Cycle cycle, const CacheGroup& group) {
+  waiting_.count = group.count;
+  for (std::size_t r = 0; r < group.count; ++r) {
+    const GroupRequest& request = group.at[r];
+    TexelQuadToken& out = waiting_.at[r];
+    out.ticket = request.ticket;
+    out.control = request.control;
+    const std::uint32_t mask = request.ticket.valid ? texel_mask(request.control) : 0;
+    if (mask != ~0U)
+      for (std::uint32_t& word : out.texel) word &= mask;
+  }
+  waits_ = true;
+  requests_in.pop(cycle);
+  started_ = false;
+}
+
+void WideDataStage::reset() {
+  started_ = waits_ = false;
+  stall_ = SlotStall::kNone;
+  issued_ = nullptr;
+}
+
+Datasheet WideDataStage::datasheet() {
+  return {
+      .unit = "WideDataStage",
+      .does = "Reads the texels of a group from the banks and writes its fills.",
+      .latency = {2, "2, from the last cycle of a group"},
+      .interval = {1, "max(1, bank passes) cycles per group; the writes of its fills begin in the "
+                      "last of them"},
+      .stages =
+          {{"1",
+            "waits for the group's fills and takes up to `fill_writes` of them; addresses the "
+            "texels that hit before it writes fills",
+            "14-bit comparison, number of the word in its bank (16 inputs), 16 : 1 mux of "
+            "addresses per port of a bank: about 1.0 x the 24 x 24 multiply by estimate"},
+           {"2", "words, texels; missed texels from the fill buffer",
+            "SRAM read, mux of words (`bank_reads` x `line_banks` x words of a line : 1) and a "
+            "byte mux"}},
+      .cost =
+          "`bank_reads` copies of `line_banks` x words of a line banks of 32 bits, SRAM 1R1W; by "
+          "estimate for `width = 4`: 16 texel registers and word muxes, 120 comparators of places, "
+          "`fill_writes` line muxes."};
+}
+
+}  // namespace deburr::rtl::texture

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The TagStage of a wide build: looks up the lines of a group, allocates those that miss, and sends
+// them to the MissQueue.
+//
+// Position  GroupFormer -> WideTagStage -> WideLatencyFifo and MissQueue.
+// Interval  1 if the group misses at most A lines: max(1, misses / A) cycles.
+// Order     Every use of a line by a request counts, in the order of the requests: so replacement is
+//           that of width 1. The model makes all lookups of a group in its first cycle in stage 2;
+//           nothing sees the tags before its last one, in which the lookups are counted.
+// Stalls    allocate         More lines to allocate.
+//           miss_queue_full  The group misses and the MissQueue is not ready.
+//           fifo_full        The LatencyFifo is full.
+// Output    `stall_out`, a register, names the stall of the previous cycle; for a full FIFO the one
+//           that `stall_in` reports of the DataStage two cycles ago.
+// Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <systemc>
+
+#include "rtl_model/fabric/datasheet.h"
+#include "rtl_model/fabric/wire.h"
+#include "rtl_model/texture/cache_units.h"
+#include "rtl_model/texture/tokens.h"
+#include "spec/texture/parameters.h"
+
+namespace deburr::rtl::texture {
+
+class WideTagStage final : public TagUnit {
+ public:
+  In<LineGroup> groups_in{"groups_in"};
+  Out<CacheGroup> requests_out{"requests_out"};
+  Out<MissToken> misses_out{"misses_out"};
+  WireIn<std::uint8_t> lines_used_in{"lines_used_in"};  // fills that the DataStage has used
+  WireIn<SlotStall> stall_in{"stall_in"};
+  WireOut<SlotStall> stall_out{"stall_out"};
+
+  WideTagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
+               const spec::texture::Parameters& parameters);
+  Activity tick(Cycle cycle) override;
+  void reset() override;
+
+  static Datasheet datasheet();
+
+ private:
+  Activity work(Cycle cycle, SlotStall& stall);
+  void read_sets(Cycle cycle);
+  void look_up(Cycle cycle);
+  void count_uses(Cycle cycle);
+
+  // A use of a line by a request: the number of its fill at that time, kMissed if it missed.
+  struct Use {
+    std::uint32_t line;
+    std::uint64_t fill;
+  };
+  static constexpr std::uint64_t kMissed = ~std::uint64_t{0};
+
+  std::uint32_t allocations_, set_log2_, way_mask_, ways_log2_;
+  Activity allocate_;
+  // Registers of the group in stage 2.
+  LineGroup group_{};
+  bool occupied_ = false, looked_up_ = false;
+  CacheGroup out_{};
+  MissToken missed_{};
+  std::uint32_t left_ = 0;  // further cycles of allocation
+  Cycle read_at_ = 0;       // check only, no hardware
+  // Counters only: uses of the group in stage 2.
+  std::array<Use, 4 * kMostInGroup> uses_{};
+  std::uint32_t used_lines_ = 0, valid_requests_ = 0;
+};
+
+}  // namespace deburr::rtl::texture
