@@ -151,7 +151,11 @@ TEST(Cycles, FifoAndFillBufferLimitTheRateOfMisses) {
   EXPECT_EQ(with(106, 106), 135u + 499 + 499 / 106);
   EXPECT_EQ(with(107, 105), 135u + 499 + 499 / 105);
   EXPECT_EQ(with(0, 106, {.latency = 99}), 134u + 499);
-  EXPECT_EQ(with(60, 0, {.latency = 40}), 75u + 499 + 499 / 16 * (46 - 16));  // 12.8: 16 entries
+  // 32 latency / 100 entries: at least 8, a multiple of 4, at most 256.
+  EXPECT_EQ(with(0, 0, {.latency = 5}), 40u + 499 + 499 / 8 * (11 - 8));
+  EXPECT_EQ(with(0, 0, {.latency = 40}), 75u + 499 + 499 / 16 * (46 - 16));
+  EXPECT_EQ(with(0, 0, {.latency = 101}), 136u + 499 + 499 / 36 * (107 - 36));
+  EXPECT_EQ(with(0, 0, {.latency = 1000}), 1035u + 499 + 499 / 256 * (1006 - 256));
   EXPECT_EQ(with(0, 256, {.outstanding = 50}), 135u + 499 + 499 / 50 * 50);
 }
 
@@ -245,16 +249,21 @@ TEST(Cycles, ARequestThatExceedsALimitLeavesAlone) {
   EXPECT_EQ(alone.slots.banks, 3u);
 }
 
-// In an order that fills one quad after the other: 3 + 1, 2 + 2, 1 + 3, and so on.
 TEST(Cycles, WalkingRegistersJoinTwoFragmentGroups) {
+  const auto quad = [](std::size_t requests) { return Quad(requests, kInvalid); };
   Parameters p = wide();
-  const Quads three_lanes = repeated(Quad(3, kInvalid), 40);  // 120 requests
-  const CyclePrediction prediction = predict(p, three_lanes);
-  EXPECT_EQ(prediction.requests, 120u);
-  // One quad per cycle enters, so groups of four wait for the next quad.
-  EXPECT_EQ(prediction.cycles, 32u + 39);
+  EXPECT_EQ(cycles(p, repeated(quad(3), 40)), 32u + 39);  // one quad per cycle
   p.fragments = 2;
-  EXPECT_EQ(cycles(p, repeated(Quad(4, kInvalid), 40)), 32u + 79);
+  EXPECT_EQ(cycles(p, repeated(quad(4), 40)), 32u + 79);
+  // Fragment groups of 5 requests: 4, 1 + 3, 2 + 2, 3 + 1, 4, 5 ...
+  p.fragments = 4;
+  CacheRequest first = kInvalid;
+  first.last = false;
+  EXPECT_EQ(cycles(p, repeated({first, kInvalid, kInvalid, kInvalid, kInvalid}, 40)), 32u + 49);
+  // 4, 4, 1 + 1, 1: never three fragment groups.
+  Quad nine(8, first);
+  nine.push_back(kInvalid);
+  EXPECT_EQ(cycles(p, {nine, quad(1), quad(1)}), 32u + 3);
 }
 
 TEST(Cycles, PartialQuadsAndStarvedSlots) {
@@ -310,19 +319,37 @@ TEST(Cycles, AFullFifoStallsTheGroupFormer) {
     EXPECT_EQ(slots,
               (Slots{.requests = 400, .wait_fill = 4u * (27u - static_cast<unsigned>(depth))}));
   }
-  p.cache_fifo_depth = 0;  // 20 + 4 + 3 + 16
-  EXPECT_EQ(predict(p, quads, {.latency = 20}).slots, Slots{.requests = 400});
+  p.cache_fifo_depth = 0;  // 40 + 4 + 3 + 16
+  const Quads four_lines = joined({{at(0), at(kLine), at(2 * kLine), at(3 * kLine)}}, quads);
+  EXPECT_EQ(predict(p, four_lines, {.latency = 40, .outstanding = 1}).slots,
+            (Slots{.requests = 404, .wait_fill = 4 * (4 * 40 + 7 - 63 - 2), .write_fill = 4 * 2}));
+}
+
+// While the GroupFormer is blocked, its buffer and the walking registers take one quad more than
+// they hold in the flow. A full link gives no quad in advance: it takes the next one a cycle late.
+TEST(Cycles, BufferAndWalkingRegistersBridgeTwoGapsAfterAStall) {
+  Parameters p = wide();
+  p.cache_fifo_depth = 2;
+  for (const int gap : {1, 2, 3, 20}) {
+    const Quads quads = joined(repeated(Quad(4, at(0)), 60),
+                               joined(repeated({}, gap), repeated(Quad(4, at(0)), 10)));
+    EXPECT_EQ(predict(p, quads, {.latency = 100}).slots.starved,
+              4u * static_cast<unsigned>(std::max(gap - 2, 0)));
+  }
 }
 
 TEST(Cycles, AFullMissQueueStallsTheGroupFormer) {
   Parameters p = wide();
   p.cache_outstanding = 8;
   const CyclePrediction prediction = predict(p, lines(0, 200, 4));
+  // 8 lines in 106 cycles, the first one in cycle 22.
+  const auto sent = [](unsigned line) { return 22 + line / 8 * 106 + line % 8; };
+  EXPECT_EQ(prediction.cycles, 137u + sent(199) - 22);
+  // 8 lines wait in the MissQueue, 2 in its link, 1 in the TagStage and 2 in its link: when line n
+  // is sent, the MissQueue pops line n + 8, and two cycles later group n + 13 leaves.
+  EXPECT_EQ(prediction.slots.all(), 4u * (sent(199 - 13) + 2 - 18 + 1));
   EXPECT_EQ(prediction.slots.requests, 800u);
-  EXPECT_GT(prediction.slots.miss_queue, 0u);
-  EXPECT_EQ(prediction.slots.all() % 4, 0u);
-  // 8 lines in 106 cycles.
-  EXPECT_EQ(prediction.cycles, 137u + 199 / 8 * 106 + 199 % 8);
+  EXPECT_EQ(prediction.slots.miss_queue, prediction.slots.all() - 800);
 }
 
 // Requests of 4 words of one bank hold the DataStage until the four lines of the last group have
