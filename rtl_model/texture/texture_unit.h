@@ -7,7 +7,8 @@
 //                      |
 //                  registers (TLM-2.0 target)
 //
-// Source    Paper 2.1, figure 3.
+// Structure At widths above 1 the three work on groups of requests:
+// docs/reference/texture/width.md. Source    Paper 2.1, figure 3.
 #pragma once
 
 #include <functional>
@@ -51,23 +52,48 @@ class TextureUnit final : public Engine {
  private:
   spec::texture::Parameters parameters_;
   LatencyProbe probe_;
-  Descriptors descriptors_{"descriptors", control};
+  Descriptors descriptors_;
 
  public:
-  AddressUnit address;
+  // Of each pair the first is built at width 1, the second at widths above 1.
+  const std::unique_ptr<AddressUnit> address;
+  const std::unique_ptr<wide::AddressUnit> wide_address;
   TextureCache cache;
-  FilterPipeline filter;
+  const std::unique_ptr<FilterPipeline> filter;
+  const std::unique_ptr<wide::FilterPipeline> wide_filter;
 
+  // Calls use() with the AddressUnit (the FilterPipeline) that is built.
+  template <class Use>
+  decltype(auto) with_address(Use&& use) const {
+    return address ? use(*address) : use(*wide_address);
+  }
+  template <class Use>
+  decltype(auto) with_filter(Use&& use) const {
+    return filter ? use(*filter) : use(*wide_filter);
+  }
+  // Counters of units that are built.
+  const Counter& taken;      // fragments of quads that were popped
+  const Counter& magnified;  // of them, those with l <= 0
+  const Counter& samples;
+  const Counter& bilinears;
+  const Counter& fragments;  // colours delivered
   // Cycles from taking a fragment's quad until its colour is available.
-  const Histogram& fragment_latency = filter.fragment_latency;
+  const Histogram& fragment_latency;
 
   bool idle() const override;
   // As built, with the actual depth of the FIFO.
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
-  Link<TexelToken> texels_{"texels"};
-  Link<TexelQuadToken> texel_quads_{"texel_quads"};
+  template <class Address, class Filter, class Texels, class TexelQuads>
+  void connect(Address& address_unit, Filter& filter_pipeline, Texels& texels,
+               TexelQuads& texel_quads);
+
+  // As above.
+  const std::unique_ptr<Link<TexelToken>> texels_;
+  const std::unique_ptr<Link<TexelQuadToken>> texel_quads_;
+  const std::unique_ptr<Link<TexelGroup>> texel_groups_;
+  const std::unique_ptr<Link<TexelQuadGroup>> texel_quad_groups_;
   std::vector<std::unique_ptr<sc_core::sc_module>> stand_ins_;
 };
 

@@ -26,11 +26,11 @@ class AddressInEngine final
 
  public:
   AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
-      : Base("address_hdl", unit.address.derivative.clock(), seed, unit.address.derivative.quads_in,
-             unit.address.addresser.texels_out),
+      : Base("address_hdl", unit.address->derivative.clock(), seed,
+             unit.address->derivative.quads_in, unit.address->addresser.texels_out),
         unit_(unit),
         probe_(probe) {
-    rtl::texture::AddressUnit& address = unit.address;
+    rtl::texture::AddressUnit& address = *unit.address;
     rtl::ClockDomain& clock = this->clock();
     rtl::texture::DerivativeUnit& d = address.derivative;
     clock.replace(d, {&d.quads, &d.fragments, &d.clamped, &d.saturated, &d.invalid});
@@ -60,7 +60,7 @@ class AddressInEngine final
  private:
   bool admits() const override { return unit_.control.enabled(); }
   void popped(rtl::Cycle cycle, const spec::texture::Quad& quad) override {
-    rtl::texture::DerivativeUnit& d = unit_.address.derivative;
+    rtl::texture::DerivativeUnit& d = unit_.address->derivative;
     const unsigned lanes = quad.coverage & 0xFu;
     const auto covered = static_cast<std::uint64_t>(std::popcount(lanes));
     ++d.quads;
@@ -70,9 +70,9 @@ class AddressInEngine final
   }
   void pushed(rtl::Cycle, const rtl::texture::TexelToken& request) override {
     if (request.ticket.valid) {
-      ++unit_.address.addresser.bilinears;
+      ++unit_.address->addresser.bilinears;
     } else {
-      ++unit_.address.derivative.invalid;
+      ++unit_.address->derivative.invalid;
       unit_.control.set_sticky(spec::texture::reg::kStatusInvalidTexture);
     }
   }
@@ -131,9 +131,9 @@ class FilterInEngine final
  public:
   FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
       : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup>(
-            "filter_hdl", unit.filter.clock(), seed, unit.filter.texels_in, unit.filter.colours_out,
-            rtl::texture::colours_shape(unit.parameters())),
-        filter_(unit.filter),
+            "filter_hdl", unit.filter->clock(), seed, unit.filter->texels_in,
+            unit.filter->colours_out, rtl::texture::colours_shape(unit.parameters())),
+        filter_(*unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});
   }

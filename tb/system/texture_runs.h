@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "golden/texture/cycle_predictor.h"
 #include "golden/texture/texture_golden.h"
 #include "tb/engines/texture/texture_counterparts.h"
 #include "tb/engines/texture/texture_environment.h"
@@ -22,7 +23,20 @@ struct TextureOutcome {
   std::uint64_t cycles = 0, colour_hash = 0, colours = 0, bilinears = 0, samples = 0, fills = 0;
   std::uint64_t activations = 0;
   std::uint64_t comparisons = 0, mismatches = 0, traffic_comparisons = 0, traffic_mismatches = 0;
+  golden::texture::Slots slots{};  // at widths above 1
+  std::uint64_t all_slots = 0, output_slots = 0;
 };
+
+inline void add_slots(const rtl::texture::TextureUnit& unit, TextureOutcome& outcome) {
+  if (!unit.cache.wide) return;
+  const rtl::texture::GroupFormer& former = unit.cache.wide->group_former;
+  outcome.slots = {former.requests.value(),   former.lookups.value(),      former.banks.value(),
+                   former.set.value(),        former.partial_quad.value(), former.starved.value(),
+                   former.allocate.value(),   former.miss_queue.value(),   former.wait_fill.value(),
+                   former.write_fill.value(), former.bank_pass.value()};
+  outcome.all_slots = former.slots.value();
+  outcome.output_slots = former.output.value();
+}
 
 // A square picture of `side` pixels of a named scene with a 1024 x 1024 texture.
 inline SceneParameters picture(const std::string& source, int side) {
@@ -89,17 +103,19 @@ inline TextureOutcome simulate(const SceneParameters& scene, const SamplerParame
   Result result;
   simulation.collect(result);
   const golden::texture::TextureWork& work = environment.golden_work();
-  return {simulation.cycles(),
-          environment.colour_hash(),
-          environment.delivered(),
-          work.bilinears,
-          work.samples,
-          work.line_fills,
-          simulation.activations(),
-          result.comparisons,
-          result.mismatches,
-          result.traffic_comparisons,
-          result.traffic_mismatches};
+  TextureOutcome outcome = {simulation.cycles(),
+                            environment.colour_hash(),
+                            environment.delivered(),
+                            work.bilinears,
+                            work.samples,
+                            work.line_fills,
+                            simulation.activations(),
+                            result.comparisons,
+                            result.mismatches,
+                            result.traffic_comparisons,
+                            result.traffic_mismatches};
+  add_slots(environment.unit(), outcome);
+  return outcome;
 }
 
 }  // namespace deburr::tb

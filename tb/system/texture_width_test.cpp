@@ -87,6 +87,9 @@ TEST_P(Width, CyclesEqualPrediction) {
     EXPECT_EQ(outcome.fills, expected.fills);
     EXPECT_EQ(outcome.cycles, expected.cycles + kAroundUnit)
         << "latency " << latency << ", " << bytes << " bytes per cycle";
+    EXPECT_EQ(outcome.slots, expected.slots);
+    EXPECT_EQ(outcome.all_slots, expected.slots.all());
+    EXPECT_EQ(outcome.output_slots, 0u);
   }
 }
 
