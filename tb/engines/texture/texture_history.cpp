@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <string>
 
 #include "tb/engines/texture/texture_links.h"
@@ -59,27 +61,47 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
         for (Fragment& fragment : fragments_)
           if (fragment.quad.quad.tag == quad.tag) fragment.taken = cycle;
       }));
-  see(clock, link_of<DerivativeToken>(unit, "address_unit.derivatives"), &Fragment::derivative);
-  see(clock, link_of<FootprintToken>(unit, "address_unit.footprints"), &Fragment::footprint);
-  see(clock, link_of<Log2Token>(unit, "address_unit.logs"), &Fragment::log2);
-  see(clock, link_of<LevelToken>(unit, "address_unit.levels"), &Fragment::level);
-  see_all(clock, link_of<SampleToken>(unit, "address_unit.samples"), &Fragment::samples);
-  see_all(clock, link_of<TexelToken>(unit, "texels"), &Fragment::texels);
-  // A request leaves the TagStage in the cycle of its lookups.
-  unit.cache.tag_stage.observer = [this](rtl::Cycle cycle, std::uint32_t line, LookUp outcome) {
-    if (!looked_up_.empty() && looked_up_.front().cycle != cycle) looked_up_.clear();
+  see(clock, unit, "address_unit.derivatives", &Fragment::derivative);
+  see(clock, unit, "address_unit.footprints", &Fragment::footprint);
+  see(clock, unit, "address_unit.logs", &Fragment::log2);
+  see(clock, unit, "address_unit.levels", &Fragment::level);
+  see_all<SampleGroup>(clock, unit, "address_unit.samples", &Fragment::samples);
+  see_all<TexelGroup>(clock, unit, "texels", &Fragment::texels);
+  // A request leaves the TagStage in the cycle of its lookups, a group in that of its last ones.
+  const bool groups = unit.cache.wide != nullptr;
+  unit.cache.tag_stage.observer = [this, groups](rtl::Cycle cycle, std::uint32_t line,
+                                                 LookUp outcome) {
+    if (!groups && !looked_up_.empty() && looked_up_.front().cycle != cycle) looked_up_.clear();
     looked_up_.push_back({cycle, line, outcome});
   };
-  monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
-      clock, link_of<CacheToken>(unit, "texture_cache.requests"),
-      [this](rtl::Cycle cycle, const CacheToken& token) {
-        Fragment* const fragment = find(token.ticket.tag, token.ticket.lane);
-        if (!fragment) return;
-        fragment->lookups.emplace_back(std::vector<LookedUp>(), cycle);
-        if (!looked_up_.empty() && looked_up_.front().cycle == cycle)
-          fragment->lookups.back().first = looked_up_;
-      }));
-  see_all(clock, link_of<TexelQuadToken>(unit, "texel_quads"), &Fragment::data);
+  if (groups)
+    monitors_.push_back(std::make_unique<Monitor<CacheGroup>>(
+        clock, link_of<CacheGroup>(unit, "texture_cache.requests"),
+        [this](rtl::Cycle cycle, const CacheGroup& group) {
+          auto next = looked_up_.begin();
+          for (std::size_t i = 0; i < group.count; ++i) {
+            const GroupRequest& request = group.at[i];
+            const std::set<std::uint8_t> lines(request.index.begin(), request.index.end());
+            const auto left = static_cast<std::size_t>(looked_up_.end() - next);
+            const auto uses = static_cast<std::ptrdiff_t>(
+                request.ticket.valid ? std::min(lines.size(), left) : 0);
+            if (Fragment* fragment = find(request.ticket.tag, request.ticket.lane))
+              fragment->lookups.emplace_back(std::vector<LookedUp>(next, next + uses), cycle);
+            next += uses;
+          }
+          looked_up_.clear();
+        }));
+  else
+    monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
+        clock, link_of<CacheToken>(unit, "texture_cache.requests"),
+        [this](rtl::Cycle cycle, const CacheToken& token) {
+          Fragment* const fragment = find(token.ticket.tag, token.ticket.lane);
+          if (!fragment) return;
+          fragment->lookups.emplace_back(std::vector<LookedUp>(), cycle);
+          if (!looked_up_.empty() && looked_up_.front().cycle == cycle)
+            fragment->lookups.back().first = looked_up_;
+        }));
+  see_all<TexelQuadGroup>(clock, unit, "texel_quads", &Fragment::data);
   // Colours are recorded when taken, to include changes while they wait.
   monitors_.push_back(std::make_unique<Monitor<spec::texture::ColourGroup>>(
       clock, colours, Monitor<spec::texture::ColourGroup>::Callback(),
@@ -91,20 +113,20 @@ TextureHistory::TextureHistory(rtl::ClockDomain& clock, rtl::texture::TextureUni
 }
 
 template <class T>
-void TextureHistory::see(rtl::ClockDomain& clock, const rtl::Link<T>& link,
-                         Seen<T> Fragment::*where) {
-  monitors_.push_back(
-      std::make_unique<Monitor<T>>(clock, link, [this, where](rtl::Cycle cycle, const T& token) {
+void TextureHistory::see(rtl::ClockDomain& clock, const rtl::texture::TextureUnit& unit,
+                         const char* link, Seen<T> Fragment::*where) {
+  monitors_.push_back(watch_tokens<T, rtl::texture::FragmentGroup<T>>(
+      clock, unit, link, [this, where](rtl::Cycle cycle, const T& token) {
         if (Fragment* fragment = find(token.ticket.tag, token.ticket.lane))
           (fragment->*where).emplace(token, cycle);
       }));
 }
 
-template <class T>
-void TextureHistory::see_all(rtl::ClockDomain& clock, const rtl::Link<T>& link,
-                             AllSeen<T> Fragment::*where) {
+template <class Group, class T>
+void TextureHistory::see_all(rtl::ClockDomain& clock, const rtl::texture::TextureUnit& unit,
+                             const char* link, AllSeen<T> Fragment::*where) {
   monitors_.push_back(
-      std::make_unique<Monitor<T>>(clock, link, [this, where](rtl::Cycle cycle, const T& token) {
+      watch_tokens<T, Group>(clock, unit, link, [this, where](rtl::Cycle cycle, const T& token) {
         if (Fragment* fragment = find(token.ticket.tag, token.ticket.lane))
           (fragment->*where).emplace_back(token, cycle);
       }));

@@ -75,9 +75,11 @@ class TextureHistory {
   int lane_of(const traces::TracedQuad& quad) const;  // -1 if none
   Fragment* find(std::uint32_t tag, int lane);
   template <class T>
-  void see(rtl::ClockDomain& clock, const rtl::Link<T>& link, Seen<T> Fragment::*where);
-  template <class T>
-  void see_all(rtl::ClockDomain& clock, const rtl::Link<T>& link, AllSeen<T> Fragment::*where);
+  void see(rtl::ClockDomain& clock, const rtl::texture::TextureUnit& unit, const char* link,
+           Seen<T> Fragment::*where);
+  template <class Group, class T>
+  void see_all(rtl::ClockDomain& clock, const rtl::texture::TextureUnit& unit, const char* link,
+               AllSeen<T> Fragment::*where);
 
   PixelAddress pixel_;
   std::uint32_t line_bytes_;

@@ -2,6 +2,7 @@
 #include "tb/engines/texture/texture_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -37,11 +38,9 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
     else if (unplaced)
       *unplaced += value;
   };
-  using rtl::texture::CacheToken;
-  using rtl::texture::LevelToken;
-  monitors_.push_back(std::make_unique<Monitor<LevelToken>>(
-      clock, link_of<LevelToken>(unit, "address_unit.levels"),
-      [this, add](rtl::Cycle, const LevelToken& token) {
+  using namespace rtl::texture;
+  monitors_.push_back(watch_tokens<LevelToken, FragmentGroup<LevelToken>>(
+      clock, unit, "address_unit.levels", [this, add](rtl::Cycle, const LevelToken& token) {
         const auto& [tag, lane] = std::pair(token.ticket.tag, token.ticket.lane);
         add(tag, lane, samples_, token.last_index + 1U, &unplaced_.samples);
         add(tag, lane, misses_, 0, nullptr);
@@ -50,11 +49,27 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
         if (quad && quad->placed && lane < 4)
           level_.set(quad->x(lane), quad->y(lane), token.level + kFraction * token.fraction);
       }));
-  monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
-      clock, link_of<CacheToken>(unit, "texture_cache.requests"),
-      [this, add](rtl::Cycle, const CacheToken& token) {
-        add(token.ticket.tag, token.ticket.lane, misses_, token.fills, &unplaced_.misses);
-      }));
+  if (unit.cache.wide) {
+    monitors_.push_back(std::make_unique<Monitor<CacheGroup>>(
+        clock, link_of<CacheGroup>(unit, "texture_cache.requests"),
+        [this, add](rtl::Cycle, const CacheGroup& group) {
+          std::array<bool, spec::texture::kMostLookups> counted{};
+          for (std::size_t i = 0; i < group.count; ++i) {
+            const GroupRequest& request = group.at[i];
+            if (!request.ticket.valid) continue;
+            int fills = 0;  // of lines that no earlier request of the group used
+            for (const std::uint8_t line : request.index)
+              if (group.missed[line] && !std::exchange(counted[line], true)) ++fills;
+            add(request.ticket.tag, request.ticket.lane, misses_, fills, &unplaced_.misses);
+          }
+        }));
+  } else {
+    monitors_.push_back(std::make_unique<Monitor<CacheToken>>(
+        clock, link_of<CacheToken>(unit, "texture_cache.requests"),
+        [this, add](rtl::Cycle, const CacheToken& token) {
+          add(token.ticket.tag, token.ticket.lane, misses_, token.fills, &unplaced_.misses);
+        }));
+  }
   monitors_.push_back(std::make_unique<Monitor<spec::texture::Quad>>(
       clock, quads, Monitor<spec::texture::Quad>::Callback(),
       [this](rtl::Cycle cycle, const spec::texture::Quad& quad) {
