@@ -3,25 +3,28 @@
 
 namespace deburr::rtl::texture {
 
-AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                         const spec::texture::Parameters& p, ControlRegisters& registers,
-                         const Descriptors& descriptors, LatencyProbe& probe)
+template <class Width>
+AddressUnitOf<Width>::AddressUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                    const spec::texture::Parameters& p, ControlRegisters& registers,
+                                    const Descriptors& descriptors, LatencyProbe& probe)
     : sc_module(name),
       derivative("derivative_unit", clock, registers, descriptors.for_derivatives, probe,
-                 p.derivatives),
+                 p.derivatives, p.fragments),
       footprint(p.axes == spec::texture::Axes::kTwo
                     ? std::make_unique<FootprintUnit>("footprint_unit", clock, p.footprint)
                     : nullptr),
       axis(footprint ? nullptr
                      : std::make_unique<AxisUnit>("axis_unit", clock, p.axes, p.footprint,
                                                   p.axis_cycles)),
-      log2("log2_unit", clock, p.log2),
+      log2("log2_unit", clock, p.log2, p.fragments),
       level("level_unit", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
-      walker("sample_walker", clock, p.count, p.kernel, p.spread, p.blend),
-      addresser("texel_addresser", clock, descriptors.for_texels),
-      footprints_("footprints", 2, footprint_shape(p)),
-      logs_("logs", 2, axis_shape(p)),
-      levels_("levels", 2, axis_shape(p)) {
+      walker("sample_walker", clock, p.count, p.kernel, p.spread, p.blend, p),
+      addresser("texel_addresser", clock, descriptors.for_texels, descriptors.for_younger_texels),
+      derivatives_("derivatives", 2, fragments_shape<Width>(p, {})),
+      footprints_("footprints", 2, fragments_shape<Width>(p, footprint_shape(p))),
+      logs_("logs", 2, fragments_shape<Width>(p, axis_shape(p))),
+      levels_("levels", 2, fragments_shape<Width>(p, axis_shape(p))),
+      samples_("samples", 2, requests_shape<Width>(p)) {
   const auto between = [&](auto& unit) {
     unit->derivatives_in(derivatives_);
     unit->footprints_out(footprints_);
@@ -42,7 +45,8 @@ AddressUnit::AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   addresser.texels_out(texels_out);
 }
 
-Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
+template <class Width>
+Datasheet AddressUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const bool two = p.axes == spec::texture::Axes::kTwo;
   Datasheet sheet = {.unit = "AddressUnit",
                      .does = "From quads to bilinear requests: the units above in series.",
@@ -54,5 +58,8 @@ Datasheet AddressUnit::datasheet(const spec::texture::Parameters& p) {
     sheet.latency.cycles += block.latency.cycles;
   return sheet;
 }
+
+template class AddressUnitOf<Narrow>;
+template class AddressUnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

@@ -6,7 +6,8 @@
 //                                 or AxisUnit      -> TexelAddresser -> texels_out
 //
 // Structure `axes = four` or `eight` builds the AxisUnit instead of the FootprintUnit. Links with
-//           two entries connect the units.
+//           two entries connect the units. At widths above 1 groups of fragments, then of requests
+//           take their places.
 // Stalls    downstream
 // Source    Paper 2.2, figure 4.
 #pragma once
@@ -27,14 +28,23 @@
 
 namespace deburr::rtl::texture {
 
-class AddressUnit final : public sc_core::sc_module {
+template <class Width>
+class AddressUnitOf : public sc_core::sc_module {
+  using DerivativeUnit = Built<Width, texture::DerivativeUnit, wide::DerivativeUnit>;
+  using FootprintUnit = Built<Width, texture::FootprintUnit, wide::FootprintUnit>;
+  using AxisUnit = Built<Width, texture::AxisUnit, wide::AxisUnit>;
+  using Log2Unit = Built<Width, texture::Log2Unit, wide::Log2Unit>;
+  using LevelUnit = Built<Width, texture::LevelUnit, wide::LevelUnit>;
+  using SampleWalker = Built<Width, texture::SampleWalker, wide::SampleWalker>;
+  using TexelAddresser = Built<Width, texture::TexelAddresser, wide::TexelAddresser>;
+
  public:
   In<spec::texture::Quad> quads_in{"quads_in"};
-  Out<TexelToken> texels_out{"texels_out"};
+  Out<typename Width::template Requests<TexelToken>> texels_out{"texels_out"};
 
-  AddressUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-              const spec::texture::Parameters& parameters, ControlRegisters& registers,
-              const Descriptors& descriptors, LatencyProbe& probe);
+  AddressUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                const spec::texture::Parameters& parameters, ControlRegisters& registers,
+                const Descriptors& descriptors, LatencyProbe& probe);
 
   DerivativeUnit derivative;
   // Exactly one of the two is built.
@@ -48,11 +58,22 @@ class AddressUnit final : public sc_core::sc_module {
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
-  Link<DerivativeToken> derivatives_{"derivatives"};
-  Link<FootprintToken> footprints_;
-  Link<Log2Token> logs_;
-  Link<LevelToken> levels_;
-  Link<SampleToken> samples_{"samples"};
+  Link<typename Width::template Fragments<DerivativeToken>> derivatives_;
+  Link<typename Width::template Fragments<FootprintToken>> footprints_;
+  Link<typename Width::template Fragments<Log2Token>> logs_;
+  Link<typename Width::template Fragments<LevelToken>> levels_;
+  Link<typename Width::template Requests<SampleToken>> samples_;
 };
+
+class AddressUnit final : public AddressUnitOf<Narrow> {
+ public:
+  using AddressUnitOf::AddressUnitOf;
+};
+namespace wide {
+class AddressUnit final : public AddressUnitOf<Wide> {
+ public:
+  using AddressUnitOf::AddressUnitOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

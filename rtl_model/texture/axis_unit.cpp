@@ -42,32 +42,39 @@ std::int64_t with_sign(std::uint32_t size, std::int64_t difference) {
 
 }  // namespace
 
-AxisUnit::AxisUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   spec::texture::Axes axes, spec::texture::FootprintRule rule,
-                   std::int32_t axis_cycles)
+template <class Width>
+AxisUnitOf<Width>::AxisUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                              spec::texture::Axes axes, spec::texture::FootprintRule rule,
+                              std::int32_t axis_cycles)
     : Unit(name, clock),
       rule_(rule),
       step_(axes == spec::texture::Axes::kEight ? 1 : 2),
       more_cycles_(axis_cycles - 1) {}
 
-Activity AxisUnit::tick(Cycle cycle) {
+template <class Width>
+Activity AxisUnitOf<Width>::tick(Cycle cycle) {
   return rule_ == spec::texture::FootprintRule::kExact ? advance(cycle, root_stages_)
                                                        : advance(cycle, stages_);
 }
 
+template <class Width>
 template <std::size_t kLength>
-Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
+Activity AxisUnitOf<Width>::advance(
+    Cycle cycle, Pipe<typename Width::template Fragments<FootprintToken>, kLength>& stages) {
   const bool arrives = cycles_left_ == 0 && derivatives_in.can_pop(cycle);
   if (stages.empty() && cycles_left_ == 0 && !arrives) return kIdle;
   if (stages.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   stages.move();
-  if (const FootprintToken* done = stages.at(kLength)) footprints_out.push(cycle, *done);
+  if (const auto* done = stages.at(kLength)) footprints_out.push(cycle, *done);
   if (arrives) {
-    const DerivativeToken& in = derivatives_in.take(cycle);
+    const auto turn_each = [this](const DerivativeToken& in, FootprintToken& out) {
+      turn(in, out);
+    };
+    const auto& group = derivatives_in.take(cycle);
     if (more_cycles_ == 0) {
-      turn(in, stages.enter());
+      each(group, stages.enter(), turn_each);
     } else {
-      turn(in, in_hand_);
+      each(group, in_hand_, turn_each);
       cycles_left_ = more_cycles_;
     }
   } else if (cycles_left_ != 0 && --cycles_left_ == 0) {
@@ -76,7 +83,8 @@ Activity AxisUnit::advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages) {
   return kBusy;
 }
 
-void AxisUnit::turn(const DerivativeToken& in, FootprintToken& out) const {
+template <class Width>
+void AxisUnitOf<Width>::turn(const DerivativeToken& in, FootprintToken& out) const {
   const Candidate major = longest(in);
   out.ticket = in.ticket;
   out.s = in.s;
@@ -91,7 +99,8 @@ void AxisUnit::turn(const DerivativeToken& in, FootprintToken& out) const {
 }
 
 // Stages 1 to 6. On ties the first candidate wins, within a cycle and across cycles.
-AxisUnit::Candidate AxisUnit::longest(const DerivativeToken& in) const {
+template <class Width>
+typename AxisUnitOf<Width>::Candidate AxisUnitOf<Width>::longest(const DerivativeToken& in) const {
   const Multiples row_s = multiples(with_sign(in.size_s_x, in.s_x)),
                   row_t = multiples(with_sign(in.size_t_x, in.t_x)),
                   column_s = multiples(with_sign(in.size_s_y, in.s_y)),
@@ -105,19 +114,22 @@ AxisUnit::Candidate AxisUnit::longest(const DerivativeToken& in) const {
   return best;
 }
 
-std::uint64_t AxisUnit::measure(std::uint64_t s, std::uint64_t t) const {
+template <class Width>
+std::uint64_t AxisUnitOf<Width>::measure(std::uint64_t s, std::uint64_t t) const {
   if (rule_ == spec::texture::FootprintRule::kExact) return s * s + t * t;
   return FootprintUnit::side(rule_, static_cast<std::uint32_t>(s), static_cast<std::uint32_t>(t));
 }
 
-void AxisUnit::reset() {
+template <class Width>
+void AxisUnitOf<Width>::reset() {
   cycles_left_ = 0;
   stages_.reset();
   root_stages_.reset();
 }
 
 // Stages 1 and 2: factors U15.8, area U31.16.
-std::uint64_t AxisUnit::area(const DerivativeToken& in) {
+template <class Width>
+std::uint64_t AxisUnitOf<Width>::area(const DerivativeToken& in) {
   const auto product = [](std::uint32_t s, std::uint32_t t) {
     return std::uint64_t{s >> 8} * (t >> 8);
   };
@@ -128,7 +140,8 @@ std::uint64_t AxisUnit::area(const DerivativeToken& in) {
   return falling > rising ? falling - rising : rising - falling;
 }
 
-Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
+template <class Width>
+Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
   const auto cycles = static_cast<std::uint64_t>(p.axis_cycles);
   Datasheet sheet = {
@@ -178,8 +191,11 @@ Datasheet AxisUnit::datasheet(const spec::texture::Parameters& p) {
       "the differences; two 41-bit adders and two roundings; per candidate and cycle two 40-bit "
       "adders with negations (none for the row and the column), the measure as in FootprintUnit "
       "(`exact`: two 31-bit squarers, a 62-bit adder) and a comparator; `exact`: 16 x two 34-bit "
-      "subtractors; registers for nine fragments (`exact`: 22).";
+      "subtractors; registers for nine fragments (`exact`: 22); `fragments` = F: F copies.";
   return sheet;
 }
+
+template class AxisUnitOf<Narrow>;
+template class AxisUnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

@@ -20,17 +20,19 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class AxisUnit final : public Unit {
+template <class Width>
+class AxisUnitOf : public Unit {
  public:
-  In<DerivativeToken> derivatives_in{"derivatives_in"};
-  Out<FootprintToken> footprints_out{"footprints_out"};
+  In<typename Width::template Fragments<DerivativeToken>> derivatives_in{"derivatives_in"};
+  Out<typename Width::template Fragments<FootprintToken>> footprints_out{"footprints_out"};
 
-  AxisUnit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Axes axes,
-           spec::texture::FootprintRule rule, std::int32_t axis_cycles);
+  AxisUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Axes axes,
+             spec::texture::FootprintRule rule, std::int32_t axis_cycles);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -43,7 +45,8 @@ class AxisUnit final : public Unit {
     unsigned direction;     // U3, x 22.5 degrees
   };
   template <std::size_t kLength>
-  Activity advance(Cycle cycle, Pipe<FootprintToken, kLength>& stages);
+  Activity advance(Cycle cycle,
+                   Pipe<typename Width::template Fragments<FootprintToken>, kLength>& stages);
   void turn(const DerivativeToken& in, FootprintToken& out) const;
   Candidate longest(const DerivativeToken& in) const;
   std::uint64_t measure(std::uint64_t s, std::uint64_t t) const;
@@ -54,9 +57,20 @@ class AxisUnit final : public Unit {
   std::int32_t more_cycles_;  // axis_cycles - 1
   // Registers.
   std::int32_t cycles_left_ = 0;  // U2, cycles that the current fragment still takes
-  FootprintToken in_hand_{};
-  Pipe<FootprintToken, kStages> stages_;
-  Pipe<FootprintToken, kRootStages> root_stages_;  // `exact`
+  typename Width::template Fragments<FootprintToken> in_hand_{};
+  Pipe<typename Width::template Fragments<FootprintToken>, kStages> stages_;
+  Pipe<typename Width::template Fragments<FootprintToken>, kRootStages> root_stages_;  // `exact`
 };
+
+class AxisUnit final : public AxisUnitOf<Narrow> {
+ public:
+  using AxisUnitOf::AxisUnitOf;
+};
+namespace wide {
+class AxisUnit final : public AxisUnitOf<Wide> {
+ public:
+  using AxisUnitOf::AxisUnitOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

@@ -24,28 +24,43 @@ std::int64_t difference(std::int32_t to, std::int32_t from) {
 
 }  // namespace
 
-DerivativeUnit::DerivativeUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               ControlRegisters& registers, const Descriptors::Reader& descriptors,
-                               LatencyProbe& probe, spec::texture::Derivatives derivatives)
+template <class Width>
+DerivativeUnitOf<Width>::DerivativeUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                          ControlRegisters& registers,
+                                          const Descriptors::Reader& descriptors,
+                                          LatencyProbe& probe,
+                                          spec::texture::Derivatives derivatives, std::int32_t most)
     : Unit(name, clock),
       registers_(registers),
       descriptors_(descriptors),
       probe_(probe),
+      most_(static_cast<std::size_t>(most)),
       own_(derivatives == spec::texture::Derivatives::kFine ? 3 : 0) {}
 
-Activity DerivativeUnit::tick(Cycle cycle) {
+template <class Width>
+Activity DerivativeUnitOf<Width>::tick(Cycle cycle) {
   const bool works = waiting_ != 0 || (registers_.enabled() && quads_in.can_pop(cycle));
   if (pipe_.empty() && !works) return kIdle;
   if (pipe_.leaves() && !derivatives_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const DerivativeToken* done = pipe_.at(kStages)) derivatives_out.push(cycle, *done);
+  if (const auto* done = pipe_.at(kStages)) derivatives_out.push(cycle, *done);
   if (!works) return kBusy;
   if (waiting_ == 0) take(cycle);
-  if (waiting_ != 0) split(cycle, pipe_.enter());
+  if (waiting_ == 0) return kBusy;
+  const TextureState& texture = descriptors_.read(cycle, quad_.texture);
+  auto& group = pipe_.enter();
+  if constexpr (Width::kMost == 1) {
+    split(texture, group);
+  } else {
+    group.count = 0;
+    do split(texture, group.at[group.count]);
+    while (++group.count < most_ && waiting_ != 0);
+  }
   return kBusy;
 }
 
-inline void DerivativeUnit::take(Cycle cycle) {
+template <class Width>
+inline void DerivativeUnitOf<Width>::take(Cycle cycle) {
   quad_ = quads_in.take(cycle);
   waiting_ = quad_.coverage & 0xF;
   ++quads;
@@ -54,10 +69,10 @@ inline void DerivativeUnit::take(Cycle cycle) {
 
 // All stages for one lane. Nothing in between is observable, since a descriptor does not change
 // while the unit is busy.
-inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
+template <class Width>
+inline void DerivativeUnitOf<Width>::split(const TextureState& texture, DerivativeToken& out) {
   const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));
   waiting_ &= waiting_ - 1;
-  const TextureState& texture = descriptors_.read(cycle, quad_.texture);
   const auto& s = quad_.s;
   const auto& t = quad_.t;
   const unsigned row = lane & own_ & 2, column = lane & own_ & 1;
@@ -88,27 +103,37 @@ inline void DerivativeUnit::split(Cycle cycle, DerivativeToken& out) {
   }
 }
 
-void DerivativeUnit::reset() {
+template <class Width>
+void DerivativeUnitOf<Width>::reset() {
   waiting_ = 0;
   pipe_.reset();
   probe_.reset();
 }
 
-Datasheet DerivativeUnit::datasheet() {
-  return {.unit = "DerivativeUnit",
-          .does =
-              "Splits a quad into its covered fragments, with coordinate differences along their "
-              "row and column (`derivatives = coarse`: row 0 and column 0).",
-          .latency = {3},
-          .interval = {1, "one cycle per covered lane (a quad without covered lanes: 1)"},
-          .stages = {{"1", "next covered lane, its four differences, descriptor selected"},
-                     {"2", "products of the four differences with the width or height of level 0",
-                      "33 x 13 multiply"},
-                     {"3", "magnitude, rounding and saturation of each"}},
-          .formats = "S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1.",
-          .cost =
-              "four 33-bit subtractors, four 33 x 13 multipliers, four 46-bit adders, registers "
-              "for a quad and two fragments."};
+template <class Width>
+Datasheet DerivativeUnitOf<Width>::datasheet() {
+  return {
+      .unit = "DerivativeUnit",
+      .does =
+          "Splits a quad into its covered fragments, with coordinate differences along their "
+          "row and column (`derivatives = coarse`: row 0 and column 0).",
+      .latency = {3},
+      .interval =
+          {1,
+           "one cycle per covered lane, or per group of at most `fragments` lanes (a quad without "
+           "covered lanes: 1)"},
+      .stages = {{"1", "next covered lane, its four differences, descriptor selected"},
+                 {"2", "products of the four differences with the width or height of level 0",
+                  "33 x 13 multiply"},
+                 {"3", "magnitude, rounding and saturation of each"}},
+      .formats = "S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1.",
+      .cost =
+          "four 33-bit subtractors, four 33 x 13 multipliers, four 46-bit adders, registers "
+          "for a quad and two fragments; `fragments` = F: F copies, but one quad and one "
+          "descriptor (`derivatives = coarse`: one copy, also of the units up to LevelUnit)."};
 }
+
+template class DerivativeUnitOf<Narrow>;
+template class DerivativeUnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

@@ -105,14 +105,15 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   return t;
 }
 
-Descriptors::Descriptors(const char* name, ControlRegisters& registers)
+Descriptors::Descriptors(const char* name, ControlRegisters& registers, std::int32_t width)
     : memory_(name, {.words = spec::texture::kMaxTextures,
                      .word_bits = kWordBits,
                      .kind = MemoryKind::kFlops,
-                     .read_ports = 3,
+                     .read_ports = width == 1 ? 3U : 4U,
                      .write_ports = 1,
                      .latency = 0,
                      .content = "texture descriptors"}) {
+  if (width != 1) for_younger_texels = Reader(memory_, "addresser_younger", words_);
   registers.on_change([this, &registers](std::uint32_t offset) { written(registers, offset); });
 }
 

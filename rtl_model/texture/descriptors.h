@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "rtl_model/fabric/control_registers.h"
@@ -82,8 +83,8 @@ class Descriptors {
     const Words* words_;
   };
 
-  // Decodes a descriptor whenever one of its registers is written.
-  Descriptors(const char* name, ControlRegisters& registers);
+  // Decodes a descriptor whenever one of its registers is written. `width`: requests per cycle.
+  Descriptors(const char* name, ControlRegisters& registers, std::int32_t width = 1);
 
   static Datasheet datasheet();
 
@@ -97,6 +98,8 @@ class Descriptors {
  public:
   Reader for_derivatives{memory_, "derivative", words_}, for_levels{memory_, "level", words_},
       for_texels{memory_, "addresser", words_};
+  // Above width 1, for the second quad of a group of requests.
+  std::optional<Reader> for_younger_texels;
 };
 
 }  // namespace deburr::rtl::texture

@@ -41,9 +41,10 @@ constexpr unsigned kToByte = 20, kToLight = 16;
 
 }  // namespace
 
-FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const spec::texture::Configuration& configuration,
-                               LatencyProbe& probe)
+template <class Width>
+FilterPipelineOf<Width>::FilterPipelineOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                          const spec::texture::Configuration& configuration,
+                                          LatencyProbe& probe, std::int32_t width)
     : Unit(name, clock),
       occupancy{Counter{"stage_1", "clk", "cycles with a request in stage 1, fields"},
                 Counter{"stage_2", "clk", "cycles with a request in stage 2, unpack"},
@@ -60,13 +61,16 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
             {.words = spec::texture::kSrgbToLinear.size(),
              .word_bits = 12,
              .kind = MemoryKind::kRom,
-             .read_ports = kCodedChannels,
+             .read_ports = kCodedChannels * static_cast<std::uint32_t>(width),
              .write_ports = 0,
              .latency = 1,
              .content = "sRGB channel to linear light"},
             spec::texture::kSrgbToLinear) {
-  for (std::uint32_t i = 0; i < kCodedChannels; ++i)
-    linear_.emplace_back(srgb_, "texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]);
+  const auto lanes = static_cast<std::uint32_t>(width);
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    for (std::uint32_t i = 0; i < kCodedChannels; ++i)
+      linear_.emplace_back(
+          srgb_, numbered(("texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]).c_str(), lane));
   if (configuration.kernel != spec::texture::Kernel::kBox ||
       configuration.count == spec::texture::CountRule::kAny) {
     weights_ =
@@ -74,12 +78,13 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
                                                 MemoryShape{.words = kMostSamples * kMostSamples,
                                                             .word_bits = 9,
                                                             .kind = MemoryKind::kRom,
-                                                            .read_ports = 1,
+                                                            .read_ports = lanes,
                                                             .write_ports = 0,
                                                             .latency = 1,
                                                             .content = "weight of sample i of N"},
                                                 weight_words(configuration.kernel));
-    weight_read_.emplace(*weights_, "sample");
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      weight_reads_.emplace_back(*weights_, numbered("sample", lane));
   }
   if (configuration.srgb_output == spec::texture::SrgbOutput::kEncoded) {
     codes_ = std::make_unique<Memory<std::uint8_t>>(
@@ -87,41 +92,49 @@ FilterPipeline::FilterPipeline(const sc_core::sc_module_name& name, ClockDomain&
         MemoryShape{.words = spec::texture::kLinearToSrgb.size(),
                     .word_bits = 8,
                     .kind = MemoryKind::kRom,
-                    .read_ports = 3,
+                    .read_ports = 3 * lanes,
                     .write_ports = 0,
                     .latency = 1,
                     .content = "linear light to sRGB channel"},
         spec::texture::kLinearToSrgb);
-    for (const char* user : {"r", "g", "b"}) code_reads_.emplace_back(*codes_, user);
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      for (const char* user : {"r", "g", "b"})
+        code_reads_.emplace_back(*codes_, numbered(user, lane));
   }
 }
 
 // Last stage first, so that each stage reads its predecessor's registers from the previous cycle.
-Activity FilterPipeline::tick(Cycle cycle) {
+template <class Width>
+Activity FilterPipelineOf<Width>::tick(Cycle cycle) {
   const bool arrives = texels_in.can_pop(cycle);
-  if (requests_.empty() && !has_sample_ && !has_total_ && !has_rounded_ && !arrives) return kIdle;
+  if (requests_.empty() && samples_.empty() && totals_.empty() && rounded_.empty() && !arrives)
+    return kIdle;
   count_stages(arrives);
-  if ((codes_ ? has_rounded_ : has_total_) && !colours_out.can_push(cycle))
+  if (!(codes_ ? rounded_ : totals_).empty() && !colours_out.can_push(cycle))
     return kStalledDownstream;
-  if (has_rounded_) encode(cycle);
-  if (has_total_) round(cycle);
-  if (has_sample_) accumulate();
+  if (!rounded_.empty()) encode(cycle);
+  if (!totals_.empty()) round(cycle);
+  samples_.take([this](const Sample& sample, std::size_t) { accumulate(sample); });
   requests_.move();
-  if (const Request* request = requests_.at(6)) lerp_levels(*request);
-  if (Request* request = requests_.at(2)) filter(cycle, *request);
+  if (const auto* group = requests_.at(6))
+    for (std::size_t i = 0; i < count_of(*group); ++i) lerp_levels(nth(*group, i));
+  if (auto* group = requests_.at(2))
+    for (std::size_t i = 0; i < count_of(*group); ++i) filter(cycle, nth(*group, i), i);
   if (arrives) {
-    Request& request = requests_.enter();
-    request.token = texels_in.take(cycle);
-    look_up(cycle, request.token);
+    auto& group = requests_.enter();
+    each(texels_in.take(cycle), group,
+         [](const TexelQuadToken& token, Request& request) { request.token = token; });
+    for (std::size_t i = 0; i < count_of(group); ++i) look_up(cycle, nth(group, i).token, i);
   }
   return kBusy;
 }
 
 // Counts the stages that have a token in this cycle.
-inline void FilterPipeline::count_stages(bool arrives) {
-  occupancy[6] += has_sample_;
-  occupancy[7] += has_total_;
-  occupancy[8] += has_rounded_;
+template <class Width>
+inline void FilterPipelineOf<Width>::count_stages(bool arrives) {
+  occupancy[6] += !samples_.empty();
+  occupancy[7] += !totals_.empty();
+  occupancy[8] += !rounded_.empty();
   if (arrives && requests_.full()) [[likely]] {
     for (std::size_t i = 0; i < kRequestStages; ++i) ++occupancy[i];
     return;
@@ -132,19 +145,22 @@ inline void FilterPipeline::count_stages(bool arrives) {
 }
 
 // Stage 1: ROM addresses for sRGB channels and for the weight of the sample.
-inline void FilterPipeline::look_up(Cycle cycle, const TexelQuadToken& token) {
-  if (weight_read_ && (by_level_ || token.control.last_of_sample))
-    weight_read_->read(cycle, weight_address(token.control.last_index, token.control.index));
+template <class Width>
+inline void FilterPipelineOf<Width>::look_up(Cycle cycle, const TexelQuadToken& token,
+                                             std::size_t lane) {
+  if (weights_ && (by_level_ | token.control.last_of_sample))
+    weight_reads_[lane].read(cycle, weight_address(token.control.last_index, token.control.index));
   if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      linear_[3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
+      linear_[kCodedChannels * lane + 3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
 // Stages 3 to 5; nothing in between is observable. kFractionBits of the texels: 4, or 0 if those
 // bits are all 0.
+template <class Width>
 template <unsigned kFractionBits, class Unpack>
-inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
+inline void FilterPipelineOf<Width>::lerp(Request& request, Unpack&& unpack) {
   const FilterControl& control = request.token.control;
   // Stages 3 and 4: U8.4 x U1.8.
   const std::uint32_t right = control.fraction_u, left = 256 - right;
@@ -156,24 +172,30 @@ inline void FilterPipeline::lerp(Request& request, Unpack&& unpack) {
 }
 
 // Stage 2. A fragment with an invalid descriptor has one sample of weight 0.
-inline std::uint32_t FilterPipeline::weight(Cycle cycle, const TexelQuadToken& token) const {
+template <class Width>
+inline std::uint32_t FilterPipelineOf<Width>::weight(Cycle cycle, const TexelQuadToken& token,
+                                                     std::size_t lane) const {
   if (!token.ticket.valid) return 0;
-  if (!weight_read_) return 256U >> std::bit_width(unsigned{token.control.last_index});
-  return weight_read_->at(cycle, weight_address(token.control.last_index, token.control.index));
+  if (!weights_) return 256U >> std::bit_width(unsigned{token.control.last_index});
+  return weight_reads_[lane].at(cycle,
+                                weight_address(token.control.last_index, token.control.index));
 }
 
 // Stages 2 to 5.
-inline void FilterPipeline::filter(Cycle cycle, Request& request) const {
+template <class Width>
+inline void FilterPipelineOf<Width>::filter(Cycle cycle, Request& request, std::size_t lane) const {
   const TexelQuadToken& token = request.token;
-  if (by_level_ || token.control.last_of_sample) request.weight = weight(cycle, token);
-  if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request);
-  lerp<0>(request, [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
+  if (by_level_ | token.control.last_of_sample) request.weight = weight(cycle, token, lane);
+  if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request, lane);
+  this->template lerp<0>(request,
+                         [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
 }
 
-void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
+template <class Width>
+void FilterPipelineOf<Width>::filter_other(Cycle cycle, Request& request, std::size_t lane) const {
   const TexelQuadToken& token = request.token;
   const auto lerp_each = [&](auto&& unpack_one) {
-    lerp<4>(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
+    this->template lerp<4>(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
   };
   switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
@@ -192,87 +214,121 @@ void FilterPipeline::filter_other(Cycle cycle, Request& request) const {
       });
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
-      return lerp<4>(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i); });
+      return this->template lerp<4>(
+          request, [&](std::size_t i) { return unpack_srgb(cycle, token, i, lane); });
   }
 }
 
-FilterPipeline::Channels FilterPipeline::unpack_srgb(Cycle cycle, const TexelQuadToken& token,
-                                                     std::size_t texel) const {
+template <class Width>
+typename FilterPipelineOf<Width>::Channels FilterPipelineOf<Width>::unpack_srgb(
+    Cycle cycle, const TexelQuadToken& token, std::size_t texel, std::size_t lane) const {
   const std::uint32_t raw = token.texel[texel];
   const auto linear = [&](std::size_t channel) {
-    return linear_[3 * texel + channel].at(cycle, raw >> (8 * channel) & 255);
+    return linear_[kCodedChannels * lane + 3 * texel + channel].at(cycle,
+                                                                   raw >> (8 * channel) & 255);
   };
   return Channels::of(linear(0), linear(1), linear(2), unorm8(raw >> 24));
 }
 
 // Stage 6: sums the levels of a sample in U8.20, rounds once to U8.12, forwards after the last
 // level. With `blend = level` it sums the samples of a level in U8.20 and forwards after the last.
-void FilterPipeline::lerp_levels(const Request& request) {
+template <class Width>
+inline void FilterPipelineOf<Width>::lerp_levels(const Request& request) {
+  if (by_level_) [[unlikely]]
+    return sum_level(request);
   const FilterControl& control = request.token.control;
-  const std::uint32_t inner = by_level_ ? request.weight : control.level_weight,
-                      outer = by_level_ ? control.level_weight : request.weight;
-  level_sum_ = level_sum_ + request.row * inner;
+  level_sum_ = level_sum_ + request.row * control.level_weight;
   if (!control.last_of_sample) return;
-  sample_ = {request.token.ticket, outer, control.format, control.last_of_fragment,
-             by_level_ ? level_sum_ : level_sum_.rounded(8)};
-  has_sample_ = true;
+  Sample& sample = samples_.add();
+  sample.ticket = request.token.ticket;
+  sample.weight = request.weight;
+  sample.format = control.format;
+  sample.last_of_fragment = control.last_of_fragment;
+  sample.value = level_sum_.rounded(8);
+  level_sum_ = {};
+}
+
+template <class Width>
+void FilterPipelineOf<Width>::sum_level(const Request& request) {
+  const FilterControl& control = request.token.control;
+  level_sum_ = level_sum_ + request.row * request.weight;
+  if (!control.last_of_sample) return;
+  samples_.add() = {request.token.ticket, control.level_weight, control.format,
+                    control.last_of_fragment, level_sum_};
   level_sum_ = {};
 }
 
 // Stage 7: sums samples in U8.20, forwards after the last sample of the fragment.
-void FilterPipeline::accumulate() {
-  has_sample_ = false;
-  if (!by_level_) {
-    kernel_sum_ = kernel_sum_ + sample_.value * sample_.weight;
-  } else {
-    kernel_sum_ = add_level();
-  }
-  if (!sample_.last_of_fragment) return;
-  total_ = {sample_.ticket, sample_.format, kernel_sum_};
-  has_total_ = true;
+template <class Width>
+inline void FilterPipelineOf<Width>::accumulate(const Sample& sample) {
+  if (by_level_) [[unlikely]]
+    return blend_level(sample);
+  kernel_sum_ = kernel_sum_ + sample.value * sample.weight;
+  if (!sample.last_of_fragment) return;
+  totals_.add() = {sample.ticket, sample.format, kernel_sum_};
   kernel_sum_ = {};
-  if (by_level_) blend_sum_ = {};
 }
 
 // `blend = level`: sums levels in U8.28 and forwards U8.20. The bits dropped lie below those that
 // decide the rounding of stage 8.
-FilterPipeline::Channels FilterPipeline::add_level() {
-  const auto level = sample_.value.each();
-  for (std::size_t c = 0; c < 4; ++c) blend_sum_[c] += std::uint64_t{level[c]} * sample_.weight;
+template <class Width>
+void FilterPipelineOf<Width>::blend_level(const Sample& sample) {
+  const auto level = sample.value.each();
+  for (std::size_t c = 0; c < 4; ++c) blend_sum_[c] += std::uint64_t{level[c]} * sample.weight;
+  if (!sample.last_of_fragment) return;
   const auto kept = [&](std::size_t c) { return static_cast<std::uint32_t>(blend_sum_[c] >> 8); };
-  return Channels::of(kept(0), kept(1), kept(2), kept(3));
+  totals_.add() = {sample.ticket, sample.format, Channels::of(kept(0), kept(1), kept(2), kept(3))};
+  blend_sum_ = {};
 }
 
-bool FilterPipeline::coded(const Total& total) const {
+template <class Width>
+inline bool FilterPipelineOf<Width>::coded(const Total& total) const {
   return codes_ && total.ticket.valid &&
          total.format == static_cast<std::uint8_t>(spec::texture::Format::kSrgb8A8);
 }
 
 // Stage 8: the weights sum to 1. With `encoded`, light addresses the ROM.
-inline void FilterPipeline::round(Cycle cycle) {
-  has_total_ = false;
-  if (!codes_) return deliver(cycle, total_.ticket, total_.value.rounded(kToByte).each());
-  rounded_ = {total_.ticket, total_.format, total_.value.rounded(kToByte)};
-  has_rounded_ = true;
-  if (!coded(total_)) return;
-  const auto light = total_.value.rounded(kToLight).each();
-  for (std::size_t c = 0; c < code_reads_.size(); ++c) code_reads_[c].read(cycle, light[c]);
+template <class Width>
+inline void FilterPipelineOf<Width>::round(Cycle cycle) {
+  if (!codes_) {
+    spec::texture::ColourGroup& group = begin_beat(cycle, totals_.count);
+    totals_.take([&](const Total& total, std::size_t lane) {
+      deliver(cycle, group.colour[lane], total.ticket, total.value.rounded(kToByte).each());
+    });
+    return;
+  }
+  totals_.take([&](const Total& total, std::size_t lane) {
+    rounded_.add() = {total.ticket, total.format, total.value.rounded(kToByte)};
+    if (!coded(total)) return;
+    const auto light = total.value.rounded(kToLight).each();
+    for (std::size_t c = 0; c < 3; ++c) code_reads_[3 * lane + c].read(cycle, light[c]);
+  });
 }
 
 // Stage 9.
-void FilterPipeline::encode(Cycle cycle) {
-  has_rounded_ = false;
-  auto rgba = rounded_.value.each();
-  if (coded(rounded_))
-    for (std::size_t c = 0; c < code_reads_.size(); ++c) rgba[c] = code_reads_[c].word(cycle);
-  deliver(cycle, rounded_.ticket, rgba);
+template <class Width>
+void FilterPipelineOf<Width>::encode(Cycle cycle) {
+  spec::texture::ColourGroup& group = begin_beat(cycle, rounded_.count);
+  rounded_.take([&](const Total& rounded, std::size_t lane) {
+    auto rgba = rounded.value.each();
+    if (coded(rounded))
+      for (std::size_t c = 0; c < 3; ++c) rgba[c] = code_reads_[3 * lane + c].word(cycle);
+    deliver(cycle, group.colour[lane], rounded.ticket, rgba);
+  });
 }
 
-inline void FilterPipeline::deliver(Cycle cycle, const Ticket& ticket,
-                                    const std::array<std::uint32_t, 4>& rgba) {
+template <class Width>
+inline spec::texture::ColourGroup& FilterPipelineOf<Width>::begin_beat(Cycle cycle,
+                                                                       std::uint8_t colours) {
   spec::texture::ColourGroup& group = colours_out.emplace(cycle);
-  group.count = 1;
-  spec::texture::Colour& colour = group.colour[0];
+  group.count = colours;
+  return group;
+}
+
+template <class Width>
+inline void FilterPipelineOf<Width>::deliver(Cycle cycle, spec::texture::Colour& colour,
+                                             const Ticket& ticket,
+                                             const std::array<std::uint32_t, 4>& rgba) {
   colour.tag = ticket.tag;
   colour.lane = ticket.lane;
   colour.last = ticket.last;
@@ -281,16 +337,18 @@ inline void FilterPipeline::deliver(Cycle cycle, const Ticket& ticket,
   fragment_latency.record(probe_.leaves(cycle + 1));
 }
 
-void FilterPipeline::reset() {
+template <class Width>
+void FilterPipelineOf<Width>::reset() {
   requests_.reset();
   level_sum_ = {};
-  has_sample_ = false;
+  samples_.count = 0;
   kernel_sum_ = {};
   blend_sum_ = {};
-  has_total_ = has_rounded_ = false;
+  totals_.count = rounded_.count = 0;
 }
 
-Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
+template <class Width>
+Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "FilterPipeline",
       .variant = "`srgb_output = linear`",
@@ -319,7 +377,9 @@ Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
           "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, the others 20 x 9; `blend = level`: "
           "the last four 28 x 9), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one read per sRGB "
           "channel; ROM `weights`, 256 x 9 bits, "
-          "1R; `encoded`: ROM `codes`, 4096 x 8 bits, 3R, three adders."};
+          "1R; `encoded`: ROM `codes`, 4096 x 8 bits, 3R, three adders; `width` = W: W copies "
+          "(stage 6 and 7 add W values in order), the ROMs 12 W R, "
+          "W R and 3 W R."};
   if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
     sheet.variant = "`srgb_output = encoded`";
     sheet.latency = {9};
@@ -327,5 +387,8 @@ Datasheet FilterPipeline::datasheet(const spec::texture::Parameters& p) {
   }
   return sheet;
 }
+
+template class FilterPipelineOf<Narrow>;
+template class FilterPipelineOf<Wide>;
 
 }  // namespace deburr::rtl::texture

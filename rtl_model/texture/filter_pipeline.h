@@ -4,6 +4,8 @@
 // Position  TextureCache -> FilterPipeline.
 // Latency   Stages 6 and 7 collect the requests of a sample and of a fragment, so a colour leaves
 //           after the last request of its fragment.
+// Interval  One request per cycle; above width 1 one group of requests, of which several can end a
+//           fragment: their colours leave in one beat.
 // Stalls    downstream  The whole pipeline stalls.
 // Method    Stage 1 splits a texel into fields, the addresses of ROM `srgb`. Stage 2 reads it, and
 //           the weight of the sample from ROM `weights` by N and i (`box` with N a power of two:
@@ -16,7 +18,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -27,20 +28,23 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class FilterPipeline final : public Unit {
+template <class Width>
+class FilterPipelineOf : public Unit {
  public:
   static constexpr int kStages = 9;  // stage 9 only with `encoded`
 
-  In<TexelQuadToken> texels_in{"texels_in"};
+  In<typename Width::TexelQuads> texels_in{"texels_in"};
   Out<spec::texture::ColourGroup> colours_out{"colours_out"};
 
-  FilterPipeline(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const spec::texture::Configuration& configuration, LatencyProbe& probe);
+  FilterPipelineOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                   const spec::texture::Configuration& configuration, LatencyProbe& probe,
+                   std::int32_t width = 1);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -105,43 +109,58 @@ class FilterPipeline final : public Unit {
   };
   static constexpr int kRequestStages = 6;
 
-  void look_up(Cycle cycle, const TexelQuadToken& token);
-  std::uint32_t weight(Cycle cycle, const TexelQuadToken& token) const;
-  void filter(Cycle cycle, Request& request) const;
-  [[gnu::noinline]] void filter_other(Cycle cycle, Request& request) const;
+  // `lane`: number of a request in its group, of a colour in a beat.
+  [[gnu::always_inline]] void look_up(Cycle cycle, const TexelQuadToken& token, std::size_t lane);
+  [[gnu::always_inline]] std::uint32_t weight(Cycle cycle, const TexelQuadToken& token,
+                                              std::size_t lane) const;
+  [[gnu::always_inline]] void filter(Cycle cycle, Request& request, std::size_t lane) const;
+  [[gnu::noinline]] void filter_other(Cycle cycle, Request& request, std::size_t lane) const;
   template <unsigned kFractionBits, class Unpack>
   static void lerp(Request& request, Unpack&& unpack);
-  Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel) const;
-  void lerp_levels(const Request& request);
-  void accumulate();
-  Channels add_level();
-  void round(Cycle cycle);
+  Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel,
+                       std::size_t lane) const;
+  [[gnu::always_inline]] void lerp_levels(const Request& request);
+  [[gnu::always_inline]] void accumulate(const Sample& sample);
+  [[gnu::noinline]] void sum_level(const Request& request);
+  [[gnu::noinline]] void blend_level(const Sample& sample);
+  [[gnu::always_inline]] void round(Cycle cycle);
   void encode(Cycle cycle);
-  void deliver(Cycle cycle, const Ticket& ticket, const std::array<std::uint32_t, 4>& rgba);
-  bool coded(const Total& total) const;
-  void count_stages(bool arrives);
+  [[gnu::always_inline]] spec::texture::ColourGroup& begin_beat(Cycle cycle, std::uint8_t colours);
+  [[gnu::always_inline]] void deliver(Cycle cycle, spec::texture::Colour& colour,
+                                      const Ticket& ticket,
+                                      const std::array<std::uint32_t, 4>& rgba);
+  [[gnu::always_inline]] bool coded(const Total& total) const;
+  [[gnu::always_inline]] void count_stages(bool arrives);
 
   const bool by_level_;  // `blend = level`
   LatencyProbe& probe_;
   Memory<std::uint16_t> srgb_;
-  std::vector<ReadPort<std::uint16_t>> linear_;  // 3 x texel + channel
+  std::vector<ReadPort<std::uint16_t>> linear_;  // 12 x lane + 3 x texel + channel
   // Tables that only some configurations need: weights at 16 (N - 1) + i, codes by U8.4 light.
   std::unique_ptr<Memory<std::uint16_t>> weights_;
   std::unique_ptr<Memory<std::uint8_t>> codes_;
-  std::optional<ReadPort<std::uint16_t>> weight_read_;
-  std::vector<ReadPort<std::uint8_t>> code_reads_;  // R, G, B
+  std::vector<ReadPort<std::uint16_t>> weight_reads_;  // by lane
+  std::vector<ReadPort<std::uint8_t>> code_reads_;     // 3 x lane + channel: R, G, B
   // Registers after each stage; stage 8 (with `encoded` stage 9) writes the output link.
-  Pipe<Request, kRequestStages> requests_;
+  Pipe<typename Width::template Fragments<Request>, kRequestStages> requests_;
   Channels level_sum_{};  // U8.20, over the levels of the current sample, or over the samples of
                           // the current level
-  Sample sample_{};
-  bool has_sample_ = false;
+  Some<Sample, Width::kMost> samples_;
   Channels kernel_sum_{};                     // U8.20, over the samples of the current fragment
   std::array<std::uint64_t, 4> blend_sum_{};  // U8.28, over its levels, with `blend = level`
-  Total total_{};
-  bool has_total_ = false;
-  Total rounded_{};  // U8.0; channels to be encoded U8.4
-  bool has_rounded_ = false;
+  Some<Total, Width::kMost> totals_;
+  Some<Total, Width::kMost> rounded_;  // U8.0; channels to be encoded U8.4
 };
+
+class FilterPipeline final : public FilterPipelineOf<Narrow> {
+ public:
+  using FilterPipelineOf::FilterPipelineOf;
+};
+namespace wide {
+class FilterPipeline final : public FilterPipelineOf<Wide> {
+ public:
+  using FilterPipelineOf::FilterPipelineOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

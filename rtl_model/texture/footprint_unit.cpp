@@ -5,36 +5,43 @@
 
 namespace deburr::rtl::texture {
 
-FootprintUnit::FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                             spec::texture::FootprintRule rule)
+template <class Width>
+FootprintUnitOf<Width>::FootprintUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                        spec::texture::FootprintRule rule)
     : Unit(name, clock), rule_(rule) {}
 
-Activity FootprintUnit::tick(Cycle cycle) {
+template <class Width>
+Activity FootprintUnitOf<Width>::tick(Cycle cycle) {
   if (rule_ == spec::texture::FootprintRule::kExact) return tick_exact(cycle);
   const bool arrives = derivatives_in.can_pop(cycle);
   if (pipe_.empty() && !arrives) return kIdle;
   if (pipe_.leaves() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const FootprintToken* done = pipe_.at(kStages)) footprints_out.push(cycle, *done);
-  if (arrives) {
-    const DerivativeToken& in = derivatives_in.take(cycle);
-    const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
-                        d_y = side(rule_, in.size_s_y, in.size_t_y);
-    const bool x_is_major = d_x >= d_y;
-    pipe_.enter() = {in.ticket,
-                     in.s,
-                     in.t,
-                     x_is_major ? in.s_x : in.s_y,
-                     x_is_major ? in.t_x : in.t_y,
-                     x_is_major ? d_x : d_y,
-                     x_is_major ? d_y : d_x};
-  }
+  if (const auto* done = pipe_.at(kStages)) footprints_out.push(cycle, *done);
+  if (arrives)
+    each(derivatives_in.take(cycle), pipe_.enter(),
+         [&](const DerivativeToken& in, FootprintToken& out) { order(in, out); });
   return kBusy;
 }
 
+template <class Width>
+inline void FootprintUnitOf<Width>::order(const DerivativeToken& in, FootprintToken& out) const {
+  const std::uint32_t d_x = side(rule_, in.size_s_x, in.size_t_x),
+                      d_y = side(rule_, in.size_s_y, in.size_t_y);
+  const bool x_is_major = d_x >= d_y;
+  out.ticket = in.ticket;
+  out.s = in.s;
+  out.t = in.t;
+  out.axis_s = x_is_major ? in.s_x : in.s_y;
+  out.axis_t = x_is_major ? in.t_x : in.t_y;
+  out.d_max = x_is_major ? d_x : d_y;
+  out.minor = x_is_major ? d_y : d_x;
+}
+
 // Shifts by constants cost only wires.
-std::uint32_t FootprintUnit::side(spec::texture::FootprintRule rule, std::uint32_t s,
-                                  std::uint32_t t) {
+template <class Width>
+std::uint32_t FootprintUnitOf<Width>::side(spec::texture::FootprintRule rule, std::uint32_t s,
+                                           std::uint32_t t) {
   const std::uint32_t a = std::max(s, t), b = std::min(s, t);
   switch (rule) {
     case spec::texture::FootprintRule::kHalf:
@@ -50,22 +57,30 @@ std::uint32_t FootprintUnit::side(spec::texture::FootprintRule rule, std::uint32
   return a;
 }
 
-Activity FootprintUnit::tick_exact(Cycle cycle) {
+template <class Width>
+Activity FootprintUnitOf<Width>::tick_exact(Cycle cycle) {
   const bool waiting = derivatives_in.can_pop(cycle);
-  if (roots_.empty() && !waiting) return kIdle;
-  if (roots_.leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
-  FootprintToken result;
-  if (roots_.step(waiting ? &derivatives_in.take(cycle) : nullptr, &result))
-    footprints_out.push(cycle, result);
+  if (roots_[0].empty() && !waiting) return kIdle;
+  if (roots_[0].leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
+  const typename Width::template Fragments<DerivativeToken>* const next =
+      waiting ? &derivatives_in.take(cycle) : nullptr;
+  typename Width::template Fragments<FootprintToken> result;
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < roots_.size(); ++i)
+    done += roots_[i].step(next && i < count_of(*next) ? &nth(*next, i) : nullptr, &nth(result, i));
+  set_count(result, done);
+  if (done != 0) footprints_out.push(cycle, result);
   return kBusy;
 }
 
-void FootprintUnit::reset() {
+template <class Width>
+void FootprintUnitOf<Width>::reset() {
   pipe_.reset();
-  roots_.reset();
+  for (RootPipeline& root : roots_) root.reset();
 }
 
-Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
+template <class Width>
+Datasheet FootprintUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {.unit = "FootprintUnit",
                      .does =
                          "Lengths of both sides of a footprint, and the coordinate difference "
@@ -84,7 +99,7 @@ Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
     sheet.formats = "U15.16 in; squares and sums exact, U31.32; root U16.16, truncated.";
     sheet.cost =
         "four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit "
-        "comparator.";
+        "comparator; `fragments` = F: F copies.";
     return sheet;
   }
   sheet.variant = "other `footprint`";
@@ -97,8 +112,12 @@ Datasheet FootprintUnit::datasheet(const spec::texture::Parameters& p) {
   sheet.formats = "U15.16 in, U16.16 out.";
   sheet.cost =
       "`half` and `quarter`: two comparators and two adders; `two_segment`: four comparators and "
-      "six adders; one more comparator to order the sides; registers for a fragment.";
+      "six adders; one more comparator to order the sides; registers for a fragment; "
+      "`fragments` = F: F copies.";
   return sheet;
 }
+
+template class FootprintUnitOf<Narrow>;
+template class FootprintUnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

@@ -12,6 +12,7 @@
 // Source    Paper 1.2, equations 10 and 11.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <systemc>
 
@@ -20,17 +21,19 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/root_pipeline.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class FootprintUnit final : public Unit {
+template <class Width>
+class FootprintUnitOf : public Unit {
  public:
-  In<DerivativeToken> derivatives_in{"derivatives_in"};
-  Out<FootprintToken> footprints_out{"footprints_out"};
+  In<typename Width::template Fragments<DerivativeToken>> derivatives_in{"derivatives_in"};
+  Out<typename Width::template Fragments<FootprintToken>> footprints_out{"footprints_out"};
 
-  FootprintUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                spec::texture::FootprintRule rule);
+  FootprintUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                  spec::texture::FootprintRule rule);
   Activity tick(Cycle cycle) override;
   void reset() override;
 
@@ -43,10 +46,23 @@ class FootprintUnit final : public Unit {
  private:
   static constexpr int kStages = 2;
   Activity tick_exact(Cycle cycle);
+  [[gnu::always_inline]] void order(const DerivativeToken& in, FootprintToken& out) const;
 
   spec::texture::FootprintRule rule_;
-  Pipe<FootprintToken, kStages> pipe_;
-  RootPipeline roots_;
+  Pipe<typename Width::template Fragments<FootprintToken>, kStages> pipe_;
+  // One per fragment of a group, in step.
+  std::array<RootPipeline, Width::kMost> roots_;
 };
+
+class FootprintUnit final : public FootprintUnitOf<Narrow> {
+ public:
+  using FootprintUnitOf::FootprintUnitOf;
+};
+namespace wide {
+class FootprintUnit final : public FootprintUnitOf<Wide> {
+ public:
+  using FootprintUnitOf::FootprintUnitOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

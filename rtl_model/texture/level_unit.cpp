@@ -20,9 +20,10 @@ bool is_linear(spec::texture::MinFilter filter) {
 
 }  // namespace
 
-LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                     const Descriptors::Reader& descriptors, spec::texture::Axes axes,
-                     spec::texture::CountRule count, spec::texture::CountCap cap)
+template <class Width>
+LevelUnitOf<Width>::LevelUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                const Descriptors::Reader& descriptors, spec::texture::Axes axes,
+                                spec::texture::CountRule count, spec::texture::CountCap cap)
     : Unit(name, clock),
       descriptors_(descriptors),
       area_(axes != spec::texture::Axes::kTwo),
@@ -30,7 +31,9 @@ LevelUnit::LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
       cap_(cap) {}
 
 // Part of L that is converted to samples instead of a coarser level: U3.12.
-std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const {
+template <class Width>
+std::int32_t LevelUnitOf<Width>::as_samples(std::int32_t lb_max, std::int32_t lb_minor,
+                                            int limit) const {
   if (lb_max <= 0) return 0;  // the footprint fits in a texel
   // Logarithm of d_max / d_min, which is d_max^2 / area: U6.12.
   const std::int32_t ratio = std::max((area_ ? lb_max << 1 : lb_max) - lb_minor, 0);
@@ -46,7 +49,8 @@ std::int32_t LevelUnit::as_samples(std::int32_t lb_max, std::int32_t lb_minor, i
 }
 
 // N - 1.
-int LevelUnit::last_index(std::int32_t as_samples) const {
+template <class Width>
+int LevelUnitOf<Width>::last_index(std::int32_t as_samples) const {
   if (count_ != spec::texture::CountRule::kAny) return (1 << (as_samples >> kFractionBits)) - 1;
   int last = 0;
   for (std::size_t n = 1; n < spec::texture::kLog2Count.size(); ++n)
@@ -54,21 +58,28 @@ int LevelUnit::last_index(std::int32_t as_samples) const {
   return last;
 }
 
-Activity LevelUnit::tick(Cycle cycle) {
+template <class Width>
+Activity LevelUnitOf<Width>::tick(Cycle cycle) {
   const bool arrives = logs_in.can_pop(cycle);
   if (pipe_.empty() && !arrives) return kIdle;
   if (pipe_.leaves() && !levels_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const LevelToken* done = pipe_.at(kStages)) levels_out.push(cycle, *done);
-  if (arrives) choose(cycle, logs_in.take(cycle), pipe_.enter());
+  if (const auto* done = pipe_.at(kStages)) levels_out.push(cycle, *done);
+  if (arrives) {
+    // The fragments of a group are of one quad.
+    const auto& group = logs_in.take(cycle);
+    const TextureState& texture = descriptors_.read(cycle, nth(group, 0).ticket.texture);
+    each(group, pipe_.enter(),
+         [&](const Log2Token& in, LevelToken& out) { choose(texture, in, out); });
+  }
   return kBusy;
 }
 
 // All stages. Nothing in between is observable, since a descriptor does not change while the unit
 // is busy.
-void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
+template <class Width>
+void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in, LevelToken& out) {
   // Stage 1.
-  const TextureState& texture = descriptors_.read(cycle, in.ticket.texture);
   out.ticket = in.ticket;
   out.s = in.s;
   out.t = in.t;
@@ -111,7 +122,8 @@ void LevelUnit::choose(Cycle cycle, const Log2Token& in, LevelToken& out) {
   }
 }
 
-Datasheet LevelUnit::datasheet() {
+template <class Width>
+Datasheet LevelUnitOf<Width>::datasheet() {
   return {
       .unit = "LevelUnit",
       .does = "Number of samples, mip level, level fraction and filter of a fragment.",
@@ -129,7 +141,10 @@ Datasheet LevelUnit::datasheet() {
       .cost =
           "nine 20-bit adders or comparators and a few muxes; `any`: 15 comparators of 15 bits "
           "with a constant and a counter of their ones, no adder to round L; no multiplier and no "
-          "divider; registers for two fragments."};
+          "divider; registers for two fragments; `fragments` = F: F copies, but one descriptor."};
 }
+
+template class LevelUnitOf<Narrow>;
+template class LevelUnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

@@ -18,18 +18,20 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/descriptors.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class LevelUnit final : public Unit {
+template <class Width>
+class LevelUnitOf : public Unit {
  public:
-  In<Log2Token> logs_in{"logs_in"};
-  Out<LevelToken> levels_out{"levels_out"};
+  In<typename Width::template Fragments<Log2Token>> logs_in{"logs_in"};
+  Out<typename Width::template Fragments<LevelToken>> levels_out{"levels_out"};
 
-  LevelUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
-            const Descriptors::Reader& descriptors, spec::texture::Axes axes,
-            spec::texture::CountRule count, spec::texture::CountCap cap);
+  LevelUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+              const Descriptors::Reader& descriptors, spec::texture::Axes axes,
+              spec::texture::CountRule count, spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
@@ -40,7 +42,7 @@ class LevelUnit final : public Unit {
 
  private:
   static constexpr int kStages = 3;
-  void choose(Cycle cycle, const Log2Token& in, LevelToken& out);
+  void choose(const TextureState& texture, const Log2Token& in, LevelToken& out);
   std::int32_t as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const;
   int last_index(std::int32_t as_samples) const;
 
@@ -48,7 +50,18 @@ class LevelUnit final : public Unit {
   bool area_;  // the second logarithm is that of the area
   spec::texture::CountRule count_;
   spec::texture::CountCap cap_;
-  Pipe<LevelToken, kStages> pipe_;
+  Pipe<typename Width::template Fragments<LevelToken>, kStages> pipe_;
 };
+
+class LevelUnit final : public LevelUnitOf<Narrow> {
+ public:
+  using LevelUnitOf::LevelUnitOf;
+};
+namespace wide {
+class LevelUnit final : public LevelUnitOf<Wide> {
+ public:
+  using LevelUnitOf::LevelUnitOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

@@ -41,26 +41,29 @@ std::uint32_t segment_correction(std::uint32_t y) {
 
 }  // namespace
 
-Log2Unit::Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock,
-                   spec::texture::Log2Rule rule)
-    : Unit(name, clock), rule_(rule) {
+template <class Width>
+Log2UnitOf<Width>::Log2UnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                              spec::texture::Log2Rule rule, std::int32_t fragments)
+    : Unit(name, clock), rule_(rule), fragments_(static_cast<std::size_t>(fragments)) {
   if (rule_ != spec::texture::Log2Rule::kExact) return;
   table_ = std::make_unique<Memory<std::uint16_t>>(
       "table",
       MemoryShape{.words = spec::texture::kLog2Table.size(),
                   .word_bits = 13,
                   .kind = MemoryKind::kRom,
-                  .read_ports = 4,
+                  .read_ports = static_cast<std::uint32_t>(kReads * fragments_),
                   .write_ports = 0,
                   .latency = 1,
                   .content = "lb x for x from 1 to 2 in steps of 1/64"},
       spec::texture::kLog2Table);
-  for (const char* user : {"longer_low", "longer_high", "shorter_low", "shorter_high"})
-    reads_.emplace_back(*table_, user);
+  for (std::size_t i = 0; i < fragments_; ++i)
+    for (const char* user : {"longer_low", "longer_high", "shorter_low", "shorter_high"})
+      reads_.emplace_back(*table_, numbered(user, i));
 }
 
 // Stage 1.
-Log2Unit::Normal Log2Unit::normalise(std::uint64_t d) {
+template <class Width>
+typename Log2UnitOf<Width>::Normal Log2UnitOf<Width>::normalise(std::uint64_t d) {
   const std::uint64_t at_least_one = d | (d == 0 ? 1u : 0u);
   const int zeros = std::countl_zero(at_least_one);  // leading-one detector
   const std::uint64_t normal = at_least_one << zeros;
@@ -68,7 +71,8 @@ Log2Unit::Normal Log2Unit::normalise(std::uint64_t d) {
 }
 
 // Stage 3.
-std::int32_t Log2Unit::correct(spec::texture::Log2Rule rule, Normal d, Chord chord) {
+template <class Width>
+std::int32_t Log2UnitOf<Width>::correct(spec::texture::Log2Rule rule, Normal d, Chord chord) {
   std::uint32_t fraction = d.y;  // U1.12
   switch (rule) {
     case spec::texture::Log2Rule::kMitchell:
@@ -86,59 +90,76 @@ std::int32_t Log2Unit::correct(spec::texture::Log2Rule rule, Normal d, Chord cho
   return d.n * 4096 + static_cast<std::int32_t>(fraction);
 }
 
-std::int32_t Log2Unit::log2(spec::texture::Log2Rule rule, std::uint64_t d) {
+template <class Width>
+std::int32_t Log2UnitOf<Width>::log2(spec::texture::Log2Rule rule, std::uint64_t d) {
   const Normal normal = normalise(d);
   const std::size_t i = normal.y >> 6;
   return correct(rule, normal, {spec::texture::kLog2Table[i], spec::texture::kLog2Table[i + 1]});
 }
 
-Activity Log2Unit::tick(Cycle cycle) {
+template <class Width>
+Activity Log2UnitOf<Width>::tick(Cycle cycle) {
   if (rule_ == spec::texture::Log2Rule::kMitchell) return tick_mitchell(cycle);
   const bool arrives = footprints_in.can_pop(cycle);
   if (pipe_.empty() && !arrives) return kIdle;
   if (pipe_.leaves() && !logs_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const Entry* done = pipe_.at(3)) logs_out.push(cycle, correct_both(*done));
-  if (Entry* entry = pipe_.at(2)) fetch(cycle, *entry);
+  if (const auto* done = pipe_.at(3))
+    each(*done, logs_out.emplace(cycle),
+         [&](const Entry& entry, Log2Token& out) { out = correct_both(entry); });
+  if (auto* group = pipe_.at(2); group && table_)
+    for (std::size_t i = 0; i < count_of(*group); ++i) fetch(cycle, nth(*group, i), kReads * i);
   if (arrives) {
-    Entry& entry = pipe_.enter();
-    entry.token = footprints_in.take(cycle);
-    entry.longer = normalise(entry.token.d_max);
-    entry.shorter = normalise(entry.token.minor);
-    if (table_) look_up(cycle, entry);
+    auto& group = pipe_.enter();
+    each(footprints_in.take(cycle), group, [](const FootprintToken& in, Entry& entry) {
+      entry.token = in;
+      entry.longer = normalise(in.d_max);
+      entry.shorter = normalise(in.minor);
+    });
+    if (table_)
+      for (std::size_t i = 0; i < count_of(group); ++i) look_up(cycle, nth(group, i), kReads * i);
   }
   return kBusy;
 }
 
-inline Activity Log2Unit::tick_mitchell(Cycle cycle) {
+template <class Width>
+inline Activity Log2UnitOf<Width>::tick_mitchell(Cycle cycle) {
   if (!footprints_in.can_pop(cycle)) return kIdle;
   if (!logs_out.can_push(cycle)) return kStalledDownstream;
-  const FootprintToken& in = footprints_in.take(cycle);
-  logs_out.emplace(cycle) = {
-      in.ticket, in.s, in.t, in.axis_s, in.axis_t, log2(rule_, in.d_max), log2(rule_, in.minor)};
+  each(footprints_in.take(cycle), logs_out.emplace(cycle),
+       [this](const FootprintToken& in, Log2Token& out) {
+         out = {in.ticket,
+                in.s,
+                in.t,
+                in.axis_s,
+                in.axis_t,
+                log2(rule_, in.d_max),
+                log2(rule_, in.minor)};
+       });
   return kBusy;
 }
 
 // The ROM takes the address at the end of stage 1.
-void Log2Unit::look_up(Cycle cycle, const Entry& entry) {
-  std::size_t port = 0;
+template <class Width>
+void Log2UnitOf<Width>::look_up(Cycle cycle, const Entry& entry, std::size_t port) {
   for (const Normal& d : {entry.longer, entry.shorter})
     for (const std::uint32_t successor : {0U, 1U})
       reads_[port++].read(cycle, (d.y >> 6) + successor);
 }
 
 // Stage 2.
-void Log2Unit::fetch(Cycle cycle, Entry& entry) {
-  if (!table_) return;
-  const auto chord = [&](const Normal& d, std::size_t port) -> Chord {
+template <class Width>
+void Log2UnitOf<Width>::fetch(Cycle cycle, Entry& entry, std::size_t port) {
+  const auto chord = [&](const Normal& d, std::size_t at) -> Chord {
     const std::uint32_t i = d.y >> 6;
-    return {reads_[port].at(cycle, i), reads_[port + 1].at(cycle, i + 1)};
+    return {reads_[at].at(cycle, i), reads_[at + 1].at(cycle, i + 1)};
   };
-  entry.longer_chord = chord(entry.longer, 0);
-  entry.shorter_chord = chord(entry.shorter, 2);
+  entry.longer_chord = chord(entry.longer, port);
+  entry.shorter_chord = chord(entry.shorter, port + 2);
 }
 
-Log2Token Log2Unit::correct_both(const Entry& entry) const {
+template <class Width>
+Log2Token Log2UnitOf<Width>::correct_both(const Entry& entry) const {
   const FootprintToken& token = entry.token;
   return {token.ticket,
           token.s,
@@ -149,7 +170,8 @@ Log2Token Log2Unit::correct_both(const Entry& entry) const {
           correct(rule_, entry.shorter, entry.shorter_chord)};
 }
 
-Datasheet Log2Unit::datasheet(const spec::texture::Parameters& p) {
+template <class Width>
+Datasheet Log2UnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const Stage leading_one = {"1", "leading one, shift",
                              "32-bit leading-one detector (area: 47-bit), then a shifter of five "
                              "levels (six)"};
@@ -162,7 +184,7 @@ Datasheet Log2Unit::datasheet(const spec::texture::Parameters& p) {
           "per side: a 32-bit leading-one detector and a shifter (`mitchell`: only these, n and y "
           "are concatenated); `corrected`: an 8 : 1 mux of constants and a 13-bit adder; "
           "`segments`: three adders; `exact`: a 7 x 6 multiplier and two adders, and for both "
-          "sides the ROM `table`, 65 x 13 bits, 4R."};
+          "sides the ROM `table`, 65 x 13 bits, 4R; `fragments` = F: F copies, the ROM 4F R."};
   if (p.log2 == spec::texture::Log2Rule::kMitchell) {
     sheet.variant = "`log2 = mitchell`";
     sheet.latency = {1};
@@ -176,5 +198,8 @@ Datasheet Log2Unit::datasheet(const spec::texture::Parameters& p) {
   }
   return sheet;
 }
+
+template class Log2UnitOf<Narrow>;
+template class Log2UnitOf<Wide>;
 
 }  // namespace deburr::rtl::texture

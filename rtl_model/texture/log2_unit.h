@@ -20,16 +20,19 @@
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-class Log2Unit final : public Unit {
+template <class Width>
+class Log2UnitOf : public Unit {
  public:
-  In<FootprintToken> footprints_in{"footprints_in"};
-  Out<Log2Token> logs_out{"logs_out"};
+  In<typename Width::template Fragments<FootprintToken>> footprints_in{"footprints_in"};
+  Out<typename Width::template Fragments<Log2Token>> logs_out{"logs_out"};
 
-  Log2Unit(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Log2Rule rule);
+  Log2UnitOf(const sc_core::sc_module_name& name, ClockDomain& clock, spec::texture::Log2Rule rule,
+             std::int32_t fragments = 1);
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
@@ -40,6 +43,7 @@ class Log2Unit final : public Unit {
 
  private:
   static constexpr int kStages = 3;
+  static constexpr std::size_t kReads = 4;  // per fragment
   // d = 2^n (1 + y).
   struct Normal {
     std::int32_t n;   // S5
@@ -57,15 +61,27 @@ class Log2Unit final : public Unit {
   static Normal normalise(std::uint64_t d);
   static std::int32_t correct(spec::texture::Log2Rule rule, Normal d, Chord chord);
   Activity tick_mitchell(Cycle cycle);
-  void look_up(Cycle cycle, const Entry& entry);
-  void fetch(Cycle cycle, Entry& entry);
+  void look_up(Cycle cycle, const Entry& entry, std::size_t port);
+  void fetch(Cycle cycle, Entry& entry, std::size_t port);
   Log2Token correct_both(const Entry& entry) const;
 
   spec::texture::Log2Rule rule_;
-  Pipe<Entry, kStages> pipe_;
+  Pipe<typename Width::template Fragments<Entry>, kStages> pipe_;
+  std::size_t fragments_;
   std::unique_ptr<Memory<std::uint16_t>> table_;  // `exact` only
   std::vector<ReadPort<std::uint16_t>>
-      reads_;  // low and high entry for the longer, then for the shorter side
+      reads_;  // per fragment low and high entry for the longer, then for the shorter side
 };
+
+class Log2Unit final : public Log2UnitOf<Narrow> {
+ public:
+  using Log2UnitOf::Log2UnitOf;
+};
+namespace wide {
+class Log2Unit final : public Log2UnitOf<Wide> {
+ public:
+  using Log2UnitOf::Log2UnitOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

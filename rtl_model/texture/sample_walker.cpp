@@ -18,113 +18,170 @@ constexpr std::int32_t kWholeAxis = 64;  // U2.6
 
 }  // namespace
 
-SampleWalker::SampleWalker(const sc_core::sc_module_name& name, ClockDomain& clock,
-                           spec::texture::CountRule count, spec::texture::Kernel kernel,
-                           std::int32_t spread, spec::texture::Blend blend)
+template <class Width>
+SampleWalkerOf<Width>::SampleWalkerOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                      spec::texture::CountRule count, spec::texture::Kernel kernel,
+                                      std::int32_t spread, spec::texture::Blend blend,
+                                      const spec::texture::Build& build)
     : Unit(name, clock),
       spread_(spread),
       narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
                                                             : spread),
-      by_level_(blend == spec::texture::Blend::kLevel) {
+      by_level_(blend == spec::texture::Blend::kLevel),
+      width_(static_cast<std::size_t>(build.width)),
+      fragments_(static_cast<std::size_t>(build.fragments)) {
   if (count != spec::texture::CountRule::kAny) return;
   constexpr std::size_t kLargestCount = spec::texture::kReciprocal.size() - 1;
-  reciprocal_ =
-      std::make_unique<Memory<std::uint32_t>>("reciprocal",
-                                              MemoryShape{.words = kLargestCount,
-                                                          .word_bits = kReciprocalBits + 1,
-                                                          .kind = MemoryKind::kRom,
-                                                          .read_ports = 1,
-                                                          .write_ports = 0,
-                                                          .latency = 1,
-                                                          .content = "1/N for N from 1 to 16"},
-                                              std::span(spec::texture::kReciprocal).subspan<1>());
-  read_.emplace(*reciprocal_, "walker");
+  reciprocal_ = std::make_unique<Memory<std::uint32_t>>(
+      "reciprocal",
+      MemoryShape{.words = kLargestCount,
+                  .word_bits = kReciprocalBits + 1,
+                  .kind = MemoryKind::kRom,
+                  .read_ports = static_cast<std::uint32_t>(fragments_),
+                  .write_ports = 0,
+                  .latency = 1,
+                  .content = "1/N for N from 1 to 16"},
+      std::span(spec::texture::kReciprocal).subspan(1));
+  for (std::size_t i = 0; i < fragments_; ++i)
+    reads_.emplace_back(*reciprocal_, numbered("walker", i));
 }
 
 // Last stage first: each stage reads what its predecessor wrote in the previous cycle.
-Activity SampleWalker::tick(Cycle cycle) {
+template <class Width>
+Activity SampleWalkerOf<Width>::tick(Cycle cycle) {
   const bool arrives = levels_in.can_pop(cycle);
-  if (!walking_ && !scaled_.occupied && !divided_.occupied && !arrives) return kIdle;
-  const bool stalled = walking_ && !samples_out.can_push(cycle);
-  if (walking_ && !stalled) emit(cycle);
-  Prepared& next = reciprocal_ ? divided_ : scaled_;
-  if (next.occupied && !walking_) start(next);
+  if (walking_ == 0 && !scaled_.occupied && !divided_.occupied && !arrives) return kIdle;
+  const bool stalled = walking_ != 0 && !samples_out.can_push(cycle);
+  if (walking_ != 0 && !stalled) emit(cycle);
+  Preparing& next = reciprocal_ ? divided_ : scaled_;
+  if (next.occupied && walking_ < kWalking) start(next);
   if (reciprocal_ && scaled_.occupied && !divided_.occupied) divide(cycle);
   if (arrives && !scaled_.occupied) scale(cycle, levels_in.take(cycle));
   return stalled ? kStalledDownstream : kBusy;
 }
 
 // Stage 1.
-void SampleWalker::scale(Cycle cycle, const LevelToken& fragment) {
-  const std::int32_t spread = fragment.last_index < kLastOfFour ? narrow_spread_ : spread_;
+template <class Width>
+void SampleWalkerOf<Width>::scale(Cycle cycle,
+                                  const typename Width::template Fragments<LevelToken>& group) {
   scaled_.occupied = true;
-  scaled_.fragment = fragment;
-  scaled_.step_s = fragment.axis_s * spread;
-  scaled_.step_t = fragment.axis_t * spread;
-  if (read_) read_->read(cycle, fragment.last_index);
+  each(group, scaled_.group, [&](const LevelToken& fragment, Prepared& scaled) {
+    const std::int32_t spread = fragment.last_index < kLastOfFour ? narrow_spread_ : spread_;
+    scaled.fragment = fragment;
+    scaled.step_s = fragment.axis_s * spread;
+    scaled.step_t = fragment.axis_t * spread;
+  });
+  if (reciprocal_)
+    for (std::size_t i = 0; i < count_of(group); ++i)
+      reads_[i].read(cycle, nth(group, i).last_index);
 }
 
 // Stage 2 with `any`.
-void SampleWalker::divide(Cycle cycle) {
-  const std::int64_t reciprocal = read_->at(cycle, scaled_.fragment.last_index);
+template <class Width>
+void SampleWalkerOf<Width>::divide(Cycle cycle) {
   divided_.occupied = true;
-  divided_.fragment = scaled_.fragment;
-  divided_.step_s = scaled_.step_s * reciprocal;
-  divided_.step_t = scaled_.step_t * reciprocal;
+  set_count(divided_.group, count_of(scaled_.group));
+  for (std::size_t i = 0; i < count_of(scaled_.group); ++i) {
+    const Prepared& scaled = nth(scaled_.group, i);
+    const std::int64_t reciprocal = reads_[i].at(cycle, scaled.fragment.last_index);
+    nth(divided_.group, i) = {scaled.fragment, scaled.step_s * reciprocal,
+                              scaled.step_t * reciprocal};
+  }
   scaled_.occupied = false;
 }
 
 // Last stage but one.
-void SampleWalker::start(Prepared& next) {
+template <class Width>
+void SampleWalkerOf<Width>::start(Preparing& next) {
   next.occupied = false;
-  fragment_ = next.fragment;
-  walking_ = true;
-  second_level_ = false;
-  index_ = 0;
+  each(next.group, walks_[(older_ + walking_) % kWalking],
+       [&](const Prepared& prepared, Walk& walk) { begin(prepared, walk); });
+  ++walking_;
+}
+
+template <class Width>
+inline void SampleWalkerOf<Width>::begin(const Prepared& prepared, Walk& walk) const {
+  walk.fragment = prepared.fragment;
+  walk.second_level = false;
+  walk.index = 0;
   // If N is a power of two, N - 1 has lb N ones.
-  const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{fragment_.last_index});
-  step_s_ = next.step_s << up;
-  step_t_ = next.step_t << up;
-  walk_s_ = -(step_s_ * fragment_.last_index);  // (1 - N) x spread x axis / N
-  walk_t_ = -(step_t_ * fragment_.last_index);
+  const std::uint8_t last = prepared.fragment.last_index;
+  const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{last});
+  walk.step_s = prepared.step_s << up;
+  walk.step_t = prepared.step_t << up;
+  walk.walk_s = -(walk.step_s * last);  // (1 - N) x spread x axis / N
+  walk.walk_t = -(walk.step_t * last);
 }
 
 // Last stage.
-void SampleWalker::emit(Cycle cycle) {
-  const bool last_level = second_level_ || fragment_.fraction == 0,
-             last_sample = index_ == fragment_.last_index, last = last_level && last_sample;
-
-  SampleToken& out = samples_out.emplace(cycle);
-  out.ticket = fragment_.ticket;
-  out.s = fragment_.s + ((walk_s_ + kHalf) >> kRoundedBits);
-  out.t = fragment_.t + ((walk_t_ + kHalf) >> kRoundedBits);
-  out.level_weight =
-      static_cast<std::uint16_t>(second_level_ ? fragment_.fraction : 256 - fragment_.fraction);
-  out.index = index_;
-  out.last_index = fragment_.last_index;
-  out.level = static_cast<std::uint8_t>(fragment_.level + (second_level_ ? 1 : 0));
-  out.linear = fragment_.linear;
-  out.last_of_sample = by_level_ ? last_sample : last_level;
-  out.last_of_fragment = last;
-
-  walking_ = !last;
-  if (last_level) ++samples;
-  if (!by_level_) {
-    second_level_ = !last_level;
-    if (second_level_) return;
-  } else if (last_sample) {
-    second_level_ = true;
-    index_ = 0;
-    walk_s_ = -walk_s_;
-    walk_t_ = -walk_t_;
-    return;
+template <class Width>
+void SampleWalkerOf<Width>::emit(Cycle cycle) {
+  auto& out = samples_out.emplace(cycle);
+  if constexpr (Width::kMost == 1) {
+    if (step(walks_[0], out)) walking_ = 0;
+  } else {
+    out.count = out.partial = 0;
+    do {
+      auto& group = walks_[older_];
+      const bool last = step(group.at[fragment_], out.at[out.count++]);
+      if (!last || ++fragment_ != group.count) continue;
+      if (group.count < fragments_)
+        out.partial = static_cast<std::uint8_t>(out.partial | 1U << (out.count - 1));
+      fragment_ = 0;
+      older_ = (older_ + 1) % kWalking;
+      --walking_;
+    } while (out.count < width_ && walking_ != 0);
   }
-  ++index_;
-  walk_s_ += step_s_ << 1;
-  walk_t_ += step_t_ << 1;
 }
 
-Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
+// The next request of a fragment. True: it is the last one.
+template <class Width>
+inline bool SampleWalkerOf<Width>::step(Walk& walk, SampleToken& out) {
+  const LevelToken& fragment = walk.fragment;
+  const bool last_level = walk.second_level || fragment.fraction == 0,
+             last_sample = walk.index == fragment.last_index, last = last_level && last_sample;
+  out.ticket = fragment.ticket;
+  out.s = fragment.s + ((walk.walk_s + kHalf) >> kRoundedBits);
+  out.t = fragment.t + ((walk.walk_t + kHalf) >> kRoundedBits);
+  out.level_weight =
+      static_cast<std::uint16_t>(walk.second_level ? fragment.fraction : 256 - fragment.fraction);
+  out.index = walk.index;
+  out.last_index = fragment.last_index;
+  out.level = static_cast<std::uint8_t>(fragment.level + (walk.second_level ? 1 : 0));
+  out.linear = fragment.linear;
+  out.last_of_sample = last_level;
+  out.last_of_fragment = last;
+
+  if (last_level) ++samples;
+  if (by_level_) [[unlikely]] {
+    out.last_of_sample = last_sample;
+    advance_by_level(walk, last_sample);
+    return last;
+  }
+  walk.second_level = !last_level;
+  if (walk.second_level) return false;
+  ++walk.index;
+  walk.walk_s += walk.step_s << 1;
+  walk.walk_t += walk.step_t << 1;
+  return last;
+}
+
+template <class Width>
+void SampleWalkerOf<Width>::advance_by_level(Walk& walk, bool last_sample) {
+  if (last_sample) {
+    walk.second_level = true;
+    walk.index = 0;
+    walk.walk_s = -walk.walk_s;
+    walk.walk_t = -walk.walk_t;
+  } else {
+    ++walk.index;
+    walk.walk_s += walk.step_s << 1;
+    walk.walk_t += walk.step_t << 1;
+  }
+}
+
+template <class Width>
+Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const Stage request = {"", "one bilinear request per cycle",
                          "57-bit rounding addition, then a 34-bit addition"};
   Datasheet sheet = {
@@ -132,14 +189,17 @@ Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
       .interval = {1,
                    "one request per cycle: N x (1 or 2) cycles per fragment (1 for an invalid "
-                   "descriptor)"},
+                   "descriptor); `width` = W: W requests, of at most two groups of fragments"},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",
       .cost =
           "two 34 x 8 multipliers, two shifters and two subtractors (`any`: two 41 x 17 and two "
           "57 x 4 multipliers, and ROM `reciprocal`, 16 x 17 bits), two 61-bit accumulators, four "
-          "adders, registers for three fragments (`any`: four)."};
+          "adders, registers for three fragments (`any`: four); `width` = W, `fragments` = F: "
+          "registers for four groups of F fragments (`any`: five), F copies of multipliers, "
+          "shifters, subtractors and accumulators, the ROM F R, W copies of the adders of a "
+          "request, and adders of up to 2 W multiples of a step."};
   if (p.count == spec::texture::CountRule::kAny) {
     sheet.variant = "`count = any`";
     sheet.latency = {4, "4 to the first request"};
@@ -158,5 +218,8 @@ Datasheet SampleWalker::datasheet(const spec::texture::Parameters& p) {
   }
   return sheet;
 }
+
+template class SampleWalkerOf<Narrow>;
+template class SampleWalkerOf<Wide>;
 
 }  // namespace deburr::rtl::texture

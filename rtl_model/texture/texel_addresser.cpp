@@ -35,25 +35,49 @@ constexpr auto kSpread = [] {
 
 }  // namespace
 
-TexelAddresser::TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
-                               const Descriptors::Reader& descriptors)
-    : Unit(name, clock), descriptors_(descriptors) {}
+template <class Width>
+TexelAddresserOf<Width>::TexelAddresserOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                                          const Descriptors::Reader& descriptors,
+                                          const std::optional<Descriptors::Reader>& younger)
+    : Unit(name, clock), descriptors_(descriptors), younger_(younger) {}
 
-Activity TexelAddresser::tick(Cycle cycle) {
+template <class Width>
+Activity TexelAddresserOf<Width>::tick(Cycle cycle) {
   const bool arrives = samples_in.can_pop(cycle);
   if (pipe_.empty() && !arrives) return kIdle;
   if (pipe_.leaves() && !texels_out.can_push(cycle)) return kStalledDownstream;
   pipe_.move();
-  if (const TexelToken* done = pipe_.at(kStages)) texels_out.push(cycle, *done);
-  if (arrives) request(cycle, samples_in.take(cycle), pipe_.enter());
+  if (const auto* done = pipe_.at(kStages)) texels_out.push(cycle, *done);
+  if (arrives) enter(cycle, samples_in.take(cycle));
   return kBusy;
+}
+
+// A group has requests of at most two quads.
+template <class Width>
+inline void TexelAddresserOf<Width>::enter(
+    Cycle cycle, const typename Width::template Requests<SampleToken>& samples) {
+  const std::uint8_t first = nth(samples, 0).ticket.texture;
+  const TextureState& texture = descriptors_.read(cycle, first);
+  auto& texels = pipe_.enter();
+  if constexpr (Width::kMost == 1) {
+    request(texture, samples, texels);
+  } else {
+    texels.partial = samples.partial;
+    const TextureState* second = nullptr;
+    each(samples, texels, [&](const SampleToken& sample, TexelToken& out) {
+      const bool other = sample.ticket.texture != first;
+      if (other && !second) second = &younger_->read(cycle, sample.ticket.texture);
+      request(other ? *second : texture, sample, out);
+    });
+  }
 }
 
 // All stages. Nothing in between is observable, since a descriptor does not change while the unit
 // is busy.
-inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, TexelToken& out) {
+template <class Width>
+inline void TexelAddresserOf<Width>::request(const TextureState& texture, const SampleToken& sample,
+                                             TexelToken& out) {
   // Stage 1.
-  const TextureState& texture = descriptors_.read(cycle, sample.ticket.texture);
   out.ticket = sample.ticket;
   FilterControl& control = out.control;
   control = {0,
@@ -77,8 +101,9 @@ inline void TexelAddresser::request(Cycle cycle, const SampleToken& sample, Texe
 
 // Stages 2 to 4 for one axis: wraps the coordinate, scales it to texels, splits it, and brings both
 // texels into range.
-inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::int32_t size,
-                                                  spec::texture::Wrap wrap, bool linear) {
+template <class Width>
+inline typename TexelAddresserOf<Width>::Axis TexelAddresserOf<Width>::scale(
+    std::int64_t position, std::int32_t size, spec::texture::Wrap wrap, bool linear) {
   if (wrap == spec::texture::Wrap::kRepeat) {
     position &= kOne - 1;
   } else if (wrap == spec::texture::Wrap::kMirroredRepeat) {
@@ -110,8 +135,10 @@ inline TexelAddresser::Axis TexelAddresser::scale(std::int64_t position, std::in
 }
 
 // Stage 5.
-inline void TexelAddresser::address(const TextureState& texture, const LevelGeometry& level,
-                                    std::uint64_t x, std::uint64_t y, TexelToken& out) {
+template <class Width>
+inline void TexelAddresserOf<Width>::address(const TextureState& texture,
+                                             const LevelGeometry& level, std::uint64_t x,
+                                             std::uint64_t y, TexelToken& out) {
   std::uint64_t column, row;  // parts of the addresses: U28
   const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
   if (linear_layout) {
@@ -141,7 +168,8 @@ inline void TexelAddresser::address(const TextureState& texture, const LevelGeom
   out.turned = {linear_layout && (low(y) & 1), linear_layout && (high(y) & 1)};
 }
 
-Datasheet TexelAddresser::datasheet() {
+template <class Width>
+Datasheet TexelAddresserOf<Width>::datasheet() {
   return {
       .unit = "TexelAddresser",
       .does = "Computes the addresses of a sample's four texels and its bilinear fractions.",
@@ -161,7 +189,12 @@ Datasheet TexelAddresser::datasheet() {
       .cost =
           "16 : 1 mux of descriptors and 13 : 1 mux of levels, two 34 x 13 multipliers, two 12 x 9 "
           "multipliers for `linear` pitch; `tiled`: two subtractors, and per address a count of 10 "
-          "bits and two shifters; registers for four requests, the first with 13 level bases."};
+          "bits and two shifters; registers for four requests, the first with 13 level bases; "
+          "`width` = W: W copies, but two "
+          "descriptors."};
 }
+
+template class TexelAddresserOf<Narrow>;
+template class TexelAddresserOf<Wide>;
 
 }  // namespace deburr::rtl::texture

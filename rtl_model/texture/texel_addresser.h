@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -17,17 +18,21 @@
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/descriptors.h"
 #include "rtl_model/texture/tokens.h"
+#include "rtl_model/texture/width.h"
 #include "spec/texture/descriptor.h"
 
 namespace deburr::rtl::texture {
 
-class TexelAddresser final : public Unit {
+template <class Width>
+class TexelAddresserOf : public Unit {
  public:
-  In<SampleToken> samples_in{"samples_in"};
-  Out<TexelToken> texels_out{"texels_out"};
+  In<typename Width::template Requests<SampleToken>> samples_in{"samples_in"};
+  Out<typename Width::template Requests<TexelToken>> texels_out{"texels_out"};
 
-  TexelAddresser(const sc_core::sc_module_name& name, ClockDomain& clock,
-                 const Descriptors::Reader& descriptors);
+  // `younger`: for a second quad in a group; not built at width 1.
+  TexelAddresserOf(const sc_core::sc_module_name& name, ClockDomain& clock,
+                   const Descriptors::Reader& descriptors,
+                   const std::optional<Descriptors::Reader>& younger = {});
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
@@ -42,14 +47,29 @@ class TexelAddresser final : public Unit {
     std::uint64_t texels;   // U12 each, in range; the first in the low half
     std::uint8_t fraction;  // U0.8
   };
-  void request(Cycle cycle, const SampleToken& sample, TexelToken& texels);
+  [[gnu::always_inline]] void enter(Cycle cycle,
+                                    const typename Width::template Requests<SampleToken>& samples);
+  [[gnu::always_inline]] void request(const TextureState& texture, const SampleToken& sample,
+                                      TexelToken& texels);
   static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
                     bool linear);
   static void address(const TextureState& texture, const LevelGeometry& level, std::uint64_t x,
                       std::uint64_t y, TexelToken& texels);
 
   Descriptors::Reader descriptors_;
-  Pipe<TexelToken, kStages> pipe_;
+  std::optional<Descriptors::Reader> younger_;
+  Pipe<typename Width::template Requests<TexelToken>, kStages> pipe_;
 };
+
+class TexelAddresser final : public TexelAddresserOf<Narrow> {
+ public:
+  using TexelAddresserOf::TexelAddresserOf;
+};
+namespace wide {
+class TexelAddresser final : public TexelAddresserOf<Wide> {
+ public:
+  using TexelAddresserOf::TexelAddresserOf;
+};
+}  // namespace wide
 
 }  // namespace deburr::rtl::texture

@@ -18,6 +18,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const StandIns& stand_ins)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
+      descriptors_("descriptors", control, parameters_.width),
       address("address_unit", clock, parameters_, control, descriptors_, probe_),
       cache("texture_cache", clock, parameters_, control),
       filter("filter_pipeline", clock, parameters_, probe_) {

@@ -51,7 +51,7 @@ class TextureUnit final : public Engine {
  private:
   spec::texture::Parameters parameters_;
   LatencyProbe probe_;
-  Descriptors descriptors_{"descriptors", control};
+  Descriptors descriptors_;
 
  public:
   AddressUnit address;

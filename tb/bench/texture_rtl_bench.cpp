@@ -115,7 +115,7 @@ class Picture final : public rtl::Unit {
   Picture(const sc_core::sc_module_name& name, rtl::ClockDomain& clock) : Unit(name, clock) {}
   Activity tick(Cycle cycle) override {
     if (!colours_in.can_pop(cycle)) return rtl::kIdle;
-    for (const spec::texture::Colour& colour : colours_in.take(cycle)) sum_ += colour.rgba[0];
+    sum_ += colours_in.take(cycle).colour[0].rgba[0];
     return rtl::kBusy;
   }
   void reset() override { sum_ = 0; }

@@ -116,10 +116,10 @@ inline rtl::texture::Ticket ticket(std::uint32_t tag = 0, std::uint8_t texture =
 
 // Registers and descriptors with their bus, for the blocks that read them.
 struct Store {
-  explicit Store(ClockDomain& clock, const std::string& name = "")
+  explicit Store(ClockDomain& clock, const std::string& name = "", std::int32_t width = 1)
       : control((name + "registers").c_str(), rtl::texture::register_table(),
                 rtl::texture::control_layout()),
-        descriptors((name + "descriptors").c_str(), control),
+        descriptors((name + "descriptors").c_str(), control, width),
         bus((name + "bus").c_str()) {
     bus.bus.bind(control.registers.bus);
     clock.on_reset([this] { control.reset(); });
