@@ -20,7 +20,7 @@ constexpr bool is_power_of_two(std::int32_t value) {
 // Leaves at least two directions per cycle: 1, 2, 4 for two, four, eight axes.
 constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
-inline constexpr std::array<BuildRule<Parameters>, 20> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
     {{"cache.bytes"},
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.cache_bytes); }},
@@ -94,6 +94,14 @@ inline constexpr std::array<BuildRule<Parameters>, 20> kBuildRules = {{
      "must be at most the number of sets, since the low bits of the set select the bank",
      [](const Parameters& p) {
        return p.cache_line_banks * p.cache_line_bytes * p.cache_ways <= p.cache_bytes;
+     }},
+    {{"cache.line_banks", "cache.bytes", "cache.line_bytes"},
+     "must leave 16 lines per bank, or at most 64 banks of words: more and smaller ones of SRAM "
+     "are "
+     "not built",
+     [](const Parameters& p) {
+       return p.cache_bytes / p.cache_line_bytes >= 16 * p.cache_line_banks ||
+              p.cache_line_banks * p.cache_line_bytes / 4 <= 64;
      }},
     {{"cache.fill_writes", "cache.line_banks"},
      "must be at most the number of line banks, since each fill is written into another one",

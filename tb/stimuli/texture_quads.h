@@ -43,7 +43,30 @@ inline spec::texture::Parameters random_configuration(Random& random) {
   p.count_cap = any_code<spec::texture::CountCap>(random, spec::texture::kCountCapNames);
   p.kernel = any_code<spec::texture::Kernel>(random, spec::texture::kKernelNames);
   p.spread = any_of(random, std::array{0, 1, 64, 77, 102, 128});
+  p.blend = any_code<spec::texture::Blend>(random, spec::texture::kBlendNames);
+  p.derivatives = any_code<spec::texture::Derivatives>(random, spec::texture::kDerivativesNames);
   return p;
+}
+
+// Width 2 or 4 with random ports, for the cache of `p`.
+inline void random_width(Random& random, spec::texture::Parameters& p) {
+  const auto power_up_to = [&](std::int32_t most) {
+    std::uint32_t powers = 1;
+    while (1 << powers <= most) ++powers;
+    return 1 << random.below(powers);
+  };
+  p.width = random.chance(500) ? 2 : 4;
+  p.fragments = power_up_to(p.width);
+  p.cache_lookups = 4 + static_cast<std::int32_t>(random.below(5));
+  p.cache_allocations = 1 + static_cast<std::int32_t>(random.below(4));
+  const std::int32_t lines = p.cache_bytes / p.cache_line_bytes;
+  const std::int32_t few = std::max(lines / 16, 256 / p.cache_line_bytes);
+  p.cache_line_banks =
+      power_up_to(std::min({spec::texture::kMostLineBanks, lines / p.cache_ways, few}));
+  p.cache_bank_reads = 1 + static_cast<std::int32_t>(random.below(2));
+  p.cache_fill_writes = power_up_to(std::min(spec::texture::kMostFillWrites, p.cache_line_banks));
+  p.cache_replacement = spec::texture::Replacement::kLru;
+  p.cache_outstanding = any_of(random, std::array{0, 8, 20, 64});
 }
 
 inline void random_size(Random& random, spec::texture::Descriptor& d) {

@@ -95,6 +95,34 @@ TEST_P(RandomQuads, QuadsMatchGolden) {
   EXPECT_GT(work.line_fills, 0u);
 }
 
+// Also after a reset in the middle of the quads.
+TEST_P(RandomQuads, WideQuadsMatchGolden) {
+  Random random(GetParam(), "random wide quads");
+  const QuadInput input = random_input(random);
+  spec::texture::Parameters parameters = random_parameters(random);
+  stimuli::random_width(random, parameters);
+  const platform::MemoryModelParameters memory = random_memory(random);
+  QuadBench bench(input, parameters, memory, random_weather(random));
+  bench.reset();
+  if (random.chance(300)) {
+    bench.run_for(random.below(3000));
+    bench.reset();
+  }
+  const QuadOutcome outcome = bench.run();
+  golden::texture::TextureWork work;
+  EXPECT_EQ(bench.check(input, outcome, &work), "");
+  EXPECT_GT(work.invalid_fragments, 0u);
+  EXPECT_GT(work.line_fills, 0u);
+  const rtl::texture::GroupFormer& former = bench.unit().cache.wide->group_former;
+  EXPECT_EQ(former.slots.value(),
+            former.requests.value() + former.lookups.value() + former.banks.value() +
+                former.set.value() + former.partial_quad.value() + former.starved.value() +
+                former.allocate.value() + former.miss_queue.value() + former.wait_fill.value() +
+                former.write_fill.value() + former.bank_pass.value() + former.output.value());
+  EXPECT_EQ(former.slots.value() % static_cast<std::uint64_t>(parameters.width), 0u);
+  EXPECT_EQ(former.requests.value(), work.bilinears + work.invalid_fragments);
+}
+
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 37));
 
 // Injected: the golden model's input differs from the hardware's.
