@@ -50,6 +50,7 @@ std::string configuration(const CounterpartUnit& unit,
 
 const TextureCounterpart* find(const CounterpartUnit& unit,
                                const spec::texture::Parameters& as_built) {
+  if (as_built.width > 1) return nullptr;
   const std::string wanted = configuration(unit, as_built);
   for (const TextureCounterpart& counterpart : counterparts())
     if (counterpart.unit == unit.name && configuration(unit, counterpart.parameters) == wanted)
@@ -106,6 +107,11 @@ std::vector<std::string> counterpart_units(const std::string& text) {
 
 StandIns texture_counterparts(const std::vector<std::string>& units,
                               const spec::texture::Parameters& as_built, std::uint64_t seed) {
+  if (!units.empty() && as_built.width > 1)
+    throw spec::ConfigError(
+        fmt::format("run.hdl: the units in SystemVerilog are those of texture.width = 1, and "
+                    "texture.width is {}: set it to 1, or leave out run.hdl (--hdl)",
+                    as_built.width));
   std::vector<const TextureCounterpart*> chosen;
   for (const std::string& name : units) {
     const CounterpartUnit& unit = unit_named(name);

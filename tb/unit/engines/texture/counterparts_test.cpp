@@ -40,5 +40,17 @@ TEST(TextureCounterparts, UnavailableInProgramWithoutThem) {
   EXPECT_THROW(texture_counterparts({"cache"}, {}, 1), spec::ConfigError);
 }
 
+TEST(TextureCounterparts, RejectWidthAbove1) {
+  spec::texture::Parameters wide;
+  wide.width = 2;
+  EXPECT_FALSE(available_texture_counterparts(wide, 1));
+  try {
+    texture_counterparts({"filter"}, wide, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const spec::ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("run.hdl"), HasSubstr("texture.width is 2")));
+  }
+}
+
 }  // namespace
 }  // namespace deburr::tb::counterparts_test
