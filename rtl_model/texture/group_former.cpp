@@ -16,14 +16,13 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       set_mask_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes / p.cache_ways) - 1),
       bank_mask_(static_cast<std::uint32_t>(p.cache_line_banks * p.cache_line_bytes / 4) - 1),
-      memory_("requests_waiting",
-              {.words = 2 * static_cast<std::uint64_t>(p.width),
-               .word_bits = kPayloadBits<TexelToken> + 1,
-               .kind = MemoryKind::kFlops,
-               .read_ports = width_,
-               .write_ports = width_,
-               .latency = 0,
-               .content = "requests that wait for a group"}),
+      memory_("requests_waiting", {.words = 2 * static_cast<std::uint64_t>(p.width),
+                                   .word_bits = kPayloadBits<TexelToken> + 1,
+                                   .kind = MemoryKind::kFlops,
+                                   .read_ports = width_,
+                                   .write_ports = width_,
+                                   .latency = 0,
+                                   .content = "requests that wait for a group"}),
       buffer_(2 * width_),
       banks_(bank_mask_ + 1) {
   for (std::uint32_t i = 0; i < width_; ++i) {
@@ -60,7 +59,7 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
       exceeded.lookups |= ++lines.count > lookups_;
     }
     const std::uint32_t word = request.word[i];
-    Bank& bank = banks_[word & bank_mask_];
+    Bank& bank = banks_[request.bank[i]];
     if (bank.group != group_) {
       bank.group = group_;
       bank.words = 0;
@@ -125,7 +124,9 @@ inline void GroupFormer::take(Cycle cycle) {
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t address = token.address[i];
       request.line[i] = address >> line_log2_;
-      request.word[i] = (address ^ (token.turned[i >> 1] ? turn_ : 0)) >> 2;
+      request.word[i] = address >> 2;
+      request.bank[i] = static_cast<std::uint16_t>(
+          (address ^ (token.turned[i >> 1] ? turn_ : 0)) >> 2 & bank_mask_);
       request.offset[i] = static_cast<std::uint8_t>(address & mask);
     }
   }
@@ -137,7 +138,8 @@ inline void GroupFormer::count(std::uint32_t emitted, std::uint32_t buffered, Cy
   if (emitted == 0) {
     if (!started_) return;
     pending_ = true;
-    ++(buffered == 0 ? starved_since_ : stopped_since_[static_cast<std::size_t>(stall_in.read(cycle))]);
+    ++(buffered == 0 ? starved_since_
+                     : stopped_since_[static_cast<std::size_t>(stall_in.read(cycle))]);
     return;
   }
   started_ = true;

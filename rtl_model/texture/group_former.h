@@ -61,7 +61,8 @@ class GroupFormer final : public Unit {
     FilterControl control;
     bool partial;
     std::array<std::uint32_t, 4> line;  // U27
-    std::array<std::uint32_t, 4> word;  // U30, of memory, with its line turned as the row asks
+    std::array<std::uint32_t, 4> word;  // U30, of memory
+    std::array<std::uint16_t, 4> bank;  // of words, with the line turned as the row asks
     std::array<std::uint8_t, 4> offset;
     std::array<bool, 2> turned;
   };
@@ -95,11 +96,11 @@ class GroupFormer final : public Unit {
   Memory<void> memory_;
   std::vector<ReadPort<void>> oldest_;
   std::vector<WritePort<void>> new_;
-  std::vector<Waiting> buffer_;              // a ring
-  std::uint32_t head_ = 0, buffered_ = 0;    // oldest request and number of requests
-  std::vector<Bank> banks_;                  // of words
-  std::uint64_t group_ = 0;                  // number of the group
-  Counter* cause_ = nullptr;                 // why the latest group has fewer than W requests
+  std::vector<Waiting> buffer_;            // a ring
+  std::uint32_t head_ = 0, buffered_ = 0;  // oldest request and number of requests
+  std::vector<Bank> banks_;                // of words
+  std::uint64_t group_ = 0;                // number of the group
+  Counter* cause_ = nullptr;               // why the latest group has fewer than W requests
   // Counters only: empty slots since the latest group, by cause; counted with the next group.
   bool started_ = false;
   std::uint64_t starved_since_ = 0;

@@ -16,6 +16,7 @@
 // Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <systemc>
 
@@ -45,8 +46,29 @@ class TextureCache final : public sc_core::sc_module {
   TextureCache(const sc_core::sc_module_name& name, ClockDomain& clock,
                const spec::texture::Parameters& parameters, ControlRegisters& registers);
 
-  struct Narrow;
-  struct Wide;
+  // Width 1, and above.
+  struct Narrow {
+    Narrow(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
+
+    TagStage tag_stage;
+    LatencyFifo latency_fifo;
+    DataStage data_stage;
+    Link<CacheToken> requests;
+    Wire<bool> line_used{"line_used", false};
+  };
+  struct Wide {
+    Wide(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
+
+    GroupFormer group_former;
+    WideTagStage tag_stage;
+    WideLatencyFifo latency_fifo;
+    WideDataStage data_stage;
+    Link<LineGroup> groups;
+    Link<CacheGroup> requests;
+    Wire<std::uint8_t> lines_used{"lines_used", 0, {.widths = {{"value", 3}}}};
+    Wire<SlotStall> data_stall{"data_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
+    Wire<SlotStall> tag_stall{"tag_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
+  };
 
   MissQueue miss_queue;
   // Exactly one of the two is built.
@@ -62,30 +84,6 @@ class TextureCache final : public sc_core::sc_module {
   Link<MissToken> misses_;
   Link<MemoryRequest> memory_requests_;
   Link<MemoryResponse> memory_responses_;
-};
-
-struct TextureCache::Narrow {
-  Narrow(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
-
-  TagStage tag_stage;
-  LatencyFifo latency_fifo;
-  DataStage data_stage;
-  Link<CacheToken> requests;
-  Wire<bool> line_used{"line_used", false};
-};
-
-struct TextureCache::Wide {
-  Wide(ClockDomain& clock, const spec::texture::Parameters& p, const FillBuffer::Reader& fills);
-
-  GroupFormer group_former;
-  WideTagStage tag_stage;
-  WideLatencyFifo latency_fifo;
-  WideDataStage data_stage;
-  Link<LineGroup> groups;
-  Link<CacheGroup> requests;
-  Wire<std::uint8_t> lines_used{"lines_used", 0, {.widths = {{"value", 3}}}};
-  Wire<SlotStall> data_stall{"data_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
-  Wire<SlotStall> tag_stall{"tag_stall", SlotStall::kNone, {.widths = {{"value", 3}}}};
 };
 
 }  // namespace deburr::rtl::texture

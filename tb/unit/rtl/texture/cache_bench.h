@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A TextureCache between a queue of requests and a sink, with a memory whose words hold their own
-// addresses. Cycles are counted from the push of a request by its producer: pushed in c, taken in c
+// A TextureCache, narrow or wide, between a queue of requests and a sink, with a memory whose words
+// hold their own addresses. Cycles are counted from the push of a request by its producer: pushed
+// in c, taken in c
 // + 1.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -88,5 +91,117 @@ struct CacheBench {
   rtl::texture::TextureCache cache;
   platform::MemoryModel memory;
 };
+
+// ---- Wide builds
+// ---------------------------------------------------------------------------------
+
+// Cycles from taking a group that hits to its output: GroupFormer (2) and as above.
+inline constexpr Cycle kWideHit = 2 + kHit, kWideMiss = 2 + kMiss;
+
+// 32 sets x 2 ways x 64 bytes, with the ports of the build `wide`.
+inline spec::texture::Parameters wide_cache(std::int32_t width = 4) {
+  spec::texture::Parameters p;
+  p.cache_bytes = 4096;
+  p.cache_outstanding = 32;
+  p.cache_fifo_depth = 32;
+  p.width = width;
+  p.cache_lookups = 8;
+  p.cache_line_banks = p.cache_fill_writes = 4;
+  p.cache_bank_reads = 2;
+  return p;
+}
+
+// A token of the TexelAddresser. Bit i of `partial`: request i ends a quad of fewer fragments.
+inline rtl::texture::TexelGroup token_of(const std::vector<rtl::texture::TexelToken>& requests,
+                                         std::uint8_t partial = 0) {
+  rtl::texture::TexelGroup group{};
+  group.count = static_cast<std::uint8_t>(requests.size());
+  group.partial = partial;
+  std::copy(requests.begin(), requests.end(), group.at.begin());
+  return group;
+}
+inline rtl::texture::TexelToken invalid_request() {
+  rtl::texture::TexelToken t = request({});
+  t.ticket.valid = false;
+  return t;
+}
+
+struct WideBench {
+  explicit WideBench(const spec::texture::Parameters& p = wide_cache(),
+                     std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
+                     const std::string& prefix = "")
+      : clock((prefix + "clock").c_str(), period()),
+        store(clock, prefix),
+        ends(clock, prefix),
+        cache((prefix + "cache").c_str(), clock, p, store.control),
+        memory((prefix + "memory").c_str(), period(), memory_parameters(latency, scatter)),
+        width(static_cast<std::size_t>(p.width)) {
+    cache.groups_in(ends.in);
+    cache.groups_out(ends.out);
+    cache.memory_port.memory.bind(memory.ports);
+    std::vector<std::uint8_t> image(1 << 20);
+    for (std::size_t i = 0; i < image.size(); ++i)
+      image[i] = static_cast<std::uint8_t>(CacheBench::word(i & ~3ull) >> (8 * (i & 3)));
+    memory.preload(0, image);
+  }
+  void add(const std::vector<rtl::texture::TexelToken>& requests, std::uint8_t partial = 0) {
+    ends.source.add(token_of(requests, partial));
+    asked.insert(asked.end(), requests.begin(), requests.end());
+  }
+  // Runs until every request has left.
+  void finish(Cycle limit = 100'000) {
+    EXPECT_TRUE(clock.run_until([&] { return delivered() == asked.size(); }, limit));
+  }
+  std::size_t delivered() {
+    for (; counted < ends.sink.taken.size(); ++counted)
+      left += ends.sink.taken[counted].token.count;
+    return left;
+  }
+  // The requests have left in their order, with the words of memory.
+  void check_data() const {
+    std::size_t i = 0;
+    for (const auto& taken : ends.sink.taken)
+      for (std::size_t n = 0; n < taken.token.count; ++n, ++i) {
+        ASSERT_LT(i, asked.size());
+        const rtl::texture::TexelQuadToken& got = taken.token.at[n];
+        EXPECT_EQ(got.ticket.tag, asked[i].ticket.tag) << i;
+        for (std::size_t k = 0; k < 4; ++k)
+          EXPECT_EQ(got.texel[k],
+                    asked[i].ticket.valid ? CacheBench::word(asked[i].address[k]) : 0u)
+              << i << " " << k;
+      }
+    EXPECT_EQ(i, asked.size());
+  }
+  const rtl::texture::GroupFormer& former() const { return cache.wide->group_former; }
+
+  ClockDomain clock;
+  Store store;
+  Ends<rtl::texture::TexelGroup, rtl::texture::TexelQuadGroup> ends;
+  rtl::texture::TextureCache cache;
+  platform::MemoryModel memory;
+  std::size_t width;
+  std::vector<rtl::texture::TexelToken> asked;
+
+ private:
+  std::size_t counted = 0, left = 0;
+};
+
+// Slots of the GroupFormer, by cause.
+using Slots = std::map<std::string, std::uint64_t>;
+inline Slots slots_of(const rtl::texture::GroupFormer& former) {
+  Slots slots;
+  for (const rtl::Counter* counter :
+       {&former.lookups, &former.banks, &former.set, &former.partial_quad, &former.starved,
+        &former.allocate, &former.miss_queue, &former.wait_fill, &former.write_fill,
+        &former.bank_pass, &former.output})
+    if (counter->value() != 0) slots[counter->basename()] = counter->value();
+  return slots;
+}
+// Each slot is counted exactly once.
+inline void check_slots(const rtl::texture::GroupFormer& former) {
+  std::uint64_t sum = former.requests.value();
+  for (const auto& [cause, slots] : slots_of(former)) sum += slots;
+  EXPECT_EQ(former.slots.value(), sum);
+}
 
 }  // namespace deburr::tb::texture_rtl

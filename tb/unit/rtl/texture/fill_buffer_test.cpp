@@ -91,6 +91,62 @@ TEST(TextureRtlFillBuffer, SecondReadInOneCycleIsRejected) {
   EXPECT_THAT(rejection([&] { lines.read_ahead(12); }), Rejects("buffer", kTooMany));
 }
 
+// Four banks: each reads ahead its oldest line, so four lines are there in one cycle, and the next
+// one of a bank a cycle after it was used.
+TEST(TextureRtlFillBuffer, EachBankReadsAheadOneLine) {
+  FillBuffer buffer("buffer", 8, 64, 4);
+  FillBuffer::Reader lines = buffer.reader();
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(buffer.reserve(1), i);
+    std::array<std::uint8_t, 64> beat{};
+    beat[0] = static_cast<std::uint8_t>(i);
+    if (i != 5) buffer.fill(2 + i, i, 0, beat, true);
+    lines.read_ahead(2 + i);
+  }
+  const auto use = [&](Cycle cycle) {
+    std::vector<int> used;
+    for (; lines.ready(cycle); lines.release(cycle)) used.push_back(lines.line(cycle)[0]);
+    lines.read_ahead(cycle);
+    return used;
+  };
+  EXPECT_FALSE(lines.ready(3));
+  EXPECT_EQ(buffer.held(20), 7u);
+  EXPECT_THAT(use(20), testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(buffer.held(20), 7u) << "free in the next cycle";
+  EXPECT_EQ(buffer.held(21), 3u);
+  buffer.fill(20, 5, 0, kBeat, true);             // is read in 21 and there in 22
+  EXPECT_THAT(use(21), testing::ElementsAre(4));  // read in 20
+  EXPECT_THAT(use(22), testing::ElementsAre(11, 6));
+  EXPECT_TRUE(buffer.can_reserve(23));
+  for (std::uint32_t i = 7; i < 15; ++i) EXPECT_EQ(buffer.reserve(23), i % 8);
+  EXPECT_FALSE(buffer.can_reserve(23));
+  // Entry 0 is the second line of the next round: bank 0 waits for it, bank 3 for entry 7.
+  buffer.fill(24, 0, 0, kBeat, true);
+  lines.read_ahead(25);
+  EXPECT_FALSE(lines.ready(26));
+  buffer.fill(26, 7, 0, kBeat, true);
+  lines.read_ahead(27);
+  EXPECT_EQ(use(28).size(), 2u);
+  buffer.reset();
+  EXPECT_EQ(buffer.reserve(30), 0u);
+  buffer.fill(30, 0, 0, kBeat, true);
+  lines.read_ahead(31);
+  EXPECT_EQ(use(32).size(), 1u);
+}
+
+// A bank has one output register, and one line of a bank is used per cycle.
+TEST(TextureRtlFillBuffer, SecondReadOfBankIsRejected) {
+  FillBuffer buffer("buffer", 8, 64, 4);
+  FillBuffer::Reader lines = buffer.reader();
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    buffer.reserve(1);
+    buffer.fill(10 + i, i, 0, kBeat, true);
+  }
+  lines.read_ahead(16);
+  for (int i = 0; i < 4; ++i) lines.release(16);
+  EXPECT_THAT(rejection([&] { lines.read_ahead(16); }), Rejects("buffer", kTooMany));
+}
+
 // A reused entry: the output register still holds the previous line.
 TEST(TextureRtlFillBuffer, PreviousLineOfSameEntryIsStale) {
   FillBuffer buffer("buffer", 1, 64);
@@ -127,8 +183,9 @@ TEST(TextureRtlFillBuffer, AccessesMatchBeatsAndLines) {
 
 // Flip-flops up to 16 kbit, SRAM above; a line of two beats needs a write mask.
 TEST(TextureRtlFillBuffer, MemoryKindDependsOnSize) {
-  const auto built = [](std::uint32_t entries, std::uint32_t line_bytes) -> std::string {
-    const FillBuffer buffer("buffer", entries, line_bytes);
+  const auto built = [](std::uint32_t entries, std::uint32_t line_bytes,
+                        std::uint32_t banks = 1) -> std::string {
+    const FillBuffer buffer("buffer", entries, line_bytes, banks);
     std::string text;
     rtl::for_each<rtl::MemoryBase>([&](const rtl::MemoryBase& memory) {
       if (std::string(memory.name()) == "buffer")
@@ -142,6 +199,8 @@ TEST(TextureRtlFillBuffer, MemoryKindDependsOnSize) {
   EXPECT_EQ(built(64, 32), "64 x 256 flip-flops");
   EXPECT_EQ(built(16, 128), "16 x 1024 flip-flops, write mask of 512 bits");
   EXPECT_EQ(built(17, 128), "17 x 1024 1R1W, write mask of 512 bits");
+  EXPECT_EQ(built(64, 64, 2), "64 x 512 1R1W, 2 banks");
+  EXPECT_EQ(built(128, 64, 4), "128 x 512 1R1W, 4 banks");
 }
 
 TEST(TextureRtlFillBuffer, RejectsReservationBeyondItsEntries) {

@@ -140,6 +140,30 @@ TEST(TextureRtlMissQueue, EntryFreedInCycleIsReusedInCycle) { EXPECT_EQ(second_t
 // 12.
 TEST(TextureRtlMissQueue, EntryIsReusedAfterMemoryStall) { EXPECT_EQ(second_taken(10), 12u); }
 
+// The queue of a wide build takes eight lines in a cycle, or none.
+TEST(TextureRtlMissQueue, TakesAllLinesOfGroup) {
+  spec::texture::Parameters p = wide_cache();
+  p.cache_outstanding = 12;
+  QueueBench b(p);
+  b.misses.push(0, {{0, 1, 2, 3, 4, 5, 6, 7}, 8});
+  b.misses.push(1, {{8, 9, 10, 11, 12, 13}, 6});
+  std::vector<std::uint64_t> sent;
+  std::vector<Cycle> taken;
+  while (b.clock.cycle() < 20) {
+    const std::uint64_t pops = b.misses.pops();
+    if (b.requests.can_pop(b.clock.cycle()))
+      sent.push_back(b.requests.take(b.clock.cycle()).address / 64);
+    b.clock.run(1);
+    if (b.misses.pops() != pops) taken.push_back(b.clock.cycle() - 1);
+  }
+  // Eight in 1; two have to leave before there is room for six.
+  EXPECT_THAT(taken, testing::ElementsAre(1, 3));
+  EXPECT_THAT(sent, testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+  EXPECT_GT(stalls(b.queue, "fill_buffer_full"), 0u);
+  EXPECT_THAT((of_one_port_more<rtl::WritePort<std::uint32_t>, std::uint32_t>(b.queue, "lines")),
+              Rejects("lines", "one port more than 1R8W"));
+}
+
 // If the link took a second request in one cycle, the next line would be read as well.
 TEST(TextureRtlMissQueue, SecondLineSentInOneCycleIsRejected) {
   QueueBench b;
