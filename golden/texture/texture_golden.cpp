@@ -154,37 +154,35 @@ struct TextureGolden::NoTap {
   void end() {}
 };
 
+// Serves both lists: a third copy of the inner loop would not be inlined.
 struct TextureGolden::RequestTap {
   int wanted;
-  std::vector<BilinearRequest>& requests;
+  std::vector<BilinearRequest>* requests;  // of the wanted lane
+  std::vector<CacheRequest>* all = nullptr;
   BilinearRequest next{};
   bool on = false;
-  void lane(int lane) { on = lane == wanted; }
+  void lane(int lane) { on = requests && lane == wanted; }
   void sample(int i, std::int64_t s, std::int64_t t) {
     next.sample = i;
     next.s = s;
     next.t = t;
   }
-  void request(int level, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2>) {
+  void request(int level, const std::array<std::uint32_t, 4>& addresses,
+               std::array<bool, 2> turned) {
     next.level = level;
     next.addresses = addresses;
-    if (on) requests.push_back(next);
+    if (on) requests->push_back(next);
+    if (all) all->push_back({addresses, turned});
   }
   void fill(std::uint32_t line) {
-    if (on) requests.back().misses.push_back(line);
+    if (on) requests->back().misses.push_back(line);
   }
-  void invalid() {}
-  void end() {}
-};
-
-struct TextureGolden::CacheTap : NoTap {
-  explicit CacheTap(std::vector<CacheRequest>& to) : requests(to) {}
-  std::vector<CacheRequest>& requests;
-  void request(int, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2> turned) {
-    requests.push_back({addresses, turned});
+  void invalid() {
+    if (all) all->push_back({.valid = false, .last = true});
   }
-  void invalid() { requests.push_back({.valid = false, .last = true}); }
-  void end() { requests.back().last = true; }
+  void end() {
+    if (all) all->back().last = true;
+  }
 };
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
@@ -194,13 +192,13 @@ QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad, int lane,
                                    std::vector<BilinearRequest>& requests) {
-  RequestTap tap{lane, requests};
+  RequestTap tap{lane, &requests};
   return process_seen(quad, tap);
 }
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad,
                                    std::vector<CacheRequest>& requests) {
-  CacheTap tap(requests);
+  RequestTap tap{-1, nullptr, &requests};
   return process_seen(quad, tap);
 }
 
@@ -248,53 +246,52 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
   const std::int64_t distance_s = half_distance(n, spread, fragment.axis.s);
   const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
-  const auto at = [&](int i) {
-    Sample sample;
-    sample.s = s + offset_at(i, n, distance_s);
-    sample.t = t + offset_at(i, n, distance_t);
-    sample.wrapped_s = wrap_coordinate(texture.descriptor.wrap_s, sample.s);
-    sample.wrapped_t = wrap_coordinate(texture.descriptor.wrap_t, sample.t);
-    tap.sample(i, sample.s, sample.t);
-    return sample;
-  };
-  const auto filtered = [&](const Sample& sample, int level) {
-    return bilinear(texture, level, lod.linear, sample.wrapped_s, sample.wrapped_t, tap);
-  };
-  const auto add = [&](Channels& sum, int i, const Channels& value) {  // U8.20
-    const Lanes weight = sample_weight(parameters_.kernel, i, n);
-    sum.rb += weight * value.rb;
-    sum.ga += weight * value.ga;
-  };
   const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
                       parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
-  const auto result = [encode](std::size_t c, std::uint64_t accumulator, int fraction_bits) {
-    return encode && c < 3 ? encode_result(accumulator, fraction_bits)
-                           : round_result(accumulator, fraction_bits);
-  };
   std::array<std::uint8_t, 4> rgba{};
   if (parameters_.blend == spec::texture::Blend::kLevel) {
-    Channels sum, next_sum;
-    for (int i = 0; i < n; ++i) add(sum, i, filtered(at(i), lod.level));
-    for (int i = 0; i < n && lod.fraction != 0; ++i)
-      add(next_sum, i, filtered(at(i), lod.level + 1));
-    const Texel level = to_texel(sum), next_level = to_texel(next_sum);
-    for (std::size_t c = 0; c < 4; ++c)
-      rgba[c] = result(c, level_sum_lerp(level[c], next_level[c], lod.fraction), kLevelSumBits);
+    std::array<Channels, 2> sums;  // U8.20
+    for (int request = 0; request < n * lod.requests_per_sample(); ++request) {
+      const int next = request >= n ? 1 : 0, i = request - next * n;
+      const std::int64_t at_s = s + offset_at(i, n, distance_s);
+      const std::int64_t at_t = t + offset_at(i, n, distance_t);
+      tap.sample(i, at_s, at_t);
+      const Channels value = bilinear(texture, lod.level + next, lod.linear,
+                                      wrap_coordinate(texture.descriptor.wrap_s, at_s),
+                                      wrap_coordinate(texture.descriptor.wrap_t, at_t), tap);
+      const Lanes weight = sample_weight(parameters_.kernel, i, n);
+      Channels& sum = sums[static_cast<std::size_t>(next)];
+      sum.rb += weight * value.rb;
+      sum.ga += weight * value.ga;
+    }
+    const Texel level = to_texel(sums[0]), next_level = to_texel(sums[1]);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint64_t sum = level_sum_lerp(level[c], next_level[c], lod.fraction);
+      rgba[c] =
+          encode && c < 3 ? encode_result(sum, kLevelSumBits) : round_result(sum, kLevelSumBits);
+    }
     return rgba;
   }
-  Channels accumulator;
+  Channels accumulator;  // U8.20
   for (int i = 0; i < n; ++i) {
-    const Sample sample = at(i);
-    Channels value = filtered(sample, lod.level);
+    const std::int64_t at_s = s + offset_at(i, n, distance_s);
+    const std::int64_t at_t = t + offset_at(i, n, distance_t);
+    const std::int64_t sample_s = wrap_coordinate(texture.descriptor.wrap_s, at_s);
+    const std::int64_t sample_t = wrap_coordinate(texture.descriptor.wrap_t, at_t);
+    tap.sample(i, at_s, at_t);
+    Channels value = bilinear(texture, lod.level, lod.linear, sample_s, sample_t, tap);
     if (lod.fraction != 0) {
-      const Channels next = filtered(sample, lod.level + 1);
+      const Channels next = bilinear(texture, lod.level + 1, lod.linear, sample_s, sample_t, tap);
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    add(accumulator, i, value);
+    const Lanes weight = sample_weight(parameters_.kernel, i, n);
+    accumulator.rb += weight * value.rb;
+    accumulator.ga += weight * value.ga;
   }
   const Texel sums = to_texel(accumulator);
-  for (std::size_t c = 0; c < 4; ++c) rgba[c] = result(c, sums[c], kSampleSumBits);
+  for (std::size_t c = 0; c < 4; ++c)
+    rgba[c] = encode && c < 3 ? encode_result(sums[c]) : round_result(sums[c]);
   return rgba;
 }
 

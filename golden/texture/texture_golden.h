@@ -151,15 +151,10 @@ class TextureGolden {
   };
   static Differences differences(const Texture& texture, const spec::texture::Quad& quad);
   FragmentAnalysis analyse(const Texture& texture, const Differences& differences, int lane) const;
-  // Position of a sample, S9.24, and wrapped as by wrap_coordinate().
-  struct Sample {
-    std::int64_t s, t, wrapped_s, wrapped_t;
-  };
   // A Tap observes lanes, samples, requests, fills and invalid fragments. NoTap is empty and costs
   // nothing.
   struct NoTap;
   struct RequestTap;
-  struct CacheTap;
   template <class Tap>
   QuadColours process_seen(const spec::texture::Quad& quad, Tap& tap);
   template <class Tap>

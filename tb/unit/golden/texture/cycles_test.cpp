@@ -333,8 +333,15 @@ TEST(Cycles, BufferAndWalkingRegistersBridgeTwoGapsAfterAStall) {
   for (const int gap : {1, 2, 3, 20}) {
     const Quads quads = joined(repeated(Quad(4, at(0)), 60),
                                joined(repeated({}, gap), repeated(Quad(4, at(0)), 10)));
+    const auto cycles_of_gap = static_cast<unsigned>(gap);
     EXPECT_EQ(predict(p, quads, {.latency = 100}).slots.starved,
-              4u * static_cast<unsigned>(std::max(gap - 2, 0)));
+              4 * (std::max(cycles_of_gap, 2u) - 2));
+    // Width 1 has neither.
+    Parameters one = narrow();
+    one.cache_fifo_depth = 2;
+    const Quads single =
+        joined(repeated({at(0)}, 60), joined(repeated({}, gap), repeated({at(0)}, 10)));
+    EXPECT_EQ(cycles(one, single), 135u + 69 + cycles_of_gap);
   }
 }
 
