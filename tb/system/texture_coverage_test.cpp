@@ -56,6 +56,26 @@ TEST(TextureCoverage, EveryBinIsHit) {
       }
     }
   }
+  // Groups end at each limit of a small cache with few ports, and each unit after it stops them.
+  for (int ways = 1; ways <= 2; ++ways) {
+    TextureRunOptions options;
+    options.texture.width = options.texture.fragments = 4;
+    options.texture.blend = spec::texture::Blend::kLevel;
+    options.texture.derivatives = spec::texture::Derivatives::kCoarse;
+    options.texture.cache_bytes = 2048;
+    options.texture.cache_ways = ways;
+    options.texture.cache_outstanding = 8;
+    options.texture.cache_allocations = 1;
+    options.stall_permille = ways == 1 ? 0 : 100;
+    SamplerParameters sampler;
+    sampler.layout = spec::texture::Layout::kLinear;
+    SceneParameters odd = picture("tunnel", 48);
+    odd.texture_size = 63;
+    run(coverage, odd, sampler, options);
+    sampler.mode = spec::texture::MinFilter::kNearest;
+    sampler.anisotropy = 0;  // quads on an edge have fewer than four requests
+    run(coverage, picture("object", 48), sampler, options);
+  }
   EXPECT_GT(coverage.size(), 80u);
   EXPECT_TRUE(coverage.holes().empty()) << testing::PrintToString(coverage.holes());
 }

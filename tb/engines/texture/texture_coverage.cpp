@@ -23,10 +23,30 @@ constexpr std::array kGroups = {
     CoverageGroup{"texture/tent",
                   "Fragments with the kernel tent: narrow with fewer than four samples, which it "
                   "does not change, and wide."},
-    CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."}};
+    CoverageGroup{"texture/blend", "Fragments by the order of sums over samples and levels."},
+    CoverageGroup{"texture/derivatives", "Fragments by the rule for differences."},
+    CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."},
+    CoverageGroup{"texture/slots", "Slots of widths above 1 without a request, by cause."}};
 
 constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
 constexpr int kMaxSamples = 16;
+
+using rtl::texture::GroupFormer;
+struct SlotBin {
+  const char* name;
+  rtl::Counter GroupFormer::*slots;
+};
+constexpr std::array kSlots = {SlotBin{"lookups", &GroupFormer::lookups},
+                               SlotBin{"banks", &GroupFormer::banks},
+                               SlotBin{"set", &GroupFormer::set},
+                               SlotBin{"partial_quad", &GroupFormer::partial_quad},
+                               SlotBin{"starved", &GroupFormer::starved},
+                               SlotBin{"allocate", &GroupFormer::allocate},
+                               SlotBin{"miss_queue", &GroupFormer::miss_queue},
+                               SlotBin{"wait_fill", &GroupFormer::wait_fill},
+                               SlotBin{"write_fill", &GroupFormer::write_fill},
+                               SlotBin{"bank_pass", &GroupFormer::bank_pass},
+                               SlotBin{"output", &GroupFormer::output}};
 
 template <class Enum>
 std::size_t index(Enum e) {
@@ -54,7 +74,12 @@ Coverage TextureCoverage::declared() {
     for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("texture/major/{}/{}", axes, k));
   coverage.declare("texture/tent/narrow");
   coverage.declare("texture/tent/wide");
+  for (const auto blend : spec::texture::kBlendNames)
+    coverage.declare(fmt::format("texture/blend/{}", blend));
+  for (const auto rule : spec::texture::kDerivativesNames)
+    coverage.declare(fmt::format("texture/derivatives/{}", rule));
   for (const auto outcome : kCache) coverage.declare(fmt::format("texture/cache/{}", outcome));
+  for (const SlotBin& bin : kSlots) coverage.declare(fmt::format("texture/slots/{}", bin.name));
   return coverage;
 }
 
@@ -104,6 +129,17 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
   const int axes = golden::texture::candidates(configuration_.axes);
   for (int k = 0; k < axes; ++k)
     coverage.hit(fmt::format("texture/major/{}/{}", axes, k), major_[index(k)]);
+  const std::uint64_t fragments = unit.fragments.value();
+  coverage.hit(
+      fmt::format("texture/blend/{}", spec::texture::kBlendNames[index(configuration_.blend)]),
+      fragments);
+  coverage.hit(fmt::format("texture/derivatives/{}",
+                           spec::texture::kDerivativesNames[index(configuration_.derivatives)]),
+               fragments);
+  if (unit.cache.wide)
+    for (const SlotBin& bin : kSlots)
+      coverage.hit(fmt::format("texture/slots/{}", bin.name),
+                   (unit.cache.wide->group_former.*bin.slots).value());
   const auto& tags = unit.cache.tag_stage;
   coverage.hit("texture/cache/hit", tags.hits.value());
   coverage.hit("texture/cache/miss", tags.misses.value());
