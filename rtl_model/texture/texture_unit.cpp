@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/texture_unit.h"
 
+#include "spec/error.h"
 #include "spec/texture/check_build.h"
 
 namespace deburr::rtl::texture {
@@ -11,6 +12,11 @@ spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryCycles&
   return p;
 }
 
+template <class Unit>
+TextureUnit::Address units_of(Unit& unit) {
+  return {unit.derivative, unit.level, unit.walker, unit.addresser};
+}
+
 }  // namespace
 
 TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -19,16 +25,44 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
       descriptors_("descriptors", control, parameters_.width),
-      address("address_unit", clock, parameters_, control, descriptors_, probe_),
+      narrow_address(parameters_.width == 1
+                         ? std::make_unique<AddressUnit>("address_unit", clock, parameters_,
+                                                         control, descriptors_, probe_)
+                         : nullptr),
+      wide_address(narrow_address
+                       ? nullptr
+                       : std::make_unique<wide::AddressUnit>("address_unit", clock, parameters_,
+                                                             control, descriptors_, probe_)),
       cache("texture_cache", clock, parameters_, control),
-      filter("filter_pipeline", clock, parameters_, probe_) {
+      narrow_filter(narrow_address ? std::make_unique<FilterPipeline>("filter_pipeline", clock,
+                                                                      parameters_, probe_)
+                                   : nullptr),
+      wide_filter(narrow_address
+                      ? nullptr
+                      : std::make_unique<wide::FilterPipeline>(
+                            "filter_pipeline", clock, parameters_, probe_, parameters_.width)),
+      address(narrow_address ? units_of(*narrow_address) : units_of(*wide_address)),
+      filter(narrow_filter ? static_cast<FilterPipelineBase&>(*narrow_filter) : *wide_filter) {
   uses(cache.memory_port);
-  address.quads_in(quads_in);
-  address.texels_out(texels_);
-  cache.texels_in(texels_);
-  cache.texels_out(texel_quads_);
-  filter.texels_in(texel_quads_);
   filter.colours_out(colours_out);
+  if (narrow_address) {
+    texels_ = std::make_unique<Link<TexelToken>>("texels");
+    texel_quads_ = std::make_unique<Link<TexelQuadToken>>("texel_quads");
+    narrow_address->quads_in(quads_in);
+    narrow_address->texels_out(*texels_);
+    cache.texels_in(*texels_);
+    cache.texels_out(*texel_quads_);
+    narrow_filter->texels_in(*texel_quads_);
+  } else {
+    texel_groups_ =
+        std::make_unique<Link<TexelGroup>>("texels", 2, request_links<Wide>(parameters_));
+    texel_quad_groups_ = std::make_unique<Link<TexelQuadGroup>>("texel_quads", 2,
+                                                                links_of_groups(parameters_.width));
+    wide_address->quads_in(quads_in);
+    wide_address->texels_out(*texel_groups_);
+    wide_filter->texels_in(*texel_quad_groups_);
+    throw spec::ConfigError("texture.width: the cache of widths above 1 is not built yet");
+  }
 
   namespace reg = spec::texture::reg;
   control.set_resets(spec::texture::loaded_registers(parameters_));

@@ -54,9 +54,22 @@ class TextureUnit final : public Engine {
   Descriptors descriptors_;
 
  public:
-  AddressUnit address;
+  // Exactly one of each pair is built: with width 1, or above.
+  const std::unique_ptr<AddressUnit> narrow_address;
+  const std::unique_ptr<wide::AddressUnit> wide_address;
   TextureCache cache;
-  FilterPipeline filter;
+  const std::unique_ptr<FilterPipeline> narrow_filter;
+  const std::unique_ptr<wide::FilterPipeline> wide_filter;
+
+  // Its units with counters of either width.
+  struct Address {
+    DerivativeUnitBase& derivative;
+    LevelUnitBase& level;
+    SampleWalkerBase& walker;
+    TexelAddresserBase& addresser;
+  };
+  const Address address;
+  FilterPipelineBase& filter;
 
   // Cycles from taking a fragment's quad until its colour is available.
   const Histogram& fragment_latency = filter.fragment_latency;
@@ -66,8 +79,11 @@ class TextureUnit final : public Engine {
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
-  Link<TexelToken> texels_{"texels"};
-  Link<TexelQuadToken> texel_quads_{"texel_quads"};
+  // To the cache and from it, of the width that is built.
+  std::unique_ptr<Link<TexelToken>> texels_;
+  std::unique_ptr<Link<TexelQuadToken>> texel_quads_;
+  std::unique_ptr<Link<TexelGroup>> texel_groups_;
+  std::unique_ptr<Link<TexelQuadGroup>> texel_quad_groups_;
   std::vector<std::unique_ptr<sc_core::sc_module>> stand_ins_;
 };
 

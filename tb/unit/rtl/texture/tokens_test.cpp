@@ -19,7 +19,7 @@ TEST(TextureFigures, MatchTheModuleTree) {
     p.cache_fifo_depth = 107;
     p.axes = axes;
     const TextureUnit unit(name, clock, p);
-    tb::expect_figure(tb::Figure::of_header(address), unit.address, address, "AxisUnit");
+    tb::expect_figure(tb::Figure::of_header(address), *unit.narrow_address, address, "AxisUnit");
     tb::expect_figure(tb::Figure::of_header(cache), unit.cache, cache, "MissQueue");
   }
 }
