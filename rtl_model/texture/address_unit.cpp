@@ -20,11 +20,11 @@ AddressUnitOf<Width>::AddressUnitOf(const sc_core::sc_module_name& name, ClockDo
       level("level_unit", clock, descriptors.for_levels, p.axes, p.count, p.count_cap),
       walker("sample_walker", clock, p.count, p.kernel, p.spread, p.blend, p),
       addresser("texel_addresser", clock, descriptors.for_texels, descriptors.for_younger_texels),
-      derivatives_("derivatives", 2, fragments_shape<Width>(p, {})),
-      footprints_("footprints", 2, fragments_shape<Width>(p, footprint_shape(p))),
-      logs_("logs", 2, fragments_shape<Width>(p, axis_shape(p))),
-      levels_("levels", 2, fragments_shape<Width>(p, axis_shape(p))),
-      samples_("samples", 2, requests_shape<Width>(p)) {
+      derivatives_("derivatives", 2, fragment_links<Width>(p, {})),
+      footprints_("footprints", 2, fragment_links<Width>(p, footprint_shape(p))),
+      logs_("logs", 2, fragment_links<Width>(p, axis_shape(p))),
+      levels_("levels", 2, fragment_links<Width>(p, axis_shape(p))),
+      samples_("samples", 2, request_links<Width>(p)) {
   const auto between = [&](auto& unit) {
     unit->derivatives_in(derivatives_);
     unit->footprints_out(footprints_);

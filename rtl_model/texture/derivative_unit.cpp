@@ -30,7 +30,7 @@ DerivativeUnitOf<Width>::DerivativeUnitOf(const sc_core::sc_module_name& name, C
                                           const Descriptors::Reader& descriptors,
                                           LatencyProbe& probe,
                                           spec::texture::Derivatives derivatives, std::int32_t most)
-    : Unit(name, clock),
+    : DerivativeUnitBase(name, clock),
       registers_(registers),
       descriptors_(descriptors),
       probe_(probe),

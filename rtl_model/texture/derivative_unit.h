@@ -25,10 +25,24 @@
 
 namespace deburr::rtl::texture {
 
-template <class Width>
-class DerivativeUnitOf : public Unit {
+// The part that does not depend on the width.
+class DerivativeUnitBase : public Unit {
  public:
   In<spec::texture::Quad> quads_in{"quads_in"};
+  Counter quads{"quads", "quads", "quads taken"};
+  Counter fragments{"fragments", "fragments", "covered fragments taken"};
+  Counter clamped{"clamped", "fragments",
+                  "covered fragments whose coordinates were clamped upstream"};
+  Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
+  Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
+
+ protected:
+  using Unit::Unit;
+};
+
+template <class Width>
+class DerivativeUnitOf : public DerivativeUnitBase {
+ public:
   Out<typename Width::template Fragments<DerivativeToken>> derivatives_out{"derivatives_out"};
 
   DerivativeUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -38,13 +52,6 @@ class DerivativeUnitOf : public Unit {
                    std::int32_t most = 1);
   Activity tick(Cycle cycle) override;
   void reset() override;
-
-  Counter quads{"quads", "quads", "quads taken"};
-  Counter fragments{"fragments", "fragments", "covered fragments taken"};
-  Counter clamped{"clamped", "fragments",
-                  "covered fragments whose coordinates were clamped upstream"};
-  Counter saturated{"saturated", "fragments", "fragments with a derivative beyond U15.16 texels"};
-  Counter invalid{"invalid", "fragments", "covered fragments of quads with an invalid descriptor"};
 
   static Datasheet datasheet();
 

@@ -34,25 +34,40 @@
 
 namespace deburr::rtl::texture {
 
-template <class Width>
-class FilterPipelineOf : public Unit {
+// The part that does not depend on the width.
+class FilterPipelineBase : public Unit {
  public:
   static constexpr int kStages = 9;  // stage 9 only with `encoded`
-
-  In<typename Width::TexelQuads> texels_in{"texels_in"};
   Out<spec::texture::ColourGroup> colours_out{"colours_out"};
+  Counter fragments{"fragments", "fragments", "colours delivered"};
+  Histogram fragment_latency{"fragment_latency", "clk",
+                             "cycles from taking a quad to delivering one of its colours"};
+  // Cycles in which a stage held a token.
+  std::array<Counter, kStages> occupancy{
+      Counter{"stage_1", "clk", "cycles with a request in stage 1, fields"},
+      Counter{"stage_2", "clk", "cycles with a request in stage 2, unpack"},
+      Counter{"stage_3", "clk", "cycles with a request in stage 3, products"},
+      Counter{"stage_4", "clk", "cycles with a request in stage 4, sums"},
+      Counter{"stage_5", "clk", "cycles with a request in stage 5, vertical lerp"},
+      Counter{"stage_6", "clk", "cycles with a request in stage 6, level lerp"},
+      Counter{"stage_7", "clk", "cycles with a sample in stage 7, accumulate"},
+      Counter{"stage_8", "clk", "cycles with a fragment in stage 8, round"},
+      Counter{"stage_9", "clk", "cycles with a fragment in stage 9, encode"}};
+
+ protected:
+  using Unit::Unit;
+};
+
+template <class Width>
+class FilterPipelineOf : public FilterPipelineBase {
+ public:
+  In<typename Width::TexelQuads> texels_in{"texels_in"};
 
   FilterPipelineOf(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::texture::Configuration& configuration, LatencyProbe& probe,
                    std::int32_t width = 1);
   Activity tick(Cycle cycle) override;
   void reset() override;
-
-  Counter fragments{"fragments", "fragments", "colours delivered"};
-  Histogram fragment_latency{"fragment_latency", "clk",
-                             "cycles from taking a quad to delivering one of its colours"};
-  // Cycles in which a stage held a token.
-  std::array<Counter, kStages> occupancy;
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 

@@ -24,7 +24,7 @@ template <class Width>
 LevelUnitOf<Width>::LevelUnitOf(const sc_core::sc_module_name& name, ClockDomain& clock,
                                 const Descriptors::Reader& descriptors, spec::texture::Axes axes,
                                 spec::texture::CountRule count, spec::texture::CountCap cap)
-    : Unit(name, clock),
+    : LevelUnitBase(name, clock),
       descriptors_(descriptors),
       area_(axes != spec::texture::Axes::kTwo),
       count_(count),

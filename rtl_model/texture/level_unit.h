@@ -23,8 +23,18 @@
 
 namespace deburr::rtl::texture {
 
+// The part that does not depend on the width.
+class LevelUnitBase : public Unit {
+ public:
+  Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
+  Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
+
+ protected:
+  using Unit::Unit;
+};
+
 template <class Width>
-class LevelUnitOf : public Unit {
+class LevelUnitOf : public LevelUnitBase {
  public:
   In<typename Width::template Fragments<Log2Token>> logs_in{"logs_in"};
   Out<typename Width::template Fragments<LevelToken>> levels_out{"levels_out"};
@@ -34,9 +44,6 @@ class LevelUnitOf : public Unit {
               spec::texture::CountRule count, spec::texture::CountCap cap);
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
-
-  Counter magnified{"magnified", "fragments", "fragments with a level of detail of at most 0"};
-  Counter two_levels{"two_levels", "fragments", "fragments that blend two levels"};
 
   static Datasheet datasheet();
 

@@ -23,7 +23,7 @@ SampleWalkerOf<Width>::SampleWalkerOf(const sc_core::sc_module_name& name, Clock
                                       spec::texture::CountRule count, spec::texture::Kernel kernel,
                                       std::int32_t spread, spec::texture::Blend blend,
                                       const spec::texture::Build& build)
-    : Unit(name, clock),
+    : SampleWalkerBase(name, clock),
       spread_(spread),
       narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
                                                             : spread),

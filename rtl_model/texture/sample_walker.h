@@ -28,8 +28,17 @@
 
 namespace deburr::rtl::texture {
 
+// The part that does not depend on the width.
+class SampleWalkerBase : public Unit {
+ public:
+  Counter samples{"samples", "samples", "samples along major axes, one or two requests each"};
+
+ protected:
+  using Unit::Unit;
+};
+
 template <class Width>
-class SampleWalkerOf : public Unit {
+class SampleWalkerOf : public SampleWalkerBase {
  public:
   In<typename Width::template Fragments<LevelToken>> levels_in{"levels_in"};
   Out<typename Width::template Requests<SampleToken>> samples_out{"samples_out"};
@@ -43,8 +52,6 @@ class SampleWalkerOf : public Unit {
     scaled_.occupied = divided_.occupied = false;
     walking_ = fragment_ = 0;
   }
-
-  Counter samples{"samples", "samples", "samples along major axes, one or two requests each"};
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 

@@ -39,7 +39,7 @@ template <class Width>
 TexelAddresserOf<Width>::TexelAddresserOf(const sc_core::sc_module_name& name, ClockDomain& clock,
                                           const Descriptors::Reader& descriptors,
                                           const std::optional<Descriptors::Reader>& younger)
-    : Unit(name, clock), descriptors_(descriptors), younger_(younger) {}
+    : TexelAddresserBase(name, clock), descriptors_(descriptors), younger_(younger) {}
 
 template <class Width>
 Activity TexelAddresserOf<Width>::tick(Cycle cycle) {

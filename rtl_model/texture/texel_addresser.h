@@ -23,8 +23,17 @@
 
 namespace deburr::rtl::texture {
 
+// The part that does not depend on the width.
+class TexelAddresserBase : public Unit {
+ public:
+  Counter bilinears{"bilinears", "requests", "bilinear requests sent to the cache"};
+
+ protected:
+  using Unit::Unit;
+};
+
 template <class Width>
-class TexelAddresserOf : public Unit {
+class TexelAddresserOf : public TexelAddresserBase {
  public:
   In<typename Width::template Requests<SampleToken>> samples_in{"samples_in"};
   Out<typename Width::template Requests<TexelToken>> texels_out{"texels_out"};
@@ -35,8 +44,6 @@ class TexelAddresserOf : public Unit {
                    const std::optional<Descriptors::Reader>& younger = {});
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
-
-  Counter bilinears{"bilinears", "requests", "bilinear requests sent to the cache"};
 
   static Datasheet datasheet();
 

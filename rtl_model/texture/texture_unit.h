@@ -7,8 +7,7 @@
 //                      |
 //                  registers (TLM-2.0 target)
 //
-// Structure At widths above 1 the three work on groups of requests:
-// docs/reference/texture/width.md. Source    Paper 2.1, figure 3.
+// Source    Paper 2.1, figure 3.
 #pragma once
 
 #include <functional>
@@ -55,45 +54,36 @@ class TextureUnit final : public Engine {
   Descriptors descriptors_;
 
  public:
-  // Of each pair the first is built at width 1, the second at widths above 1.
-  const std::unique_ptr<AddressUnit> address;
+  // Exactly one of each pair is built: with width 1, or above.
+  const std::unique_ptr<AddressUnit> narrow_address;
   const std::unique_ptr<wide::AddressUnit> wide_address;
   TextureCache cache;
-  const std::unique_ptr<FilterPipeline> filter;
+  const std::unique_ptr<FilterPipeline> narrow_filter;
   const std::unique_ptr<wide::FilterPipeline> wide_filter;
 
-  // Calls use() with the AddressUnit (the FilterPipeline) that is built.
-  template <class Use>
-  decltype(auto) with_address(Use&& use) const {
-    return address ? use(*address) : use(*wide_address);
-  }
-  template <class Use>
-  decltype(auto) with_filter(Use&& use) const {
-    return filter ? use(*filter) : use(*wide_filter);
-  }
-  // Counters of units that are built.
-  const Counter& taken;      // fragments of quads that were popped
-  const Counter& magnified;  // of them, those with l <= 0
-  const Counter& samples;
-  const Counter& bilinears;
-  const Counter& fragments;  // colours delivered
+  // Its units with counters of either width.
+  struct Address {
+    DerivativeUnitBase& derivative;
+    LevelUnitBase& level;
+    SampleWalkerBase& walker;
+    TexelAddresserBase& addresser;
+  };
+  const Address address;
+  FilterPipelineBase& filter;
+
   // Cycles from taking a fragment's quad until its colour is available.
-  const Histogram& fragment_latency;
+  const Histogram& fragment_latency = filter.fragment_latency;
 
   bool idle() const override;
   // As built, with the actual depth of the FIFO.
   const spec::texture::Parameters& parameters() const { return parameters_; }
 
  private:
-  template <class Address, class Filter, class Texels, class TexelQuads>
-  void connect(Address& address_unit, Filter& filter_pipeline, Texels& texels,
-               TexelQuads& texel_quads);
-
-  // As above.
-  const std::unique_ptr<Link<TexelToken>> texels_;
-  const std::unique_ptr<Link<TexelQuadToken>> texel_quads_;
-  const std::unique_ptr<Link<TexelGroup>> texel_groups_;
-  const std::unique_ptr<Link<TexelQuadGroup>> texel_quad_groups_;
+  // To the cache and from it, of the width that is built.
+  std::unique_ptr<Link<TexelToken>> texels_;
+  std::unique_ptr<Link<TexelQuadToken>> texel_quads_;
+  std::unique_ptr<Link<TexelGroup>> texel_groups_;
+  std::unique_ptr<Link<TexelQuadGroup>> texel_quad_groups_;
   std::vector<std::unique_ptr<sc_core::sc_module>> stand_ins_;
 };
 

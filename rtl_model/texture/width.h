@@ -96,7 +96,7 @@ inline std::string numbered(const char* name, std::size_t number, const char* se
 }
 
 // Bits of a link with groups of at most `most` tokens, each with the fields of `shape`.
-inline PayloadShape group_shape(std::int32_t most, const PayloadShape& shape = {}) {
+inline PayloadShape links_of_groups(std::int32_t most, const PayloadShape& shape = {}) {
   const auto tokens = static_cast<std::uint32_t>(most);
   PayloadShape group = {
       .widths = {{"count", most == 1 ? 0 : static_cast<std::uint32_t>(std::bit_width(tokens))}},
@@ -109,13 +109,13 @@ inline PayloadShape group_shape(std::int32_t most, const PayloadShape& shape = {
 // Links of fragments with the fields of `shape`, and of requests, in both kinds of builds.
 // `partial` is built if groups have more than one fragment.
 template <class Width>
-PayloadShape fragments_shape(const spec::texture::Build& p, const PayloadShape& shape) {
-  return std::is_same_v<Width, Narrow> ? shape : group_shape(p.fragments, shape);
+PayloadShape fragment_links(const spec::texture::Build& p, const PayloadShape& shape) {
+  return std::is_same_v<Width, Narrow> ? shape : links_of_groups(p.fragments, shape);
 }
 template <class Width>
-PayloadShape requests_shape(const spec::texture::Build& p) {
+PayloadShape request_links(const spec::texture::Build& p) {
   if (std::is_same_v<Width, Narrow>) return {};
-  PayloadShape shape = group_shape(p.width);
+  PayloadShape shape = links_of_groups(p.width);
   shape.widths.emplace_back("partial", p.fragments == 1 ? 0 : static_cast<std::uint32_t>(p.width));
   return shape;
 }

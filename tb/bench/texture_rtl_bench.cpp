@@ -174,7 +174,7 @@ struct System {
     driver.set_texture(static_cast<int>(workload), texture_of(workload));
     clock.run(2000);
   }
-  std::uint64_t bilinears() const { return unit.bilinears.value(); }
+  std::uint64_t bilinears() const { return unit.address.addresser.bilinears.value(); }
 };
 
 // Counts instructions of this process in user mode; 0 if the kernel does not allow it.

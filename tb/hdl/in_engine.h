@@ -26,11 +26,11 @@ class AddressInEngine final
 
  public:
   AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
-      : Base("address_hdl", unit.address->derivative.clock(), seed,
-             unit.address->derivative.quads_in, unit.address->addresser.texels_out),
+      : Base("address_hdl", unit.address.derivative.clock(), seed, unit.address.derivative.quads_in,
+             unit.narrow_address->texels_out),
         unit_(unit),
         probe_(probe) {
-    rtl::texture::AddressUnit& address = *unit.address;
+    rtl::texture::AddressUnit& address = *unit.narrow_address;
     rtl::ClockDomain& clock = this->clock();
     rtl::texture::DerivativeUnit& d = address.derivative;
     clock.replace(d, {&d.quads, &d.fragments, &d.clamped, &d.saturated, &d.invalid});
@@ -60,7 +60,7 @@ class AddressInEngine final
  private:
   bool admits() const override { return unit_.control.enabled(); }
   void popped(rtl::Cycle cycle, const spec::texture::Quad& quad) override {
-    rtl::texture::DerivativeUnit& d = unit_.address->derivative;
+    rtl::texture::DerivativeUnitBase& d = unit_.address.derivative;
     const unsigned lanes = quad.coverage & 0xFu;
     const auto covered = static_cast<std::uint64_t>(std::popcount(lanes));
     ++d.quads;
@@ -70,9 +70,9 @@ class AddressInEngine final
   }
   void pushed(rtl::Cycle, const rtl::texture::TexelToken& request) override {
     if (request.ticket.valid) {
-      ++unit_.address->addresser.bilinears;
+      ++unit_.address.addresser.bilinears;
     } else {
-      ++unit_.address->derivative.invalid;
+      ++unit_.address.derivative.invalid;
       unit_.control.set_sticky(spec::texture::reg::kStatusInvalidTexture);
     }
   }
@@ -87,7 +87,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
   CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&, std::uint64_t seed)
       : VerilatedCacheAt<Model>(
             "cache_hdl", unit.cache.tag_stage.clock(), seed,
-            {unit.cache.narrow->tag_stage.texels_in, unit.cache.narrow->data_stage.texels_out,
+            {unit.cache.tag_stage.texels_in, unit.cache.data_stage.texels_out,
              unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
             unit.parameters()),
         unit_(unit),
@@ -97,7 +97,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
     rtl::ClockDomain& clock = this->clock();
     clock.replace(m, {&m.line_fills, &m.fill_bytes, &m.memory_errors});
     clock.replace(cache.tag_stage);
-    clock.replace(cache.narrow->latency_fifo);
+    clock.replace(cache.latency_fifo);
     clock.replace(cache.data_stage);
     unit.control.on_command(spec::texture::reg::kControlInvalidate, [this] { this->invalidate(); });
   }
@@ -131,9 +131,9 @@ class FilterInEngine final
  public:
   FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
       : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup>(
-            "filter_hdl", unit.filter->clock(), seed, unit.filter->texels_in,
-            unit.filter->colours_out, rtl::texture::colours_shape(unit.parameters())),
-        filter_(*unit.filter),
+            "filter_hdl", unit.filter.clock(), seed, unit.narrow_filter->texels_in,
+            unit.filter.colours_out, rtl::texture::colours_shape(unit.parameters())),
+        filter_(unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});
   }
@@ -144,7 +144,7 @@ class FilterInEngine final
     filter_.fragment_latency.record(probe_.leaves(cycle + 1));
   }
 
-  rtl::texture::FilterPipeline& filter_;
+  rtl::texture::FilterPipelineBase& filter_;
   rtl::LatencyProbe& probe_;
 };
 

@@ -137,9 +137,9 @@ void TextureChecks::check_figures(const rtl::texture::TextureUnit& unit,
                                        {&cache.tag_stage.requests, expected.bilinears},
                                        {&cache.tag_stage.misses, expected.line_fills},
                                        {&cache.data_stage.lines_written, expected.line_fills},
-                                       {&unit.magnified, expected.magnified},
-                                       {&unit.samples, expected.samples},
-                                       {&unit.fragments, expected.fragments}})
+                                       {&unit.address.level.magnified, expected.magnified},
+                                       {&unit.address.walker.samples, expected.samples},
+                                       {&unit.filter.fragments, expected.fragments}})
     figures.check(unit, *counter, value);
 }
 

@@ -129,7 +129,7 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
   const int axes = golden::texture::candidates(configuration_.axes);
   for (int k = 0; k < axes; ++k)
     coverage.hit(fmt::format("texture/major/{}/{}", axes, k), major_[index(k)]);
-  const std::uint64_t fragments = unit.fragments.value();
+  const std::uint64_t fragments = unit.filter.fragments.value();
   coverage.hit(
       fmt::format("texture/blend/{}", spec::texture::kBlendNames[index(configuration_.blend)]),
       fragments);

@@ -164,7 +164,7 @@ void TextureEnvironment::reject_memory_errors() {
 void TextureEnvironment::reject_unused_errors() const { reject_untouched(memory_, setup_.memory); }
 
 Amount TextureEnvironment::amount() const {
-  return {delivered_, unit_.taken.value(), fragments(), "fragment"};
+  return {delivered_, unit_.address.derivative.fragments.value(), fragments(), "fragment"};
 }
 
 // ---- checking -----------------------------------------------------------------------------------

@@ -95,7 +95,8 @@ std::vector<PictureMap> TextureMaps::maps() const {
   const auto account = [](PictureMap& map, std::string of, std::uint64_t counted, double unplaced) {
     map.account = {std::move(of), static_cast<double>(counted), map.sum() + unplaced};
   };
-  account(all[0], "work.sample_walker_samples", unit_.samples.value(), unplaced_.samples);
+  account(all[0], "work.sample_walker_samples", unit_.address.walker.samples.value(),
+          unplaced_.samples);
   account(all[2], "work.tag_stage_misses", unit_.cache.tag_stage.misses.value(), unplaced_.misses);
   account(all[3], "the sum of all latencies", unit_.fragment_latency.sum(), unplaced_.latency);
   return all;

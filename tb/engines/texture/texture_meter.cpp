@@ -13,8 +13,8 @@ void TextureMeter::collect(Result& result) const {
   const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();
   result.lines_filled += lines;
 
-  const std::uint64_t bilinears = unit_.bilinears.value();
-  const std::uint64_t fragments = unit_.fragments.value();
+  const std::uint64_t bilinears = unit_.address.addresser.bilinears.value();
+  const std::uint64_t fragments = unit_.filter.fragments.value();
   double texel_bytes = 4;
   if (!textures_.descriptors().empty())
     texel_bytes =
@@ -67,7 +67,7 @@ void TextureMeter::show_parts(Observer& observer, const rtl::LinkBase& in,
 
 void TextureMeter::collect_headline(Result& result) const {
   result.latency = latency_of(unit_.fragment_latency);
-  result.throughput = ratio(unit_.bilinears.value(), result.cycles);
+  result.throughput = ratio(unit_.address.addresser.bilinears.value(), result.cycles);
   result.throughput_unit = "bilinear/clk";
   result.throughput_bound = unit_.parameters().width;
   result.throughput_bound_meaning = unit_.parameters().width == 1
@@ -82,10 +82,8 @@ void TextureMeter::collect_headline(Result& result) const {
     result.figures.push_back({"Lookups of a line under way", key("lookup_merged_percent")});
   }
   result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
-  const rtl::Unit& derivative =
-      unit_.with_address([](const auto& a) -> const rtl::Unit& { return a.derivative; });
-  const rtl::Unit& filter = unit_.with_filter([](const auto& f) -> const rtl::Unit& { return f; });
-  if (!derivative.replaced() && looks_up() && !filter.replaced())
+  const rtl::Unit& filter = unit_.filter;
+  if (!unit_.address.derivative.replaced() && looks_up() && !filter.replaced())
     result.bottleneck = find_bottleneck(result.units, figure(filter.basename()));
 }
 

@@ -67,7 +67,7 @@ class TextureStage final : public DrawingStage {
     return tb::golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
   }
   std::uint64_t cycles_bound() const override {
-    return environment_.unit().bilinears.value();
+    return environment_.unit().address.addresser.bilinears.value();
   }
   void collect(tb::Result& result) const override {
     const rtl::Histogram& latency = environment_.unit().fragment_latency;

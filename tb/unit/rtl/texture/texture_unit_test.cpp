@@ -216,7 +216,7 @@ TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {
     EXPECT_EQ(b.sink.taken[warm + i].cycle, alone < start + 100 ? alone : alone + 63);
     EXPECT_EQ(b.sink.taken[warm + i].token.colour[0].tag, i / 4);
   }
-  EXPECT_GT(b.unit.filter->cycles_of(rtl::kStalledDownstream), 50u);
+  EXPECT_GT(b.unit.filter.cycles_of(rtl::kStalledDownstream), 50u);
 }
 
 TEST(TextureRtlUnit, RulesRegisterShowsTheBuild) {

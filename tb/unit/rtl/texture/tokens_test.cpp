@@ -19,7 +19,7 @@ TEST(TextureFigures, MatchTheModuleTree) {
     p.cache_fifo_depth = 107;
     p.axes = axes;
     const TextureUnit unit(name, clock, p);
-    tb::expect_figure(tb::Figure::of_header(address), *unit.address, address, "AxisUnit");
+    tb::expect_figure(tb::Figure::of_header(address), *unit.narrow_address, address, "AxisUnit");
     tb::expect_figure(tb::Figure::of_header(cache), unit.cache, cache, "MissQueue");
   }
 }
@@ -92,7 +92,6 @@ TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   large.cache_line_bytes = 128;
   large.cache_bytes = 512 * 128;
   many.cache_line_bytes = 32;
-  many.cache_lookups = spec::texture::kMostLookups;
   EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
   EXPECT_EQ(Payload::of<MissToken>(miss_shape(many)).bits(), Payload::of<MissToken>().bits());
 }
