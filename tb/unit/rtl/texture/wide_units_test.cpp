@@ -298,7 +298,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
 // ---- SampleWalker
 
 spec::texture::Build four_by_four() {
-  return spec::texture::named_build(spec::texture::NamedBuild::kWide);
+  return preset_parameters(spec::texture::Preset::kDeburr, spec::texture::NamedBuild::kWide);
 }
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name,
