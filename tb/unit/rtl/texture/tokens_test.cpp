@@ -92,6 +92,8 @@ TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   large.cache_line_bytes = 128;
   large.cache_bytes = 512 * 128;
   many.cache_line_bytes = 32;
+  many.width = 4;
+  many.cache_lookups = spec::texture::kMostLookups;
   EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
   EXPECT_EQ(Payload::of<MissToken>(miss_shape(many)).bits(), Payload::of<MissToken>().bits());
 }
