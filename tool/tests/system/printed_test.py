@@ -69,7 +69,7 @@ class Printed(unittest.TestCase):
         write_png(self.folder / "mask.png", 256, 256, lambda x, y: 255 if x < 128 else 0)
         mesh = [part for part in parts_of((ROOT / "docs/tutorial/first_run.md").read_text(encoding="utf-8"))
                 if part[1] == "roof.obj"]
-        (self.folder / "car.obj").write_text(mesh[0][2], encoding="utf-8")
+        (self.folder / "roof.obj").write_text(mesh[0][2], encoding="utf-8")
 
     def call(self, command):
         path = f"{DEBURR.parent}:{os.environ['PATH']}"
