@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 from reports.sources import write_png  # noqa: E402
 
 PAGES = {"../README": 1, "tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2,
-         "howto/explore_a_design": 3}
+         "howto/explore_a_design": 4, "howto/read_a_report": 2}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 FILE = re.compile(r"`(\w+\.(?:yaml|obj))`")
 
