@@ -539,6 +539,13 @@ TEST(TextureRtlWideCache, BuildsUnitsOfItsWidth) {
             "banks_0 4096 x 32 16R4W of 16 words, 1R1W, 64 banks, old word\n"
             "banks_1 4096 x 32 16R4W of 16 words, 1R1W, 64 banks, old word\n"
             "response_buffer 128 x 514 1R1W, 1R1W\n");
+  text.clear();
+  rtl::for_each<rtl::LinkBase>(const_cast<TextureCache&>(b.cache), [&](const rtl::LinkBase& link) {
+    text += std::string(link.basename()) + " " + std::to_string(link.payload_bits()) + "\n";
+  });
+  EXPECT_EQ(text,
+            "entries_entries 543\ngroups 679\nrequests 543\nmisses 212\nmemory_requests 46\n"
+            "memory_responses 560\n");
 }
 
 // A reset forgets groups, lines and slots.

@@ -335,6 +335,27 @@ TEST(TextureRtlWideDataStage, ReadsOldWordOfLineThatIsReplaced) {
   EXPECT_EQ(texels[2][0], 0x02020202u);
 }
 
+// Fills that are written in one cycle, each into its slot, turned or not.
+TEST(TextureRtlWideDataStage, EachFillOfCycleIsWritten) {
+  StageBench b;
+  for (std::uint8_t byte = 1; byte < 5; ++byte) b.arrive(byte);
+  b.clock.run(3);
+  const Cycle start = b.clock.cycle();
+  const auto group = [](bool missed) {
+    Group lines;
+    for (std::uint8_t i = 0; i < 4; ++i)
+      lines.line(static_cast<std::uint16_t>(8 + 5 * i), missed, i % 2 != 0).read(i, 3);
+    return lines.token;
+  };
+  b.requests.push(start, group(true));
+  b.requests.push(start + 1, group(false));
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(ready_at(b.clock, b.texels), start + 3 + static_cast<Cycle>(i));
+    EXPECT_THAT(b.texels.take(b.clock.cycle()).at[0].texel,
+                ElementsAre(0x01010101, 0x02020202, 0x03030303, 0x04040404));
+  }
+}
+
 // ---- Misuse of the banks -----------------------------------------------------------------------
 
 TEST(TextureRtlWideDataStage, RejectsWordReadInSameCycle) {
