@@ -230,7 +230,8 @@ void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
 
   add(result, "frame_cycles", frame_cycles, "clk", "Cycles of the last frame, from start to end.");
   add(result, "frame_cycles_bound", frame_cycles_bound(), "clk",
-      "Bound of the throughput, as cycles per frame.");
+      "Bound of the throughput, as cycles per frame, from totals: at most the sum of the bounds on "
+      "the engine's hardware page, which count each beat, block and lookup.");
   add(result, "frame_rate", frame_cycles ? clock_mhz * 1e6 / number(frame_cycles) : 0.0, "frame/s",
       "Frames like this one per second, at the given clock frequency.");
   add(result, "clock_for_60_frames",

@@ -50,7 +50,7 @@ class Images(CommandTest):
         picture = self.write("in.png", png(32, 24))
         self.expect(0, "run", "morphological", "--size", "32x24", program=program)
         self.expect(5, "run", "morphological", "--in", picture, "--out", self.path("out2"), program=program,
-                    says=(MODULE, "beside the program", "cannot open shared object file"))
+                    says=(MODULE, "next to the program", "cannot open shared object file"))
 
     def test_copy_with_module_reads_pictures(self):
         program = self.alone()
@@ -78,7 +78,7 @@ class Images(CommandTest):
         self.write(f"bin/{MODULE}", "this is no library")
         picture = self.write("in.png", png(32, 24))
         self.expect(5, "run", "morphological", "--in", picture, program=program,
-                    says=(MODULE, "beside the program"))
+                    says=(MODULE, "next to the program"))
 
 
 if __name__ == "__main__":

@@ -100,7 +100,7 @@ class Definitions(Sweeps):
 
     def test_rejects_text_that_is_not_utf8(self):
         """It cannot be written into results."""
-        self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: it is not UTF-8")
+        self.reject((BASE + AXES + "title: Gr\xfc\xdfe\n").encode("latin-1"), "s.yaml:4: not valid UTF-8")
 
     def test_rejects_file_name_that_gives_no_folder(self):
         for name in ("..yaml", "...yaml"):

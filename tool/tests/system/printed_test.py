@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 from reports.sources import write_png  # noqa: E402
 
 PAGES = {"../README": 1, "tutorial/first_run": 3, "howto/which_engine": 2, "howto/smooth_my_frames": 2,
-         "howto/explore_a_design": 3}
+         "howto/explore_a_design": 4, "howto/read_a_report": 2}
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.S | re.M)
 FILE = re.compile(r"`(\w+\.(?:yaml|obj))`")
 
@@ -69,7 +69,7 @@ class Printed(unittest.TestCase):
         write_png(self.folder / "mask.png", 256, 256, lambda x, y: 255 if x < 128 else 0)
         mesh = [part for part in parts_of((ROOT / "docs/tutorial/first_run.md").read_text(encoding="utf-8"))
                 if part[1] == "roof.obj"]
-        (self.folder / "car.obj").write_text(mesh[0][2], encoding="utf-8")
+        (self.folder / "roof.obj").write_text(mesh[0][2], encoding="utf-8")
 
     def call(self, command):
         path = f"{DEBURR.parent}:{os.environ['PATH']}"

@@ -20,6 +20,7 @@ using spec::geometric::FrameVector;
 using spec::geometric::kFrameVectors;
 using spec::geometric::kLineVectors;
 using spec::geometric::kSpecialFrameVectors;
+using spec::geometric::kTrafficFrameVectors;
 using spec::geometric::LineVector;
 
 constexpr std::size_t kHashes = 3;  // values of a result before its counters
@@ -76,6 +77,12 @@ TEST(GeometricVectorsPage, SpecialCaseTablesMatchSpec) {
   expect_generated("reference/geometric/vectors.md",
                    "GeometricVectorsPage.SpecialCaseTablesMatchSpec", frames(kSpecialFrameVectors));
   expect_table_has_each_value(kSpecialFrameVectors, frames);
+}
+
+TEST(GeometricVectorsPage, LessTrafficTablesMatchSpec) {
+  expect_generated("reference/geometric/vectors.md",
+                   "GeometricVectorsPage.LessTrafficTablesMatchSpec", frames(kTrafficFrameVectors));
+  expect_table_has_each_value(kTrafficFrameVectors, frames);
 }
 
 TEST(GeometricVectorsPage, LineTableMatchesSpec) {
