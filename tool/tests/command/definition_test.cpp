@@ -51,9 +51,9 @@ const Case kRejected[] = {
      "s.yaml:2: axis 'made.filter' takes near | linear | wide | another-one-with-a-very-long-name: "
      "list the values"},
     {"TimesOne", "axes: {made.lanes: {from: 2, to: 4, times: 1}}",
-     "s.yaml:2: axis 'made.lanes' never gets from 2 to 4: 'times' = 1"},
+     "s.yaml:2: axis 'made.lanes' never gets from 2 to 4 with 'times' = 1"},
     {"TimesFromZero", "axes: {frame.gain: {from: 0, to: 2, times: 2}}",
-     "s.yaml:2: axis 'frame.gain' never gets from 0 to 2: 'times' = 2"},
+     "s.yaml:2: axis 'frame.gain' never gets from 0 to 2 with 'times' = 2"},
     {"RangeBeyondTheParameter", "axes: {made.lanes: {from: 2, to: 18, step: 4}}",
      "s.yaml:2: 'made.lanes' = '18' is outside 1..16"},
     {"RangeTooLong", "axes: {run.max_cycles: {from: 0, to: 2000000}}",

@@ -238,8 +238,8 @@ RESULT: FAIL worse: cycles at 12 points of B
   for (int depth = 4; depth <= 15; ++depth) fail(std::to_string(depth), "deadlock", "so");
   printed("sweep many.yaml collect");
   EXPECT_THAT(printed("compare out/sweeps/slower out/sweeps/many"), EndsWith(R"(
-B cycles       0      0      0            -      -     -
-B bits         0      0      0            -      -     -
+B cycles       0      0      0            -         -        -
+B bits         0      0      0            -         -        -
 REPRO: deburr compare out/sweeps/slower out/sweeps/many
 RESULT: FAIL worse: 12 points of A failed in other sweeps
 ! deburr: warning: B is not complete: 12 points failed, 0 are missing
@@ -294,7 +294,7 @@ TEST_F(RunSweep, SearchRunsPointsForEachFront) {
       result("search real.yaml --runs 24 --seed 2 --jobs 2 --quiet"),
       "FAIL search real: 6 points, 1 done (1 in this run), 5 failed, 0 missing; out/searches/real");
   expect_failure("search real.yaml --runs 23 --seed 2",
-                 "configuration: real.yaml: --runs 23 leave 7 for each of 3 fronts, less than the "
+                 "configuration: real.yaml: --runs 23 leaves 7 for each of 3 fronts, less than the "
                  "population of 8: give more runs, or a smaller --population");
 }
 

@@ -152,7 +152,7 @@ class Faults(CommandTest):
         self.run_texture(2, "--fault", "gremlin", says=["gremlin", "flip-bit"])
         done = self.run_texture(2, "--fault", "drop:no.such.link:1", says="no.such.link")
         last = done.stdout.strip().splitlines()[-1]
-        self.assertIn("there are: ", last)
+        self.assertIn("known: ", last)
         self.assertIn(", texture.texels", last, "the last line holds the whole message")
 
     def test_unreached_fault_fails_the_run(self):

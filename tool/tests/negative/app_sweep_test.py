@@ -91,9 +91,9 @@ class Definitions(Sweeps):
                             "a metric of 40006 characters, at most 4000 are allowed"),
                            ("+".join(["cycles"] * 20000), "a metric of 139999 characters"),
                            ("(" * 101 + "cycles" + ")" * 101, "brackets and signs are nested more than 100 deep"),
-                           ("- " * 101 + "cycles", "more than 100 brackets and signs")):
+                           ("- " * 101 + "cycles", "brackets and signs are nested more than 100 deep")):
             self.reject(BASE + AXES + f"metrics: {{a: '{text}'}}\n", says)
-        self.reject(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "more than 100 brackets and signs")
+        self.reject(BASE + AXES + f"constraints: ['{'not ' * 101}memory.latency > 60']\n", "brackets and signs are nested more than 100 deep")
         self.write("s.yaml", BASE + AXES + f"metrics: {{a: '{'(' * 100 + 'cycles' + ')' * 100}', "
                    f"b: '{'+'.join(['cycles'] * 570)}', c: '{'- ' * 100}cycles'}}\n")
         self.expect(0, "sweep", "s.yaml", "plan")
@@ -185,7 +185,7 @@ class Searches(Sweeps):
 
     def test_rejects_invalid_budgets(self):
         text = BASE + AXES + self.GOALS.replace("]}", "], for_each: [memory.latency]}")
-        self.reject_search(text, "--runs 12 leave 6 for each of 2 fronts", "population of 8",
+        self.reject_search(text, "--runs 12 leaves 6 for each of 2 fronts", "population of 8",
                            options=("--runs", "12", "--population", "8"))
         self.write("s.yaml", text)
         for option, value in (("--runs", "7"), ("--runs", "many"), ("--population", "10"),
