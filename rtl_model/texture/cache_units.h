@@ -87,8 +87,8 @@ class DataUnit : public Unit {
         conflicts("conflicts", tokens, conflicting),
         wait_fill_(declare_stall("wait_fill", "waits for a line of the request")),
         write_fill_(declare_stall("write_fill", "the request has more lines to write")),
-        bank_conflict_(
-            declare_stall("bank_conflict", "the request reads more words of one bank")) {}
+        bank_conflict_(declare_stall("bank_conflict", "the request reads more words of one bank")) {
+  }
 
   Activity wait_fill_, write_fill_, bank_conflict_;
 };

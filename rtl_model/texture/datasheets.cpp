@@ -31,12 +31,11 @@ std::vector<Datasheet> datasheets(const spec::texture::Parameters& p) {
       SampleWalker::datasheet(p),
       TexelAddresser::datasheet()};
   if (wide) sheets.push_back(GroupFormer::datasheet());
-  sheets.insert(sheets.end(),
-                {wide ? WideTagStage::datasheet() : TagStage::datasheet(), MissQueue::datasheet(),
-                 FillBuffer::datasheet(),
-                 wide ? WideLatencyFifo::datasheet() : LatencyFifo::datasheet(),
-                 wide ? WideDataStage::datasheet() : DataStage::datasheet(),
-                 FilterPipeline::datasheet(p), Descriptors::datasheet()});
+  sheets.insert(sheets.end(), {wide ? WideTagStage::datasheet() : TagStage::datasheet(),
+                               MissQueue::datasheet(), FillBuffer::datasheet(),
+                               wide ? WideLatencyFifo::datasheet() : LatencyFifo::datasheet(),
+                               wide ? WideDataStage::datasheet() : DataStage::datasheet(),
+                               FilterPipeline::datasheet(p), Descriptors::datasheet()});
   return sheets;
 }
 

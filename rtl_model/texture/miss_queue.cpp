@@ -32,7 +32,8 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
           declare_stall("fill_buffer_full", "all entries of the fill buffer are held")),
       wait_memory_(
           declare_stall("wait_memory", "waits for lines from memory, nothing else to do")) {
-  for (int i = 0; i < p.cache_lookups; ++i) new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
+  for (int i = 0; i < p.cache_lookups; ++i)
+    new_lines_.emplace_back(lines_, "line_" + std::to_string(i));
 }
 
 Activity MissQueue::tick(Cycle cycle) {

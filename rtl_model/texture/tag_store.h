@@ -3,8 +3,8 @@
 //
 // Position  Inside the TagStage; cost and longest path in its datasheet.
 // Layout    A word is a set: per way a tag, a valid bit and a rotation bit; and the order of last
-//           uses, one bit per pair of ways. Flip-flops with four read and four write ports, in a wide
-//           build one of each per lookup.
+//           uses, one bit per pair of ways. Flip-flops with four read and four write ports, in a
+//           wide build one of each per lookup.
 // Latency   1: the sets of a request's lines are read in one cycle and available in the next,
 //           including changes by the previous request (a read returns the new word). The lines are
 //           then looked up in series: a lookup sees what earlier ones allocated, so four way muxes

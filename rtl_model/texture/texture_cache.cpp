@@ -97,8 +97,9 @@ Datasheet TextureCache::datasheet(const spec::texture::Build& build) {
     Datasheet sheet = {
         .unit = "TextureCache",
         .variant = "`width` above 1",
-        .does = "GroupFormer, WideTagStage, WideLatencyFifo and WideDataStage, for a group that "
-                "hits.",
+        .does =
+            "GroupFormer, WideTagStage, WideLatencyFifo and WideDataStage, for a group that "
+            "hits.",
         .interval = {1, "one group per cycle while every line hits"}};
     for (const Datasheet& block : {GroupFormer::datasheet(), WideTagStage::datasheet(),
                                    WideLatencyFifo::datasheet(), WideDataStage::datasheet()})
