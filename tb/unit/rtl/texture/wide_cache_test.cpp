@@ -2,9 +2,9 @@
 // The TextureCache of a wide build as a whole: times, every cause of an empty slot, data, and fills
 // in the order of width 1.
 #include <deque>
-#include <random>
 #include <set>
 
+#include "tb/base/random.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/cache_bench.h"
 
@@ -271,9 +271,7 @@ class Requests {
     if (layout_ == 0) t.turned = {(y_ & 1) != 0, (y_ & 1) == 0};
     return t;
   }
-  std::uint32_t number(std::uint32_t below) {
-    return static_cast<std::uint32_t>(random_() % below);
-  }
+  std::uint32_t number(std::uint32_t below) { return random_.below(below); }
 
  private:
   bool flip() { return number(2) == 0; }
@@ -283,7 +281,7 @@ class Requests {
     if (layout_ != 2) return 4 * (256 * y + x);  // linear, in layout 1 without turned lines
     return 64 * (64 * (y / 4) + x / 4) + 16 * (y % 4) + 4 * (x % 4);
   }
-  std::mt19937 random_;
+  tb::Random random_;
   std::uint32_t x_ = 0, y_ = 0, layout_ = 0, tag_ = 0;
 };
 
