@@ -89,7 +89,7 @@ constexpr std::string_view kRuns[] = {"shape",          "long-end", "prediction"
 constexpr std::string_view kSmaa[] = {
     "table",    "table-entry",   "search",          "endless",         "corner",
     "diagonal", "diagonal-ends", "diagonal-length", "diagonal-beyond", "threshold"};
-constexpr std::string_view kBypass[] = {"left", "leave-border", "half"};
+constexpr std::string_view kBypass[] = {"bypass", "bypass-border", "half"};
 constexpr std::string_view kWeights[] = {"class"};
 constexpr std::string_view kText[] = {"text", "text-border"};
 

@@ -91,7 +91,7 @@ TEST(FrameLists, ErrorNamesListsOfUnequalLength) {
     ADD_FAILURE();
   } catch (const spec::ConfigError& error) {
     EXPECT_THAT(error.what(),
-                testing::HasSubstr("scene.source lists 2 frames, and scene.eye lists 3"));
+                testing::HasSubstr("scene.source lists 2 frames, but scene.eye lists 3"));
   }
   EXPECT_EQ(lists.frames(), 2);
   lists.add("scene.eye", {"0,0,1", "0,0,2"});

@@ -398,7 +398,7 @@ TEST(ImageFormats, ErrorNamesExrChannelsThatAreNotColours) {
   };
   EXPECT_THAT(error({"Y", "RY", "BY"}),
               HasSubstr("it has the channels Y, BY, RY; an image needs R, G and B, or only Y"));
-  EXPECT_THAT(error({"u", "v", "w"}), HasSubstr("it has u, v, w where"));
+  EXPECT_THAT(error({"u", "v", "w"}), HasSubstr("it has the channels u, v, w;"));
   EXPECT_THAT(error({"R", "AR", "AG", "AB"}), HasSubstr("it has the channels R, AR, AG;"));
   EXPECT_THAT(error({"R", "G", "A"}), HasSubstr("it has the channels R, G;"));
   for (const char* const name : {"A", "Z", "depth.Z", "mask"})

@@ -210,13 +210,13 @@ void expect_bins(const Json& r, const GeometricSetup& setup) {
   };
   const double weights = w("weight_combiner_lookups"), missed = w("weight_combiner_misses"),
                read_back = w("weight_combiner_blocks_read");
-  expect_lookups("look-up/vertex", w("vertex_fetch_lookups"), w("vertex_fetch_misses"));
-  expect_lookups("look-up/depth", w("depth_test_lookups"), w("depth_test_misses"));
-  expect_lookups("look-up/weight", weights, missed);
+  expect_lookups("lookup/vertex", w("vertex_fetch_lookups"), w("vertex_fetch_misses"));
+  expect_lookups("lookup/depth", w("depth_test_lookups"), w("depth_test_misses"));
+  expect_lookups("lookup/weight", weights, missed);
   const double boundaries = w("pair_fetch_boundary_lookups"),
                boundary_lines = w("pair_fetch_boundary_lines");
-  expect_lookups("pair-look-up/boundary", boundaries, boundary_lines);
-  expect_lookups("pair-look-up/other", w("pair_fetch_lookups") - boundaries,
+  expect_lookups("pair-lookup/boundary", boundaries, boundary_lines);
+  expect_lookups("pair-lookup/other", w("pair_fetch_lookups") - boundaries,
                  w("pair_fetch_lines_read") - boundary_lines);
   EXPECT_EQ(bin("block/fresh"), missed - read_back);
   EXPECT_EQ(bin("block/cached"), weights - missed);

@@ -99,7 +99,7 @@ TEST(Cache, InvalidationKeepsTheRandomSequenceAndResetRestartsIt) {
 // The predictor answers a repeated lookup of the same line without searching its set.
 TEST(Cache, InvalidationClearsTheLastLine) {
   CachePredictor cache(geometry(512, 64, 2));
-  expect_lookups(cache, {{5, false, "first use"}, {5, true, "the line of the last look-up"}});
+  expect_lookups(cache, {{5, false, "first use"}, {5, true, "the line of the last lookup"}});
   cache.invalidate();
   expect_lookups(cache, {{5, false, "the cache is empty"}});
 }

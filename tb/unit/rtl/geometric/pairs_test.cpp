@@ -190,7 +190,7 @@ TEST(PairFetch, IdleUnlessItWorks) {
   b.latency(b.ends, PairBench::number(3));
   b.clock.run(50);
   const std::uint64_t busy = b.unit.busy_cycles();
-  EXPECT_EQ(busy, 1u + 4) << "look-up, answer, stages 2 and 3";
+  EXPECT_EQ(busy, 1u + 4) << "lookup, answer, stages 2 and 3";
   EXPECT_EQ(b.unit.idle_cycles() + busy + stalls(b.unit, "pairs"), b.clock.cycle());
   b.clock.run(50);
   EXPECT_EQ(b.unit.busy_cycles(), busy);
