@@ -6,8 +6,8 @@
 //                                 or AxisUnit      -> TexelAddresser -> texels_out
 //
 // Structure `axes = four` or `eight` builds the AxisUnit instead of the FootprintUnit. Links with
-//           two entries connect the units; at widths above 1 they carry groups of fragments, then
-//           of requests.
+//           two entries connect the units; above width 1 they carry groups of fragments, then of
+//           requests.
 // Stalls    downstream
 // Source    Paper 2.2, figure 4.
 #pragma once
