@@ -147,7 +147,7 @@ TEST(Expression, RejectsInvalidExpressions) {
   EXPECT_THAT(complaint("a % zero > 1"), HasSubstr("division by zero"));
   EXPECT_EQ(complaint(std::string(100, '(') + "on" + std::string(100, ')')), "");
   EXPECT_THAT(complaint(std::string(101, '(') + "on" + std::string(101, ')')),
-              HasSubstr("more than 100 brackets"));
+              HasSubstr("nested more than 100 deep"));
   EXPECT_EQ(complaint("on" + std::string(3998, ' ')), "");
   EXPECT_THAT(complaint("on" + std::string(3999, ' ')), HasSubstr("4001 characters"));
 }

@@ -130,7 +130,7 @@ class Intervals(unittest.TestCase):
             with self.subTest(name), tempfile.TemporaryDirectory() as out:
                 said = run(out, *arguments, "--windows", "300", "--fault", "lose-window", code=3)
                 self.assertIn("intervals: units.", said)
-                self.assertIn("window 2", said)
+                self.assertIn("interval 2", said)
                 with self.assertRaises(AssertionError):
                     self.check(load(out, "intervals.json"), load(out))
         with tempfile.TemporaryDirectory() as out:
