@@ -98,8 +98,8 @@ std::vector<std::string> falls_between(const Night& before, const Night& after) 
                                 after.met, after.bins));
   const double fast = before.cycles_a_second(), slow = after.cycles_a_second();
   if (std::min(before.seconds, after.seconds) >= kSecondsOfASpeed && slow < kSlower * fast)
-    falls.push_back(fmt::format("speed from {:.0f} to {:.0f} thousand cycles per second", fast / 1e3,
-                                slow / 1e3));
+    falls.push_back(fmt::format("speed from {:.0f} to {:.0f} thousand cycles per second",
+                                fast / 1e3, slow / 1e3));
   return falls;
 }
 
