@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/texture_unit.h"
 
-#include "spec/error.h"
 #include "spec/texture/check_build.h"
 
 namespace deburr::rtl::texture {
@@ -9,6 +8,7 @@ namespace {
 
 spec::texture::Parameters sized(spec::texture::Parameters p, const MemoryCycles& memory) {
   p.cache_fifo_depth = LatencyFifo::depth(p, memory);
+  p.cache_outstanding = MissQueue::entries(p, memory);
   return p;
 }
 
@@ -60,8 +60,9 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                                                                 links_of_groups(parameters_.width));
     wide_address->quads_in(quads_in);
     wide_address->texels_out(*texel_groups_);
+    cache.groups_in(*texel_groups_);
+    cache.groups_out(*texel_quad_groups_);
     wide_filter->texels_in(*texel_quad_groups_);
-    throw spec::ConfigError("texture.width: the cache of widths above 1 is not built yet");
   }
 
   namespace reg = spec::texture::reg;
@@ -90,7 +91,7 @@ Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
       .does = "Latency from taking a quad to its first colour: one sample, nearest, cache hit.",
       .interval = {1, "max(N x (1 or 2), `axis_cycles`) cycles per fragment"}};
   for (const Datasheet& part :
-       {AddressUnit::datasheet(p), TextureCache::datasheet(), FilterPipeline::datasheet(p)})
+       {AddressUnit::datasheet(p), TextureCache::datasheet(p), FilterPipeline::datasheet(p)})
     sheet.latency.cycles += part.latency.cycles;
   return sheet;
 }
