@@ -64,7 +64,7 @@ Activity FootprintUnitOf<Width>::tick_exact(Cycle cycle) {
   if (roots_[0].leaving() && !footprints_out.can_push(cycle)) return kStalledDownstream;
   const typename Width::template Fragments<DerivativeToken>* const next =
       waiting ? &derivatives_in.take(cycle) : nullptr;
-  typename Width::template Fragments<FootprintToken> result;
+  typename Width::template Fragments<FootprintToken> result{};  // a link carries all of it
   std::size_t done = 0;
   for (std::size_t i = 0; i < roots_.size(); ++i)
     done += roots_[i].step(next && i < count_of(*next) ? &nth(*next, i) : nullptr, &nth(result, i));
