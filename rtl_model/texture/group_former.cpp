@@ -187,13 +187,24 @@ inline void GroupFormer::enter(const TexelToken& token, Waiting& waiting) const 
   waiting.lines = 1;
   if (((address[0] ^ address[1]) | (address[0] ^ address[2]) | (address[0] ^ address[3])) <= mask)
     return;
-  for (std::size_t i = 1; i < 4; ++i) {
-    const std::uint32_t line = address[i] >> line_log2_;
-    std::uint32_t k = 0;
-    while (k < waiting.lines && waiting.line[k] != line) ++k;
-    if (k == waiting.lines) waiting.line[waiting.lines++] = line;
-    request.index[i] = static_cast<std::uint8_t>(k);
-  }
+  const std::uint32_t line1 = address[1] >> line_log2_, line2 = address[2] >> line_log2_,
+                      line3 = address[3] >> line_log2_;
+  std::uint32_t n = 1;
+  const auto number = [&](std::uint32_t line, std::uint32_t k) {
+    if (k == n) waiting.line[n++] = line;
+    return k;
+  };
+  const std::uint32_t k1 = number(line1, line1 == first ? 0 : 1),
+                      k2 = number(line2, line2 == first   ? 0
+                                         : line2 == line1 ? k1
+                                                          : n),
+                      k3 = number(line3, line3 == first   ? 0
+                                         : line3 == line1 ? k1
+                                         : line3 == line2 ? k2
+                                                          : n);
+  request.index = {0, static_cast<std::uint8_t>(k1), static_cast<std::uint8_t>(k2),
+                   static_cast<std::uint8_t>(k3)};
+  waiting.lines = n;
 }
 
 // Counts the slots of a cycle that began with `buffered` requests. Empty cycles are counted when

@@ -64,8 +64,9 @@ inline void WideTagStage::read_sets(Cycle cycle) {
   for (std::size_t k = 0; k < group.lines; ++k) {
     lines_[k] = {group.line[k], 0, 0, 0};
     out_.missed[k] = false;
-    tags_.read(cycle, k, group.line[k]);
   }
+  // All sets are read in the same cycle, so one of them is enough for the checks.
+  if (group.lines != 0) tags_.read(cycle, 0, group.line[0]);
 }
 
 // Calls use(k) for each distinct line of a request in the order of its texels.
@@ -83,6 +84,7 @@ inline void WideTagStage::look_up(Cycle cycle) {
   looked_up_ = true;
   missed_.count = 0;
   valid_requests_ = 0;
+  if (out_.lines != 0) tags_.check(cycle, 0, lines_[0].number, read_at_);
   std::uint32_t found = 0;  // lines that have been used
   for (std::size_t r = 0; r < out_.count; ++r) {
     if (!out_.at[r].ticket.valid) continue;
@@ -96,7 +98,6 @@ inline void WideTagStage::look_up(Cycle cycle) {
       }
       found |= 1u << k;
       line.uses = 1;
-      tags_.check(cycle, k, line.number, read_at_);
       line.slot = tags_.find(line.number);
       out_.missed[k] = line.slot == TagStore::kAbsent;
       if (out_.missed[k]) return allocate(k);

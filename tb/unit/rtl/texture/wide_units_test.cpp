@@ -298,7 +298,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
 // ---- SampleWalker
 
 spec::texture::Build four_by_four() {
-  return spec::texture::named_build(spec::texture::NamedBuild::kWide);
+  return preset_parameters(spec::texture::Preset::kDeburr, spec::texture::NamedBuild::kWide);
 }
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name,
@@ -558,11 +558,12 @@ struct FilterBench {
     const bool by_level = configuration.blend == spec::texture::Blend::kLevel;
     const int levels = two_levels ? 2 : 1;
     const auto format = static_cast<std::uint8_t>(random.below(5));
+    const bool valid = samples * levels > 1 || random.chance(900);
     for (int i = 0; i < samples * levels; ++i) {
       const int sample = by_level ? i % samples : i / levels,
                 level = by_level ? i / samples : i % levels;
       TexelQuadToken t{};
-      t.ticket = {tag, static_cast<std::uint8_t>(tag % 4), tag % 3 == 0, random.chance(900), 0};
+      t.ticket = {tag, static_cast<std::uint8_t>(tag % 4), tag % 3 == 0, valid, 0};
       t.control.fraction_u = static_cast<std::uint8_t>(random.below(256));
       t.control.fraction_v = static_cast<std::uint8_t>(random.below(256));
       t.control.level_weight = two_levels ? (level == 0 ? 179 : 77) : 256;
