@@ -12,19 +12,13 @@ namespace {
 
 constexpr unsigned kDirections = 8;  // in half a turn
 
-// 0, 49, 90, 118 and 128 times v: sine and cosine of 0, 22.5, 45, 67.5 and 90 degrees in 1/128.
-using Multiples = std::array<std::int64_t, 5>;
-Multiples multiples(std::int64_t v) {
-  return {0, (v << 5) + (v << 4) + v, (v << 6) + (v << 4) + (v << 3) + (v << 1),
-          (v << 7) - (v << 3) - (v << 1), v << 7};
-}
+// Sine and cosine in 1/128: sums of at most four shifted operands in hardware.
+constexpr std::array<std::int64_t, kDirections> kSine = {0, 49, 90, 118, 128, 118, 90, 49},
+                                                kCosine = {128, 118, 90, 49, 0, -49, -90, -118};
 
-// cos x along the row + sin x along the column, with 7 fraction bits. The sine is indexed by the
-// distance of the angle from 0 or 180 degrees, the cosine by that from 90.
-std::int64_t rotated(const Multiples& row, const Multiples& column, unsigned direction) {
-  constexpr unsigned kUpright = kDirections / 2;
-  return direction <= kUpright ? column[direction] + row[kUpright - direction]
-                               : column[kDirections - direction] - row[direction - kUpright];
+// cos x along the row + sin x along the column, with 7 fraction bits.
+std::int64_t rotated(std::int64_t row, std::int64_t column, unsigned direction) {
+  return column * kSine[direction] + row * kCosine[direction];
 }
 
 // In texels: truncated magnitude, saturated.
@@ -94,17 +88,16 @@ void AxisUnitOf<Width>::turn(const DerivativeToken& in, FootprintToken& out) con
                   : static_cast<std::uint32_t>(major.measure);
   out.minor = area(in);
   // Stages 7 and 8.
-  out.axis_s = coordinate(rotated(multiples(in.s_x), multiples(in.s_y), major.direction));
-  out.axis_t = coordinate(rotated(multiples(in.t_x), multiples(in.t_y), major.direction));
+  out.axis_s = coordinate(rotated(in.s_x, in.s_y, major.direction));
+  out.axis_t = coordinate(rotated(in.t_x, in.t_y, major.direction));
 }
 
 // Stages 1 to 6. On ties the first candidate wins, within a cycle and across cycles.
 template <class Width>
 typename AxisUnitOf<Width>::Candidate AxisUnitOf<Width>::longest(const DerivativeToken& in) const {
-  const Multiples row_s = multiples(with_sign(in.size_s_x, in.s_x)),
-                  row_t = multiples(with_sign(in.size_t_x, in.t_x)),
-                  column_s = multiples(with_sign(in.size_s_y, in.s_y)),
-                  column_t = multiples(with_sign(in.size_t_y, in.t_y));
+  const std::int64_t row_s = with_sign(in.size_s_x, in.s_x), row_t = with_sign(in.size_t_x, in.t_x),
+                     column_s = with_sign(in.size_s_y, in.s_y),
+                     column_t = with_sign(in.size_t_y, in.t_y);
   Candidate best{};
   for (unsigned direction = 0; direction < kDirections; direction += step_) {
     const std::uint64_t length = measure(magnitude(rotated(row_s, column_s, direction)),

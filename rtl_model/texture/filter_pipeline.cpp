@@ -64,6 +64,7 @@ FilterPipelineOf<Width>::FilterPipelineOf(const sc_core::sc_module_name& name, C
           srgb_, numbered(("texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]).c_str(), lane));
   if (configuration.kernel != spec::texture::Kernel::kBox ||
       configuration.count == spec::texture::CountRule::kAny) {
+    weight_words_ = weight_words(configuration.kernel);
     weights_ =
         std::make_unique<Memory<std::uint16_t>>("weights",
                                                 MemoryShape{.words = kMostSamples * kMostSamples,
@@ -73,7 +74,7 @@ FilterPipelineOf<Width>::FilterPipelineOf(const sc_core::sc_module_name& name, C
                                                             .write_ports = 0,
                                                             .latency = 1,
                                                             .content = "weight of sample i of N"},
-                                                weight_words(configuration.kernel));
+                                                weight_words_);
     for (std::uint32_t lane = 0; lane < lanes; ++lane)
       weight_reads_.emplace_back(*weights_, numbered("sample", lane));
   }
@@ -139,7 +140,8 @@ inline void FilterPipelineOf<Width>::count_stages(bool arrives) {
 template <class Width>
 inline void FilterPipelineOf<Width>::look_up(Cycle cycle, const TexelQuadToken& token,
                                              std::size_t lane) {
-  if (weights_ && (by_level_ | token.control.last_of_sample))
+  // All lanes read in the same cycle, so one of them is enough for the check.
+  if (lane == 0 && weights_ && (by_level_ | token.control.last_of_sample))
     weight_reads_[lane].read(cycle, weight_address(token.control.last_index, token.control.index));
   if (!token.ticket.valid || format_of(token) != spec::texture::Format::kSrgb8A8) return;
   for (std::size_t i = 0; i < 4; ++i)
@@ -147,10 +149,9 @@ inline void FilterPipelineOf<Width>::look_up(Cycle cycle, const TexelQuadToken& 
       linear_[kCodedChannels * lane + 3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 3 to 5; nothing in between is observable. kFractionBits of the texels: 4, or 0 if those
-// bits are all 0.
+// Stages 3 to 5; nothing in between is observable.
 template <class Width>
-template <unsigned kFractionBits, class Unpack>
+template <class Unpack>
 inline void FilterPipelineOf<Width>::lerp(Request& request, Unpack&& unpack) {
   const FilterControl& control = request.token.control;
   // Stages 3 and 4: U8.4 x U1.8.
@@ -159,7 +160,29 @@ inline void FilterPipelineOf<Width>::lerp(Request& request, Unpack&& unpack) {
                  lower = unpack(2) * left + unpack(3) * right;
   // Stage 5: U8.20, rounded to U8.12.
   const std::uint32_t down = control.fraction_v, up = 256 - down;
-  request.row = (upper * up + lower * down).rounded(kFractionBits + 4);
+  request.row = (upper * up + lower * down).rounded(8);
+}
+
+// The same for RGBA8: both columns of a row in one word, with 16 bits per channel. The sums are
+// exact, so the model may lerp vertically first.
+template <class Width>
+inline void FilterPipelineOf<Width>::lerp_bytes(Request& request) {
+  constexpr std::uint64_t kBytes = 0x00FF'00FF'00FF'00FF;
+  const FilterControl& control = request.token.control;
+  const auto& texel = request.token.texel;
+  const std::uint32_t right = control.fraction_u, left = 256 - right;
+  const std::uint32_t down = control.fraction_v, up = 256 - down;
+  const std::uint64_t upper = texel[0] | std::uint64_t{texel[1]} << 32,
+                      lower = texel[2] | std::uint64_t{texel[3]} << 32;
+  const std::uint64_t rb = (upper & kBytes) * up + (lower & kBytes) * down,
+                      ga = (upper >> 8 & kBytes) * up + (lower >> 8 & kBytes) * down;
+  const auto spread = [](std::uint64_t low) {
+    return (low | low << 16) & Channels::kBoth * 0xFFFF;
+  };
+  const auto column = [&](unsigned shift) {
+    return Channels{spread(rb >> shift & 0xFFFF'FFFF), spread(ga >> shift & 0xFFFF'FFFF)};
+  };
+  request.row = (column(0) * left + column(32) * right).rounded(4);
 }
 
 // Stage 2. A fragment with an invalid descriptor has one sample of weight 0.
@@ -168,8 +191,8 @@ inline std::uint32_t FilterPipelineOf<Width>::weight(Cycle cycle, const TexelQua
                                                      std::size_t lane) const {
   if (!token.ticket.valid) return 0;
   if (!weights_) return 256U >> std::bit_width(unsigned{token.control.last_index});
-  return weight_reads_[lane].at(cycle,
-                                weight_address(token.control.last_index, token.control.index));
+  const std::size_t address = weight_address(token.control.last_index, token.control.index);
+  return lane == 0 ? weight_reads_[0].at(cycle, address) : weight_words_[address];
 }
 
 // Stages 2 to 5.
@@ -178,15 +201,14 @@ inline void FilterPipelineOf<Width>::filter(Cycle cycle, Request& request, std::
   const TexelQuadToken& token = request.token;
   if (by_level_ | token.control.last_of_sample) request.weight = weight(cycle, token, lane);
   if (format_of(token) != spec::texture::Format::kRgba8) return filter_other(cycle, request, lane);
-  this->template lerp<0>(request,
-                         [&](std::size_t i) { return Channels::of_bytes(token.texel[i]); });
+  lerp_bytes(request);
 }
 
 template <class Width>
 void FilterPipelineOf<Width>::filter_other(Cycle cycle, Request& request, std::size_t lane) const {
   const TexelQuadToken& token = request.token;
   const auto lerp_each = [&](auto&& unpack_one) {
-    this->template lerp<4>(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
+    lerp(request, [&](std::size_t i) { return unpack_one(token.texel[i]); });
   };
   switch (format_of(token)) {
     case spec::texture::Format::kRgba8:
@@ -205,8 +227,7 @@ void FilterPipelineOf<Width>::filter_other(Cycle cycle, Request& request, std::s
       });
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
-      return this->template lerp<4>(
-          request, [&](std::size_t i) { return unpack_srgb(cycle, token, i, lane); });
+      return lerp(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i, lane); });
   }
 }
 

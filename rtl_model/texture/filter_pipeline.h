@@ -82,11 +82,6 @@ class FilterPipelineOf : public FilterPipelineBase {
                                  std::uint32_t a) {
       return {r | std::uint64_t{b} << 32, g | std::uint64_t{a} << 32};
     }
-    // Like of(), from the bytes of an RGBA8 texel.
-    static constexpr Channels of_bytes(std::uint64_t rgba) {
-      constexpr std::uint64_t kBytes = kBoth * 0xFF;
-      return {(rgba | rgba << 16) & kBytes, (rgba >> 8 | rgba << 8) & kBytes};
-    }
     constexpr std::array<std::uint32_t, 4> each() const {
       return {static_cast<std::uint32_t>(rb), static_cast<std::uint32_t>(ga),
               static_cast<std::uint32_t>(rb >> 32), static_cast<std::uint32_t>(ga >> 32)};
@@ -130,8 +125,9 @@ class FilterPipelineOf : public FilterPipelineBase {
                                               std::size_t lane) const;
   [[gnu::always_inline]] void filter(Cycle cycle, Request& request, std::size_t lane) const;
   [[gnu::noinline]] void filter_other(Cycle cycle, Request& request, std::size_t lane) const;
-  template <unsigned kFractionBits, class Unpack>
+  template <class Unpack>
   static void lerp(Request& request, Unpack&& unpack);
+  [[gnu::always_inline]] static void lerp_bytes(Request& request);
   Channels unpack_srgb(Cycle cycle, const TexelQuadToken& token, std::size_t texel,
                        std::size_t lane) const;
   [[gnu::always_inline]] void lerp_levels(const Request& request);
@@ -155,6 +151,7 @@ class FilterPipelineOf : public FilterPipelineBase {
   std::unique_ptr<Memory<std::uint16_t>> weights_;
   std::unique_ptr<Memory<std::uint8_t>> codes_;
   std::vector<ReadPort<std::uint16_t>> weight_reads_;  // by lane
+  std::vector<std::uint16_t> weight_words_;            // content, for lanes above 0
   std::vector<ReadPort<std::uint8_t>> code_reads_;     // 3 x lane + channel: R, G, B
   // Registers after each stage; stage 8 (with `encoded` stage 9) writes the output link.
   Pipe<typename Width::template Fragments<Request>, kRequestStages> requests_;

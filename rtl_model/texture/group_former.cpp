@@ -16,6 +16,8 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       set_mask_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes / p.cache_ways) - 1),
       bank_mask_(static_cast<std::uint32_t>(p.cache_line_banks * p.cache_line_bytes / 4) - 1),
+      apart_mask_(std::min(static_cast<std::uint32_t>(p.cache_line_banks) - 1, set_mask_)),
+      alike_(std::min(reads_, ways_)),
       memory_("requests_waiting", {.words = 2 * static_cast<std::uint64_t>(p.width),
                                    .word_bits = kPayloadBits<TexelToken> + 1,
                                    .kind = MemoryKind::kFlops,
@@ -46,7 +48,7 @@ Activity GroupFormer::tick(Cycle cycle) {
 inline void GroupFormer::add(const Waiting& request, Lines& lines,
                              std::array<std::uint8_t, 4>& index, Exceeded& exceeded) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t line = request.line[i];
+    const std::uint32_t address = request.address[i], line = address >> line_log2_;
     std::uint32_t at = 0;
     while (at < lines.count && lines.line[at] != line) ++at;
     index[i] = static_cast<std::uint8_t>(at);
@@ -58,8 +60,9 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
       lines.turned[at] = request.turned[i >> 1];
       exceeded.lookups |= ++lines.count > lookups_;
     }
-    const std::uint32_t word = request.word[i];
-    Bank& bank = banks_[request.bank[i]];
+    // Of words, with the line turned as the row asks.
+    Bank& bank = banks_[(address ^ (request.turned[i >> 1] ? turn_ : 0)) >> 2 & bank_mask_];
+    const std::uint32_t word = address >> 2;
     if (bank.group != group_) {
       bank.group = group_;
       bank.words = 0;
@@ -73,63 +76,135 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
   }
 }
 
-// Returns the number of requests.
-std::uint32_t GroupFormer::emit(Cycle cycle) {
-  LineGroup& group = groups_out.emplace(cycle);
+// Fast path: a group of the `most` oldest requests, if they are within all limits for sure. Lines
+// that are not turned have one word per bank of their line bank; so few lines per line bank have
+// few words per bank. Returns false if limits must be checked.
+inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
+  std::uint32_t lines = 0, alike = 0;  // alike: 4 bits per line bank
+  std::uint32_t at = head_;
+  for (std::uint32_t n = 0; n < most; ++n) {
+    const Waiting& waiting = buffer_[at];
+    at = at + 1 == 2 * width_ ? 0 : at + 1;
+    GroupRequest& request = group.at[n];
+    request = waiting.request;
+    if (waiting.lines == 0) continue;
+    if (waiting.turned[0] || waiting.turned[1]) return false;
+    std::array<std::uint8_t, 4> of_group;
+    for (std::uint32_t i = 0; i < waiting.lines; ++i) {
+      const std::uint32_t line = waiting.line[i];
+      std::uint32_t k = lines;
+      while (k != 0 && group.line[k - 1] != line) --k;
+      if (k == 0) {
+        const std::uint32_t place = 4 * (line & apart_mask_);
+        if (lines == lookups_ || (alike >> place & 15) == alike_) return false;
+        alike += 1u << place;
+        group.line[lines] = line;
+        group.turned[lines] = false;
+        k = ++lines;
+      }
+      of_group[i] = static_cast<std::uint8_t>(k - 1);
+    }
+    if (waiting.lines == 1)
+      request.index.fill(of_group[0]);
+    else
+      for (std::uint8_t& index : request.index) index = of_group[index];
+  }
+  group.count = static_cast<std::uint8_t>(most);
+  group.lines = static_cast<std::uint8_t>(lines);
+  return true;
+}
+
+// The longest sequence of at most `most` requests within all limits. Returns its length.
+std::uint32_t GroupFormer::emit_within(std::uint32_t most, LineGroup& group) {
   ++group_;
   Lines lines;
   Exceeded exceeded;
-  const std::uint32_t most = std::min(buffered_, width_);
   std::uint32_t n = 0, built = 0;
-  bool partial = false;
   for (std::uint32_t at = head_; n < most; ++n) {
-    const Waiting& request = buffer_[at];
-    oldest_[n].read(cycle, at);
+    const Waiting& waiting = buffer_[at];
     std::array<std::uint8_t, 4> index{};
-    if (request.ticket.valid) add(request, lines, index, exceeded);
+    if (waiting.lines != 0) add(waiting, lines, index, exceeded);
     // What the oldest request exceeds by itself stays exceeded, so it leaves alone.
     if (n != 0 && exceeded.any()) break;
-    group.at[n] = {request.ticket, request.control, index, request.offset};
-    partial = request.partial;
+    group.at[n] = waiting.request;
+    group.at[n].index = index;
     built = lines.count;
-    at = at + 1 == buffer_.size() ? 0 : at + 1;
+    at = at + 1 == 2 * width_ ? 0 : at + 1;
   }
   group.count = static_cast<std::uint8_t>(n);
   group.lines = static_cast<std::uint8_t>(built);
   std::copy_n(lines.line.begin(), built, group.line.begin());
   std::copy_n(lines.turned.begin(), built, group.turned.begin());
-  if (n < most)
-    cause_ = exceeded.lookups ? &lookups : exceeded.banks ? &banks : &set;
-  else
-    cause_ = partial ? &partial_quad : &starved;
-  head_ += n;
-  if (head_ >= buffer_.size()) head_ -= static_cast<std::uint32_t>(buffer_.size());
+  if (n < most) cause_ = exceeded.lookups ? &lookups : exceeded.banks ? &banks : &set;
+  return n;
+}
+
+// Returns the number of requests.
+std::uint32_t GroupFormer::emit(Cycle cycle) {
+  LineGroup& group = groups_out.emplace(cycle);
+  const std::uint32_t most = std::min(buffered_, width_);
+  const std::uint32_t n = emit_all(most, group) ? most : emit_within(most, group);
+  // Consecutive entries on consecutive ports: the access of the first one is checked.
+  oldest_[0].read(cycle, head_);
+  std::uint32_t newest = head_ + n - 1;
+  if (newest >= 2 * width_) newest -= 2 * width_;
+  if (n == most) cause_ = buffer_[newest].partial ? &partial_quad : &starved;
+  head_ = newest + 1 == 2 * width_ ? 0 : newest + 1;
   buffered_ -= n;
   return n;
 }
 
 inline void GroupFormer::take(Cycle cycle) {
   const TexelGroup& group = texels_in.take(cycle);
+  std::uint32_t at = head_ + buffered_;
+  if (at >= 2 * width_) at -= 2 * width_;
+  new_[0].write(cycle, at);  // as in emit()
   for (std::uint32_t n = 0; n < group.count; ++n) {
-    std::uint32_t at = head_ + buffered_++;
-    if (at >= buffer_.size()) at -= static_cast<std::uint32_t>(buffer_.size());
-    new_[n].write(cycle, at);
-    const TexelToken& token = group.at[n];
-    Waiting& request = buffer_[at];
-    request.ticket = token.ticket;
-    request.control = token.control;
-    request.partial = (group.partial >> n & 1) != 0;
-    request.turned = token.turned;
-    const std::uint32_t mask = (1u << line_log2_) - 1;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t address = token.address[i];
-      request.line[i] = address >> line_log2_;
-      request.word[i] = address >> 2;
-      request.bank[i] = static_cast<std::uint16_t>(
-          (address ^ (token.turned[i >> 1] ? turn_ : 0)) >> 2 & bank_mask_);
-      request.offset[i] = static_cast<std::uint8_t>(address & mask);
-    }
+    enter(group.at[n], buffer_[at]);
+    buffer_[at].partial = (group.partial >> n & 1) != 0;
+    at = at + 1 == 2 * width_ ? 0 : at + 1;
   }
+  buffered_ += group.count;
+}
+
+inline void GroupFormer::enter(const TexelToken& token, Waiting& waiting) const {
+  GroupRequest& request = waiting.request;
+  request.ticket = token.ticket;
+  request.control = token.control;
+  request.index = {};
+  if (!token.ticket.valid) {
+    request.offset = {};
+    waiting.lines = 0;
+    return;
+  }
+  waiting.turned = token.turned;
+  waiting.address = token.address;
+  const auto& address = token.address;
+  const std::uint32_t mask = (1u << line_log2_) - 1, first = address[0] >> line_log2_;
+  for (std::size_t i = 0; i < 4; ++i)
+    request.offset[i] = static_cast<std::uint8_t>(address[i] & mask);
+  waiting.line[0] = first;
+  waiting.lines = 1;
+  if (((address[0] ^ address[1]) | (address[0] ^ address[2]) | (address[0] ^ address[3])) <= mask)
+    return;
+  const std::uint32_t line1 = address[1] >> line_log2_, line2 = address[2] >> line_log2_,
+                      line3 = address[3] >> line_log2_;
+  std::uint32_t n = 1;
+  const auto number = [&](std::uint32_t line, std::uint32_t k) {
+    if (k == n) waiting.line[n++] = line;
+    return k;
+  };
+  const std::uint32_t k1 = number(line1, line1 == first ? 0 : 1),
+                      k2 = number(line2, line2 == first   ? 0
+                                         : line2 == line1 ? k1
+                                                          : n),
+                      k3 = number(line3, line3 == first   ? 0
+                                         : line3 == line1 ? k1
+                                         : line3 == line2 ? k2
+                                                          : n);
+  request.index = {0, static_cast<std::uint8_t>(k1), static_cast<std::uint8_t>(k2),
+                   static_cast<std::uint8_t>(k3)};
+  waiting.lines = n;
 }
 
 // Counts the slots of a cycle that began with `buffered` requests. Empty cycles are counted when

@@ -55,16 +55,14 @@ class GroupFormer final : public Unit {
   static Datasheet datasheet();
 
  private:
-  // A request in the buffer.
+  // A request in the buffer. Its distinct lines in the order of first use are found when it enters.
   struct Waiting {
-    Ticket ticket;
-    FilterControl control;
-    bool partial;
+    GroupRequest request;               // `index`: number of the line among `line`
+    std::uint32_t lines;                // 1..4; 0: an invalid request
     std::array<std::uint32_t, 4> line;  // U27
-    std::array<std::uint32_t, 4> word;  // U30, of memory
-    std::array<std::uint16_t, 4> bank;  // of words, with the line turned as the row asks
-    std::array<std::uint8_t, 4> offset;
+    std::array<std::uint32_t, 4> address;
     std::array<bool, 2> turned;
+    bool partial;
   };
   // The limits that a sequence of requests exceeds.
   struct Exceeded {
@@ -86,13 +84,19 @@ class GroupFormer final : public Unit {
   };
 
   std::uint32_t emit(Cycle cycle);
+  bool emit_all(std::uint32_t most, LineGroup& group);
+  [[gnu::noinline]] std::uint32_t emit_within(std::uint32_t most, LineGroup& group);
   void add(const Waiting& request, Lines& lines, std::array<std::uint8_t, 4>& index,
            Exceeded& exceeded);
   void take(Cycle cycle);
+  void enter(const TexelToken& token, Waiting& waiting) const;
   void count(std::uint32_t emitted, std::uint32_t buffered, Cycle cycle);
 
   std::uint32_t width_, lookups_, reads_, ways_;
   std::uint32_t line_log2_, turn_, set_mask_, bank_mask_;
+  // For emit_all(): low bits of a line number that select a line bank and a set, and the lines that
+  // may share them.
+  std::uint32_t apart_mask_, alike_;
   Memory<void> memory_;
   std::vector<ReadPort<void>> oldest_;
   std::vector<WritePort<void>> new_;

@@ -71,9 +71,8 @@ void SampleWalkerOf<Width>::scale(Cycle cycle,
     scaled.step_s = fragment.axis_s * spread;
     scaled.step_t = fragment.axis_t * spread;
   });
-  if (reciprocal_)
-    for (std::size_t i = 0; i < count_of(group); ++i)
-      reads_[i].read(cycle, nth(group, i).last_index);
+  // All fragments read in the same cycle, so one of them is enough for the check.
+  if (reciprocal_) reads_[0].read(cycle, nth(group, 0).last_index);
 }
 
 // Stage 2 with `any`.
@@ -83,7 +82,9 @@ void SampleWalkerOf<Width>::divide(Cycle cycle) {
   set_count(divided_.group, count_of(scaled_.group));
   for (std::size_t i = 0; i < count_of(scaled_.group); ++i) {
     const Prepared& scaled = nth(scaled_.group, i);
-    const std::int64_t reciprocal = reads_[i].at(cycle, scaled.fragment.last_index);
+    const std::size_t last = scaled.fragment.last_index;
+    const std::int64_t reciprocal =
+        i == 0 ? reads_[0].at(cycle, last) : spec::texture::kReciprocal[last + 1];
     nth(divided_.group, i) = {scaled.fragment, scaled.step_s * reciprocal,
                               scaled.step_t * reciprocal};
   }

@@ -22,8 +22,12 @@ constexpr std::uint64_t pair(std::int32_t first, std::int32_t second) {
 }
 constexpr std::uint32_t low(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
 constexpr std::uint32_t high(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
-// Mask of the low bits of both halves.
-constexpr std::uint64_t ones(unsigned bits) { return kBoth * ((1U << bits) - 1); }
+// Masks of the low bits of both halves.
+constexpr auto kOnes = [] {
+  std::array<std::uint64_t, 16> table{};
+  for (unsigned bits = 0; bits < table.size(); ++bits) table[bits] = kBoth * ((1U << bits) - 1);
+  return table;
+}();
 
 // Spreads a 10-bit number to the even bits of a 20-bit number (wires).
 constexpr auto kSpread = [] {
@@ -148,18 +152,18 @@ inline void TexelAddresserOf<Width>::address(const TextureState& texture,
     // Tiles are in Morton order: the low `common` bits of their numbers interleave, columns in the
     // even bits; the remaining bits are above.
     const unsigned common = level.mixed_log2;
-    const std::uint64_t mixed = ones(common);
+    const std::uint64_t mixed = kOnes[common];
     const auto tiles = [&](std::uint64_t at, unsigned tile_log2, unsigned place) {
       const std::uint64_t tile =
           at >> tile_log2;  // the second half shifts into the first one's top bits
-      const std::uint64_t interleaved = tile & mixed, above = (tile ^ interleaved) & ones(12);
+      const std::uint64_t interleaved = tile & mixed, above = (tile ^ interleaved) & kOnes[12];
       return (kSpread[low(interleaved)] | std::uint64_t{kSpread[high(interleaved)]} << 32)
                  << place |
              above << common;
     };
     const unsigned width_log2 = texture.tile_width_log2, height_log2 = texture.tile_height_log2;
-    column = tiles(x, width_log2, 0) << 6 | (x & ones(width_log2)) << texture.texel_log2;
-    row = tiles(y, height_log2, 1) << 6 | (y & ones(height_log2))
+    column = tiles(x, width_log2, 0) << 6 | (x & kOnes[width_log2]) << texture.texel_log2;
+    row = tiles(y, height_log2, 1) << 6 | (y & kOnes[height_log2])
                                               << (width_log2 + texture.texel_log2);
   }
   const std::uint32_t upper = level.base + low(row), lower = level.base + high(row);

@@ -2,6 +2,7 @@
 #include "rtl_model/texture/wide_data_stage.h"
 
 #include <algorithm>
+#include <bit>
 #include <string>
 
 namespace deburr::rtl::texture {
@@ -59,11 +60,12 @@ Activity WideDataStage::tick(Cycle cycle) {
   const auto written = static_cast<std::uint8_t>(lines_written.value() - before);
   if (lines_used_out.driven() != written) lines_used_out.drive(cycle, written);
   if (stall_out.driven() != stall_) stall_out.drive(cycle, stall_);
-  stall_ = activity == wait_fill_            ? SlotStall::kWaitFill
-           : activity == write_fill_         ? SlotStall::kWriteFill
-           : activity == bank_conflict_      ? SlotStall::kBankPass
+  stall_ = activity == kBusy                ? SlotStall::kNone
+           : activity == wait_fill_         ? SlotStall::kWaitFill
+           : activity == write_fill_        ? SlotStall::kWriteFill
+           : activity == bank_conflict_     ? SlotStall::kBankPass
            : activity == kStalledDownstream ? SlotStall::kOutput
-                                             : SlotStall::kNone;
+                                            : SlotStall::kNone;
   return activity;
 }
 
@@ -79,7 +81,7 @@ inline Activity WideDataStage::work(Cycle cycle) {
   }
   if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
   const CacheGroup& group = requests_in.front(cycle);
-  if (!started_) schedule(group);
+  if (!started_ && !read_at_once(cycle, group)) schedule(group);
   if (passes_done_ < passes_) read(cycle, passes_done_++);
   // A line may replace one that is still read: write it no earlier than in the last pass, which
   // still reads the old word.
@@ -90,8 +92,70 @@ inline Activity WideDataStage::work(Cycle cycle) {
   return kBusy;
 }
 
+// Fast path for a group that needs at most one pass, the common case: the words of each line as a
+// mask of banks. Returns false without reading if a bank has more than R words.
+inline bool WideDataStage::read_at_once(Cycle cycle, const CacheGroup& group) {
+  if (bank_mask_ >= 64) return false;
+  std::array<std::uint32_t, spec::texture::kMostLookups> base{};
+  std::array<std::uint64_t, spec::texture::kMostLookups> words{};
+  std::uint32_t highest = 0;
+  for (std::size_t k = 0; k < group.lines; ++k) {
+    base[k] = std::uint32_t{group.slot[k]} << line_log2_ | (group.turned[k] ? turn_ : 0);
+    highest = std::max(highest, base[k]);
+  }
+  if (highest >= bytes_.size() - kWordPadding) return false;  // the port rejects it
+  // The content of a line that missed is replaced when its fill is written.
+  for (std::uint32_t r = 0; r < group.count; ++r) {
+    const GroupRequest& request = group.at[r];
+    if (!request.ticket.valid) continue;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t k = request.index[i], place = base[k] ^ request.offset[i];
+      words[k] |= std::uint64_t{1} << (place >> 2 & bank_mask_);
+      waiting_.at[r].texel[i] = load_word(&bytes_[place]);
+    }
+  }
+  // Banks that read a word, a second word, and more words than a cycle allows.
+  std::uint64_t once = 0, twice = 0, more = 0;
+  std::size_t line_once = 0, line_twice = 0;
+  std::uint32_t fills = 0;
+  for (std::size_t k = 0; k < group.lines; ++k) {
+    if (group.missed[k]) {
+      ++fills;
+      continue;
+    }
+    const std::uint64_t again = once & words[k];
+    more |= twice & words[k];
+    if (again != 0) line_twice = k;
+    twice |= again;
+    once |= words[k];
+    line_once = k;
+  }
+  if (more != 0 || (twice != 0 && reads_ == 1)) return false;
+  // The masks have checked the banks, so one word of each copy is enough for the ports.
+  const auto first_word = [&](std::size_t k, std::uint64_t banks) {
+    return (base[k] >> line_log2_) * words_a_line_ |
+           (static_cast<std::uint32_t>(std::countr_zero(banks)) & (words_a_line_ - 1));
+  };
+  if (twice != 0) issue(cycle, 1, 0, first_word(line_twice, words[line_twice] & twice));
+  if (once != 0) issue(cycle, 0, 0, first_word(line_once, words[line_once]));
+  started_ = true;
+  passes_ = passes_done_ = 0;
+  next_line_ = 0;
+  fills_left_ = fills;
+  return true;
+}
+
+// All words of a cycle arrive together, so one of them is enough for the check.
+inline void WideDataStage::issue(Cycle cycle, std::size_t copy, std::size_t port,
+                                 std::uint64_t word) {
+  issued_ = &copies_[copy]->reads[port];
+  issued_word_ = word;
+  issued_at_ = cycle;
+  copies_[copy]->reads[port].read(cycle, word);
+}
+
 // Pass and port of each texel that hits.
-inline void WideDataStage::schedule(const CacheGroup& group) {
+void WideDataStage::schedule(const CacheGroup& group) {
   started_ = true;
   ++group_;
   hits_ = passes_ = passes_done_ = 0;
@@ -129,19 +193,12 @@ inline void WideDataStage::schedule(const CacheGroup& group) {
   if (passes_ > 1) ++conflicts;
 }
 
-inline void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
+void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
   std::array<std::uint32_t, spec::texture::kMostBankReads> ports{};
   for (std::uint32_t i = 0; i < hits_; ++i) {
     const Read& read = schedule_[i];
     if (read.pass != pass) continue;
-    if (read.first) {
-      ReadPort<void>& port = copies_[read.copy]->reads[ports[read.copy]++];
-      port.read(cycle, read.place >> 2);
-      // All words of a cycle arrive together, so one of them is enough for the check.
-      issued_ = &port;
-      issued_word_ = read.place >> 2;
-      issued_at_ = cycle;
-    }
+    if (read.first) issue(cycle, read.copy, ports[read.copy]++, read.place >> 2);
     texel(read.texel) = load_word(&bytes_[read.place]);
   }
 }
@@ -169,8 +226,8 @@ void WideDataStage::write_fill(Cycle cycle, const CacheGroup& group, std::size_t
       if (group.at[r].index[i] == k) texel(4 * r + i) = load_word(line + group.at[r].offset[i]);
   }
   const std::size_t slot = group.slot[k], line_bytes = std::size_t{1} << line_log2_;
-  for (const auto& copy : copies_)
-    copy->writes[port].write(cycle, slot * words_a_line_, words_a_line_);
+  // All copies are written alike, so the ports of one check the access.
+  copies_.front()->writes[port].write(cycle, slot * words_a_line_, words_a_line_);
   const std::size_t turn = group.turned[k] ? turn_ : 0;
   for (std::size_t at = 0; at < line_bytes; at += turn_)
     std::copy_n(line + at, turn_, &bytes_[slot * line_bytes + (at ^ turn)]);
@@ -206,8 +263,9 @@ Datasheet WideDataStage::datasheet() {
       .unit = "WideDataStage",
       .does = "Reads the texels of a group from the banks and writes its fills.",
       .latency = {2, "2, from the last cycle of a group"},
-      .interval = {1, "max(1, bank passes) cycles per group; the writes of its fills begin in the "
-                      "last of them"},
+      .interval = {1,
+                   "max(1, bank passes) cycles per group; the writes of its fills begin in the "
+                   "last of them"},
       .stages =
           {{"1",
             "waits for the group's fills and takes up to `fill_writes` of them; addresses the "

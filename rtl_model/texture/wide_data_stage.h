@@ -6,7 +6,8 @@
 // Banks     Lines are in B line banks by the low bits of the line number, and a line bank has a
 //           bank for each word of a line. A bank of words is read R times per cycle (a copy per
 //           read) and written once; so up to D fills of a cycle are for different line banks.
-// Order     As in the DataStage: bank passes first, writes from the cycle of the last pass on, banks
+// Order     As in the DataStage: bank passes first, writes from the cycle of the last pass on,
+// banks
 //           are read-first, texels that missed come from the fill.
 // Stalls    wait_fill, write_fill, bank_conflict, downstream: as in the DataStage.
 // Output    Registers: `lines_used_out`, the lines written in the previous cycle; `stall_out`, the
@@ -66,11 +67,13 @@ class WideDataStage final : public DataUnit {
   };
 
   Activity work(Cycle cycle);
-  void schedule(const CacheGroup& group);
+  bool read_at_once(Cycle cycle, const CacheGroup& group);
+  [[gnu::noinline]] void schedule(const CacheGroup& group);
   void read(Cycle cycle, std::uint32_t pass);
   std::uint32_t write_fills(Cycle cycle, const CacheGroup& group);
   void write_fill(Cycle cycle, const CacheGroup& group, std::size_t line, std::uint32_t port);
   void finish(Cycle cycle, const CacheGroup& group);
+  void issue(Cycle cycle, std::size_t copy, std::size_t port, std::uint64_t word);
   std::uint32_t& texel(std::uint32_t number) { return waiting_.at[number / 4].texel[number % 4]; }
 
   FillBuffer::Reader fills_;

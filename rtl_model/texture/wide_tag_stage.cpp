@@ -54,72 +54,99 @@ inline Activity WideTagStage::work(Cycle cycle, SlotStall& stall) {
 
 // Stage 1: one port per distinct line.
 inline void WideTagStage::read_sets(Cycle cycle) {
-  group_ = groups_in.take(cycle);
+  const LineGroup& group = groups_in.take(cycle);
   occupied_ = true;
   read_at_ = cycle;
-  for (std::size_t i = 0; i < group_.lines; ++i) tags_.read(cycle, i, group_.line[i]);
+  out_.count = group.count;
+  out_.lines = group.lines;
+  out_.at = group.at;
+  out_.turned = group.turned;
+  for (std::size_t k = 0; k < group.lines; ++k) {
+    lines_[k] = {group.line[k], 0, 0, 0};
+    out_.missed[k] = false;
+  }
+  // All sets are read in the same cycle, so one of them is enough for the checks.
+  if (group.lines != 0) tags_.read(cycle, 0, group.line[0]);
+}
+
+// Calls use(k) for each distinct line of a request in the order of its texels.
+template <class Use>
+inline void WideTagStage::each_use(const GroupRequest& request, const Use& use) {
+  const auto& index = request.index;
+  use(index[0]);
+  if (index[1] != index[0]) use(index[1]);
+  if (index[2] != index[0] && index[2] != index[1]) use(index[2]);
+  if (index[3] != index[0] && index[3] != index[1] && index[3] != index[2]) use(index[3]);
 }
 
 // Stage 2: each request uses its distinct lines in the order of its texels.
 inline void WideTagStage::look_up(Cycle cycle) {
   looked_up_ = true;
-  out_.count = group_.count;
-  out_.lines = group_.lines;
-  std::copy_n(group_.at.begin(), group_.count, out_.at.begin());
   missed_.count = 0;
-  used_lines_ = valid_requests_ = 0;
-  std::array<std::uint32_t, spec::texture::kMostLookups> slot{};
-  std::uint32_t found = 0;  // lines that an earlier request has used
-  for (std::size_t r = 0; r < group_.count; ++r) {
-    if (!group_.at[r].ticket.valid) continue;
+  valid_requests_ = 0;
+  if (out_.lines != 0) tags_.check(cycle, 0, lines_[0].number, read_at_);
+  std::uint32_t found = 0;  // lines that have been used
+  for (std::size_t r = 0; r < out_.count; ++r) {
+    if (!out_.at[r].ticket.valid) continue;
     ++valid_requests_;
-    std::uint32_t uses = 0;  // lines that this request has used
-    for (const std::uint8_t k : group_.at[r].index) {
-      if ((uses >> k & 1) != 0) continue;
-      uses |= 1u << k;
-      Use& use = uses_[used_lines_++];
-      use.line = group_.line[k];
-      if ((found >> k & 1) == 0) {
-        found |= 1u << k;
-        tags_.check(cycle, k, use.line, read_at_);
-        slot[k] = tags_.find(use.line);
-        out_.missed[k] = slot[k] == TagStore::kAbsent;
-        if (out_.missed[k]) {
-          const TagStore::Place place = tags_.allocate(use.line, group_.turned[k]);
-          slot[k] = place.slot;
-          out_.turned[k] = group_.turned[k];
-          if (place.evicted) ++evictions;
-          fill_number_[place.slot] = ++ordered_;
-          missed_.line[missed_.count++] = use.line;
-          use.fill = kMissed;
-          continue;
-        }
-        out_.turned[k] = tags_.turned(slot[k]);
+    each_use(out_.at[r], [&](std::uint32_t k) {
+      Line& line = lines_[k];
+      if ((found >> k & 1) != 0) {
+        ++line.uses;
+        tags_.use(line.slot);
+        return;
       }
-      tags_.use(slot[k]);
-      use.fill = fill_number_[slot[k]];
-    }
+      found |= 1u << k;
+      line.uses = 1;
+      line.slot = tags_.find(line.number);
+      out_.missed[k] = line.slot == TagStore::kAbsent;
+      if (out_.missed[k]) return allocate(k);
+      line.fill = fill_number_[line.slot];
+      out_.turned[k] = tags_.turned(line.slot);
+      tags_.use(line.slot);
+    });
   }
   // Way and set are swapped, so that the low bits select the line bank.
-  for (std::size_t k = 0; k < group_.lines; ++k)
-    out_.slot[k] =
-        static_cast<std::uint16_t>((slot[k] & way_mask_) << set_log2_ | slot[k] >> ways_log2_);
+  for (std::size_t k = 0; k < out_.lines; ++k)
+    out_.slot[k] = static_cast<std::uint16_t>((lines_[k].slot & way_mask_) << set_log2_ |
+                                              lines_[k].slot >> ways_log2_);
   tags_.commit(cycle);
   left_ = missed_.count == 0 ? 0 : (missed_.count - 1) / allocations_;
 }
 
-// In the cycle in which the group leaves.
+void WideTagStage::allocate(std::size_t k) {
+  Line& line = lines_[k];
+  const TagStore::Place place = tags_.allocate(line.number, out_.turned[k]);
+  line.slot = place.slot;
+  if (place.evicted) ++evictions;
+  line.fill = fill_number_[place.slot] = ++ordered_;
+  missed_.line[missed_.count++] = line.number;
+}
+
+// In the cycle in which the group leaves. A line that missed is under way for its further uses.
 inline void WideTagStage::count_uses(Cycle cycle) {
   requests += valid_requests_;
-  for (std::size_t i = 0; i < used_lines_; ++i) {
-    const Use& use = uses_[i];
-    const bool missed = use.fill == kMissed, under_way = use.fill > used_;
-    ++(missed ? misses : under_way ? merged : hits);
-    if (observer) [[unlikely]]
-      observer(cycle, use.line,
-               missed      ? LookUp::kMiss
-               : under_way ? LookUp::kMerged
-                           : LookUp::kHit);
+  for (std::size_t k = 0; k < out_.lines; ++k) {
+    const Line& line = lines_[k];
+    misses += out_.missed[k];
+    (line.fill > used_ ? merged : hits) += line.uses - out_.missed[k];
+  }
+  if (observer) [[unlikely]]
+    report_uses(cycle);
+}
+
+void WideTagStage::report_uses(Cycle cycle) const {
+  std::uint32_t found = 0;
+  for (std::size_t r = 0; r < out_.count; ++r) {
+    if (!out_.at[r].ticket.valid) continue;
+    each_use(out_.at[r], [&](std::uint32_t k) {
+      const bool missed = out_.missed[k] && (found >> k & 1) == 0;
+      found |= 1u << k;
+      observer(cycle, lines_[k].number,
+               missed                   ? LookUp::kMiss
+               : lines_[k].fill > used_ ? LookUp::kMerged
+                                        : LookUp::kHit);
+    });
   }
 }
 

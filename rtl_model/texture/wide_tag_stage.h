@@ -4,7 +4,8 @@
 //
 // Position  GroupFormer -> WideTagStage -> WideLatencyFifo and MissQueue.
 // Interval  1 if the group misses at most A lines: max(1, misses / A) cycles.
-// Order     Every use of a line by a request counts, in the order of the requests: so replacement is
+// Order     Every use of a line by a request counts, in the order of the requests: so replacement
+// is
 //           that of width 1. The model makes all lookups of a group in its first cycle in stage 2;
 //           nothing sees the tags before its last one, in which the lookups are counted.
 // Stalls    allocate         More lines to allocate.
@@ -47,27 +48,29 @@ class WideTagStage final : public TagUnit {
   Activity work(Cycle cycle, SlotStall& stall);
   void read_sets(Cycle cycle);
   void look_up(Cycle cycle);
+  [[gnu::noinline]] void allocate(std::size_t k);
   void count_uses(Cycle cycle);
+  template <class Use>
+  static void each_use(const GroupRequest& request, const Use& use);
+  void report_uses(Cycle cycle) const;
 
-  // A use of a line by a request: the number of its fill at that time, kMissed if it missed.
-  struct Use {
-    std::uint32_t line;
-    std::uint64_t fill;
+  // A line of the group.
+  struct Line {
+    std::uint32_t number, slot;
+    std::uint32_t uses;  // by requests
+    std::uint64_t fill;  // number of its fill
   };
-  static constexpr std::uint64_t kMissed = ~std::uint64_t{0};
 
   std::uint32_t allocations_, set_log2_, way_mask_, ways_log2_;
   Activity allocate_;
-  // Registers of the group in stage 2.
-  LineGroup group_{};
+  // Registers of the group in stage 2; its requests are in `out_`.
+  std::array<Line, spec::texture::kMostLookups> lines_{};
   bool occupied_ = false, looked_up_ = false;
   CacheGroup out_{};
   MissToken missed_{};
-  std::uint32_t left_ = 0;  // further cycles of allocation
-  Cycle read_at_ = 0;       // check only, no hardware
-  // Counters only: uses of the group in stage 2.
-  std::array<Use, 4 * kMostInGroup> uses_{};
-  std::uint32_t used_lines_ = 0, valid_requests_ = 0;
+  std::uint32_t left_ = 0;            // further cycles of allocation
+  Cycle read_at_ = 0;                 // check only, no hardware
+  std::uint32_t valid_requests_ = 0;  // counter only
 };
 
 }  // namespace deburr::rtl::texture
