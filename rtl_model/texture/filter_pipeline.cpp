@@ -147,8 +147,8 @@ inline void FilterPipelineOf<Width>::look_up(Cycle cycle, const TexelQuadToken& 
       linear_[kCodedChannels * lane + 3 * i + c].read(cycle, token.texel[i] >> (8 * c) & 255);
 }
 
-// Stages 3 to 5; nothing in between is observable. kFractionBits of the texels: 4, or 0 if those
-// bits are all 0.
+// Computes stages 3 to 5 at once; intermediate results are not observable. kFractionBits of the
+// texels: 4, or 0 if those bits are all 0.
 template <class Width>
 template <unsigned kFractionBits, class Unpack>
 inline void FilterPipelineOf<Width>::lerp(Request& request, Unpack&& unpack) {

@@ -162,7 +162,8 @@ TEST(PairFetch, DroppedEdgesIgnoreABlockedOutput) {
   b.clock.run(50);
   EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
   EXPECT_EQ(b.unit.kept_edges.value(), 3u);
-  // Taken in from + 1 to from + 6; the fifth would leave in from + 7.
+  // The inputs are taken in cycles `from` + 1 to `from` + 6; the fifth output would leave in cycle
+  // `from` + 7.
   EXPECT_EQ(stalls(b.unit, "downstream"), 50u - 7);
   b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
   b.clock.run(5);

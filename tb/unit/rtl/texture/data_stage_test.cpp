@@ -286,8 +286,8 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageCycles,
                                                           PassesAndFills{0, 0, 2, {2, 0, 1, 0}},
                                                           PassesAndFills{0, 0, 4, {4, 0, 3, 0}})));
 
-// Two hits of one request: two passes in different words of a bank, one pass in the same word, for
-// any pair of texels.
+// Two hits of one request take two passes if they are in different words of one bank, and one pass
+// if they are in the same word. Holds for any pair of texels.
 using TexelPair = std::pair<std::size_t, std::size_t>;
 class TwoTexels : public testing::TestWithParam<std::tuple<TexelPair, bool>> {};
 TEST_P(TwoTexels, ConflictUnlessTheyShareWord) {

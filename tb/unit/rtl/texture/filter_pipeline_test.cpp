@@ -249,7 +249,7 @@ TEST(TextureRtlFilterSrgb, ReadsForSrgbTexelsOnly) {
   EXPECT_EQ(reads(), 12u);
 }
 
-// The weight tables: ports as used, and no read before its cycle.
+// The weight tables have exactly the ports that are used, and no entry is read before its cycle.
 struct WeightBench : FilterBench {
   WeightBench()
       : FilterBench(configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,

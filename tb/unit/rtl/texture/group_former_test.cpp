@@ -172,7 +172,7 @@ std::vector<Limit> limits() {
        {token_of({two_lines(0, 32), request({at(64, 0), at(64, 0), at(64, 0), at(64, 0)})})},
        {1, 1},
        {{"banks", 3}, {"starved", 3}}},
-      // A request that exceeds limits by itself leaves alone, whatever follows.
+      // A request that alone exceeds the limits forms a group of its own, whatever follows.
       {"alone",
        with(8, 2),
        {token_of({heap, one_word(1, 0), heap, nothing})},
