@@ -355,7 +355,7 @@ TEST(MorphologicalEdges, DynamicThresholdIsExact) {
 }
 
 // A floor of 2 codes equals alpha x luma at alpha = 1/16 (1048576) and a luma of 32 codes.
-TEST(MorphologicalEdges, FloorDecidesUpToEquality) {
+TEST(MorphologicalEdges, FloorAppliesUpToEqualDynamicThreshold) {
   using golden::morphological::PixelPair;
   using spec::morphological::DynamicLuma;
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);

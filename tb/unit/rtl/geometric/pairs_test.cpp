@@ -78,7 +78,7 @@ TEST(PairFetch, LatencyMatchesDatasheetUnlessALineIsMissing) {
   EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
   b.clock.run(10);
   const std::string hit_latency = b.latency(b.ends, PairBench::number(9));
-  expect_notices_a_clock(
+  expect_detects_one_cycle(
       PairFetch::datasheet(), &rtl::Datasheet::latency,
       [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10)), "29");

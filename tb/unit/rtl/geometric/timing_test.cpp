@@ -64,8 +64,9 @@ TEST(EdgeClassifier, LatencyMatchesDatasheet) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
   const std::string measured = b.latency(b.ends, ClassifierBench::beat(2, 2));
   // A datasheet that is off by one cycle fails.
-  expect_notices_a_clock(EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
+  expect_detects_one_cycle(
+      EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
 }
 TEST(EdgeClassifier, OneBeatPerCycleWithOneKeptEdge) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));

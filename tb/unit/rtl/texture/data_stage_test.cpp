@@ -327,22 +327,22 @@ TEST(TextureRtlDataStage, FillWaitsForRequestAfterBankConflicts) {
 
 TEST(TextureRtlDataBanks, WordReadInSameCycleIsRejected) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
-  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Rejects("banks", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.stage, b.clock), Rejects("banks", kEarly));
 }
 
 // A second request, while the output registers hold words of the first.
-std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
+std::string read_again_one_cycle_early(std::array<std::uint32_t, 4> place) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   b.clock.run(2);
   b.requests.push(b.clock.cycle() - 1, StageBench::hit(place));
   b.clock.run(1);
-  return of_a_stage_less(b.stage, b.clock);
+  return read_one_cycle_early(b.stage, b.clock);
 }
 TEST(TextureRtlDataBanks, OtherWordOfPreviousRequestIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Rejects("banks", kEarly));
+  EXPECT_THAT(read_again_one_cycle_early({32, 36, 48, 52}), Rejects("banks", kEarly));
 }
 TEST(TextureRtlDataBanks, SameWordOfPreviousRequestIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Rejects("banks", kEarly));
+  EXPECT_THAT(read_again_one_cycle_early({0, 4, 16, 20}), Rejects("banks", kEarly));
 }
 
 TEST(TextureRtlDataBanks, SecondQuadInOneCycleIsRejected) {

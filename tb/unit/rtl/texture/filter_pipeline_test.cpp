@@ -220,7 +220,7 @@ struct CodedBench : FilterBench {
 
 TEST(TextureRtlFilterSrgb, WordReadInSameCycleIsRejected) {
   CodedBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("srgb", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, b.clock), Rejects("srgb", kEarly));
 }
 
 TEST(TextureRtlFilterSrgb, SecondQuadInOneCycleIsRejected) {
@@ -261,7 +261,7 @@ struct WeightBench : FilterBench {
 };
 TEST(TextureRtlFilterWeights, WordReadInSameCycleIsRejected) {
   WeightBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("weights", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, b.clock), Rejects("weights", kEarly));
 }
 TEST(TextureRtlFilterWeights, SecondSampleInOneCycleIsRejected) {
   WeightBench b;

@@ -53,8 +53,8 @@ TEST(TextureRtlGroupFormer, LatencyAndIntervalMatchDatasheet) {
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(b.ends.sink), 1);
   };
-  expect_notices_a_clock(GroupFormer::datasheet(), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(GroupFormer::datasheet(), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(GroupFormer::datasheet(), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(GroupFormer::datasheet(), &rtl::Datasheet::interval, check);
   EXPECT_EQ(b.former.slots.value(), 9u * 4);
   EXPECT_EQ(b.former.requests.value(), 9u * 4);
   EXPECT_EQ(slots_of(b.former), Slots{});
