@@ -67,7 +67,7 @@ class ControlRegisters {
   void on_interrupt(std::function<void()> changed) { interrupt_changed_ = std::move(changed); }
   // Adds a command to CONTROL.
   void on_command(std::uint32_t control_bit, std::function<void()> action);
-  // Called after every accepted write and after a reset, when values have changed.
+  // Called after every accepted write, and after a reset for each writable register except CONTROL.
   void on_change(std::function<void(std::uint32_t offset)> changed) {
     changed_ = std::move(changed);
   }

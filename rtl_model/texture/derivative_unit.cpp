@@ -67,8 +67,8 @@ inline void DerivativeUnitOf<Width>::take(Cycle cycle) {
   for (unsigned lanes = waiting_; lanes != 0; lanes &= lanes - 1) probe_.enters(cycle);
 }
 
-// All stages for one lane. Nothing in between is observable, since a descriptor does not change
-// while the unit is busy.
+// Computes all stages for one lane at once. Intermediate results are not observable, since a
+// descriptor does not change while the unit is busy.
 template <class Width>
 inline void DerivativeUnitOf<Width>::split(const TextureState& texture, DerivativeToken& out) {
   const auto lane = static_cast<unsigned>(std::countr_zero(waiting_));

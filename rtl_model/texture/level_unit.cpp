@@ -75,8 +75,8 @@ Activity LevelUnitOf<Width>::tick(Cycle cycle) {
   return kBusy;
 }
 
-// All stages. Nothing in between is observable, since a descriptor does not change while the unit
-// is busy.
+// Computes all stages at once. Intermediate results are not observable, since a descriptor does not
+// change while the unit is busy.
 template <class Width>
 void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in, LevelToken& out) {
   // Stage 1.

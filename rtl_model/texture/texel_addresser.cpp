@@ -76,8 +76,8 @@ inline void TexelAddresserOf<Width>::enter(
   }
 }
 
-// All stages. Nothing in between is observable, since a descriptor does not change while the unit
-// is busy.
+// Computes all stages at once. Intermediate results are not observable, since a descriptor does not
+// change while the unit is busy.
 template <class Width>
 inline void TexelAddresserOf<Width>::request(const TextureState& texture, const SampleToken& sample,
                                              TexelToken& out) {

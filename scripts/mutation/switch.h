@@ -50,7 +50,8 @@ inline Switches switches;
   return false;
 }
 
-// Disabled in constant expressions: such a mutant is compiled by itself.
+// Returns false in constant expressions. A mutant inside a constant expression needs its own build
+// instead.
 template <unsigned n>
 [[gnu::always_inline]] constexpr bool on() {
   if constexpr (n == kAlone) {

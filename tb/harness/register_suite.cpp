@@ -405,7 +405,8 @@ std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& 
       if (const std::size_t found = line.find(before); found != std::string::npos)
         add(std::string(line).replace(found, before.size(), after));
     };
-    // A command field reads as 0, like a write-only one. A read-only field that is 0 shows no bits.
+    // A command field reads as 0, like a write-only field. A read-only field with reset value 0 has
+    // no bit set that a read could show.
     const bool is_command = field.has("singlepulse"),
                is_zero = !field.software_writes() && !field.reset.value_or(0);
     replaced("sw = rw;", "sw = r;");

@@ -117,7 +117,7 @@ std::string rejection(Access&& access) {
 }
 // Ticks the unit a second time in the current cycle. This models a missing pipeline stage: a word
 // is used one cycle too early.
-inline std::string of_a_stage_less(rtl::Unit& unit, const rtl::ClockDomain& clock) {
+inline std::string read_one_cycle_early(rtl::Unit& unit, const rtl::ClockDomain& clock) {
   return rejection([&] { unit.tick(clock.cycle() - 1); });
 }
 

@@ -339,8 +339,8 @@ void print(const std::string& what, const Comparison& found) {
 void expect_published(const Comparison& found) {
   EXPECT_EQ(found.unexplained, 0);
   EXPECT_EQ(found.published.over_1, 0);
-  // One side of an edge gets A of a diagonal and, where a second one crosses it, also B of that
-  // (ExactDiagonals.AreasDifferFromPublishedBytes).
+  // One side of an edge gets area A of a diagonal. If a second diagonal crosses the edge, that side
+  // also gets area B of the second one (ExactDiagonals.AreasDifferFromPublishedBytes).
   EXPECT_EQ(found.preset.over_3, found.crossing);
   EXPECT_LE(found.preset.largest, 3.7);
 }

@@ -248,7 +248,8 @@ class GltfImporter final : public Importer {
       errors += error.what();
     }
     if (!unreadable_.empty()) throw spec::FileError(unreadable_);
-    // Checked before tinygltf's errors: data held by an unsupported extension appears as missing.
+    // Check extensions before reporting tinygltf's errors, because it reports data held by an
+    // unsupported extension as missing.
     for (const std::string& extension : model_.extensionsRequired)
       if (!is_applied(extension) && !is_harmless(extension))
         fail(fmt::format("it requires the extension {}, which is not supported; export without it",

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Texture, RandomQuads, testing::Range<std::uint64_t>(1, 
 enum class Wrong { kNothing, kByte, kBias, kWrap, kBase, kInvalid, kCoverage };
 constexpr std::array kWrongNames = {"nothing", "byte",    "bias",    "wrap",
                                     "base",    "invalid", "coverage"};
-// Built parameters that differ from the expected ones.
+// A design built with parameters that differ from the expected ones.
 struct WrongBuild {
   const char* name;
   void (*change)(spec::texture::Parameters&);

@@ -22,7 +22,7 @@ namespace deburr::tool {
 
 class SharedInputs {
  public:
-  // Without a folder, only this process and its children share.
+  // Without a folder, the inputs are shared only between this process and its children.
   explicit SharedInputs(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   template <class T>

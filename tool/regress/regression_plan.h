@@ -39,8 +39,8 @@ struct PointOrigin {
 };
 PointOrigin origin_of(const PlannedPoint& point);
 
-// Expands the testplan into the place, unless an identical plan is there. ConfigError for a
-// stimulus without points, and for points that the engine rejects.
+// Expands the testplan and stores the result at `place`, unless an identical plan is already there.
+// Throws ConfigError if a stimulus has no points or the engine rejects a point.
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place);
 

@@ -367,8 +367,8 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
 }
 
-// Random configurations vary in their number of comparisons by more than the mean: the fraction of
-// it that `runs` of them surely reach.
+// Fraction of the mean number of comparisons that the average of `runs` random configurations is
+// sure to reach. The number varies between configurations by more than its mean.
 double sure_part(std::uint64_t runs) {
   constexpr double kSpread = 8;
   constexpr double kLeast = 0.5;  // comparisons of the fixed-size frames among them

@@ -35,8 +35,8 @@ struct SequencePicture {
   tb::Image reference;              // empty: unknown
   std::optional<tb::Mask> drawn{};  // measured pixels; nullopt: all
 };
-// Adds work and figures to the result. ConfigError if frames differ in size. Ctrl-C cancels it and
-// marks the result.
+// Adds work and figures to the result. Throws ConfigError if frames differ in size. Ctrl-C cancels
+// the measurement and marks the result as interrupted.
 void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture);
 

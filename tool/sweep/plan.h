@@ -86,7 +86,7 @@ Plan plan_without_points(const SweepDefinition& sweep);
 // Stores the points of a plan that was not expanded from a definition. FileError if they cannot be
 // written.
 void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place);
-// Records the plan's inputs and stores it in its place, which already has its points.
+// Records the inputs of `plan` and writes the plan to `place`, where its points are already stored.
 void write_plan(Plan& plan, const SweepPlace& place);
 // Describes what has changed since the plan was made: the file, the model, files that points read.
 // Empty if the plan is current.

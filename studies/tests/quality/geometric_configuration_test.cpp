@@ -152,7 +152,7 @@ void expect_gain(const std::vector<Measured>& all, double silhouettes) {
 
 // ---- scenes of the project ----------------------------------------------------------------------
 
-TEST(LineConfiguration, GainsOnProjectScenes) {
+TEST(LineConfiguration, ImprovesQualityOnProjectScenes) {
   std::vector<Measured> all;
   for (const char* name :
        {"cube", "sphere", "wheelcover", "wing", "canopy", "cylinders", "object", "road", "terrain"})
@@ -163,7 +163,7 @@ TEST(LineConfiguration, GainsOnProjectScenes) {
 
 // ---- scenes that nothing was tuned on -----------------------------------------------------------
 
-TEST(LineConfiguration, GainsOnOtherSolids) {
+TEST(LineConfiguration, ImprovesQualityOnOtherSolids) {
   std::vector<Measured> all;
   for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {1u, 2u})
@@ -172,7 +172,7 @@ TEST(LineConfiguration, GainsOnOtherSolids) {
   expect_gain(all, 1.5);
 }
 
-TEST(LineConfiguration, GainsOnThirdPartyMeshes) {
+TEST(LineConfiguration, ImprovesQualityOnThirdPartyMeshes) {
   DEBURR_REQUIRE_DATA(data);
   std::vector<Measured> all;
   for (const char* name : {"kenney_truck", "teapot", "wing_open", "sphere32"}) {
@@ -186,7 +186,7 @@ TEST(LineConfiguration, GainsOnThirdPartyMeshes) {
 }
 
 // First rendered after the options were final.
-TEST(LineConfiguration, GainsOnHeldOutScenes) {
+TEST(LineConfiguration, ImprovesQualityOnHeldOutScenes) {
   std::vector<Measured> all;
   for (const SolidsName& kind : solids_names())
     for (const std::uint64_t seed : {11u, 12u})

@@ -48,8 +48,9 @@ std::optional<std::uint32_t> GeometricFaults::face_for_facing_fault() const {
 }
 
 // Returns the index of a block with a pixel that blends with a blended pixel of the block above and
-// would change if it used that pixel's final colour. The block above must be far enough ahead:
-// lines are prefetched, and a line read before the write is not stale.
+// would change if it used that pixel's final colour. Lines are prefetched, so the block above must
+// be far enough ahead that its write comes before this block's read. A line read earlier still
+// holds the original colour, so the fault would not show.
 std::optional<std::size_t> GeometricFaults::block_blending_from_above() const {
   constexpr int kInside = 16;  // blocks in the stages of the resolver
   if (frames_.empty() || setup_.geometric.frame_copy) return std::nullopt;

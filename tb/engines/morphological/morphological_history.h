@@ -38,7 +38,7 @@ class MorphologicalHistory {
  private:
   template <class T>
   using Seen = std::vector<std::pair<T, rtl::Cycle>>;
-  // Runs along one side of the pixel.
+  // The runs that lie along one side of the pixel.
   struct Side;
   bool is_at(const Side& side, const spec::morphological::RunDescriptor& run) const;
   bool is_near(const spec::morphological::RunDescriptor& run) const;

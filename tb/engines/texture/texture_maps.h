@@ -24,7 +24,7 @@ class TextureMaps {
               const rtl::Link<spec::texture::ColourGroup>& colours, const SentQuads& sent,
               int width, int height);
   void clear();
-  // Checked against the unit's own counts.
+  // Returns the maps after checking their totals against the unit's own counts.
   std::vector<PictureMap> maps() const;
 
  private:

@@ -84,7 +84,7 @@ struct Order {
     members.push_back(std::make_unique<Member>(*this, static_cast<int>(members.size())));
     clock.add(*members.back());
   }
-  std::vector<int> of_a_clock() {
+  std::vector<int> in_one_cycle() {
     ticked.clear();
     clock.run(1);
     return ticked;
@@ -99,9 +99,9 @@ TEST(ClockDomain, ShuffledOrdersAreIndependent) {
   order.clock.shuffle(0);
   std::array<std::array<int, kMembers>, kMembers>
       met{};  // by position in the previous and in the current cycle
-  std::vector<int> before = order.of_a_clock();
+  std::vector<int> before = order.in_one_cycle();
   for (int i = 0; i < kClocks; ++i) {
-    const std::vector<int> now = order.of_a_clock();
+    const std::vector<int> now = order.in_one_cycle();
     ASSERT_EQ(now.size(), std::size_t{kMembers});
     for (std::size_t place = 0; place < kMembers; ++place) {
       const auto found = std::find(now.begin(), now.end(), before[place]);
@@ -162,13 +162,13 @@ TEST(ClockDomain, DisablingShuffleRestoresOrderOfAddition) {
   order.clock.shuffle(7);
   order.clock.run(9);
   order.clock.shuffle(std::nullopt);
-  EXPECT_EQ(order.of_a_clock(), (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(order.in_one_cycle(), (std::vector<int>{0, 1, 2, 3, 4}));
   // A member added while shuffled remains.
   order.clock.shuffle(7);
   order.add();
   order.clock.run(9);
   order.clock.shuffle(std::nullopt);
-  std::vector<int> all = order.of_a_clock();
+  std::vector<int> all = order.in_one_cycle();
   std::sort(all.begin(), all.end());
   EXPECT_EQ(all, (std::vector<int>{0, 1, 2, 3, 4, 5}));
 }

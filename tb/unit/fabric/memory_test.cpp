@@ -1013,7 +1013,7 @@ struct ToldTarget : sc_core::sc_module, tlm::tlm_fw_transport_if<> {
 // The buffer takes one line per edge of the responses that arrive before the same edge, in order of
 // arrival: a response waits for the lines before it; write responses carry none. In order of
 // arrival, every beat leaves as if all had been taken at once.
-TEST(MemoryPort, BufferTakesOneLinePerEdge) {
+TEST(MemoryPort, BufferTakesOneLinePerClockEdge) {
   const auto beats = [](bool in_order, bool write, std::vector<std::size_t> answers) {
     return in_child([&] {
       MemoryPortParameters parameters;

@@ -40,8 +40,8 @@ inline void expect_interval(const rtl::Datasheet& sheet, rtl::Cycle measured) {
 
 // Injected fault: the check must fail with a datasheet that is one cycle off in either direction.
 template <class Check>
-void expect_notices_a_clock(const rtl::Datasheet& sheet, rtl::Cycles rtl::Datasheet::*which,
-                            const Check& check) {
+void expect_detects_one_cycle(const rtl::Datasheet& sheet, rtl::Cycles rtl::Datasheet::*which,
+                              const Check& check) {
   rtl::Datasheet less = sheet, more = sheet;
   --(less.*which).cycles;
   ++(more.*which).cycles;

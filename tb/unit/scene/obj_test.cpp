@@ -463,7 +463,7 @@ TEST(ObjMaterial, OneImageMayBeClampedAndRepeated) {
   EXPECT_EQ(mesh.textures[0].image, mesh.textures[1].image);
 }
 
-TEST(ObjMaterial, OneNumberOfKdIsGrey) {
+TEST(ObjMaterial, KdWithOneNumberIsGrey) {
   const TemporaryFolder folder;
   const auto colour = [&](const std::string& kd) {
     return import_mapped(folder, "newmtl a\n" + kd + "\n").materials.at(0).colour;

@@ -388,7 +388,7 @@ TEST(Data, TrackDepthMatchesOtherRenderer) {
   EXPECT_LT(static_cast<double>(close), 0.9 * pixels);
 }
 
-TEST(Data, TrackFramesMatchOtherRenderer) {
+TEST(Data, FramesOfTrackMatchOtherRenderer) {
   DEBURR_REQUIRE_DATA(data);
   const Image theirs = read_image(data / "frames" / "track_720p_noaa.png");
   RenderOptions options;

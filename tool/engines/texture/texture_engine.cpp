@@ -290,7 +290,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
       context.add_image("before", before, "Before", "nearest texel of level 0, no filter");
     context.add_image("after", after, "Hardware model", "the colours delivered by the unit" + note);
     if (run.check == CheckMode::kGolden) {
-      // After the run, missing pixels are lost and count as differences.
+      // Once the run is over, pixels that have not arrived never will, so they count as
+      // differences.
       const bool over = unit.done();
       Image expected = stored(unit.golden_frame(), drawn);
       if (!over) expected = painted(std::move(expected), missing, kNotDelivered);

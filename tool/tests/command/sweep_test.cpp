@@ -289,7 +289,7 @@ RESULT: PASS sweep real: 1 of 6 points done
   EXPECT_THAT(printed("sweep real.yaml run --retry"), Not(HasSubstr(": as it was\n")));
 }
 
-TEST_F(RunSweep, SearchRunsPointsForEachFront) {
+TEST_F(RunSweep, SearchSimulatesPointsOfEachFront) {
   EXPECT_EQ(
       result("search real.yaml --runs 24 --seed 2 --jobs 2 --quiet"),
       "FAIL search real: 6 points, 1 done (1 in this run), 5 failed, 0 missing; out/searches/real");

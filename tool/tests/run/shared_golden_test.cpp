@@ -155,7 +155,7 @@ TEST(SharedGolden, EqualsTextureRunsOwnResult) {
   EXPECT_EQ(shared.colours.size(), own.colours);
 }
 
-TEST(SharedGolden, TextureRunAcceptsOneOfOtherHardware) {
+TEST(SharedGolden, TextureRunAcceptsGoldenFromOtherHardware) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.cache_fifo_depth = 40;
@@ -167,7 +167,7 @@ TEST(SharedGolden, TextureRunAcceptsOneOfOtherHardware) {
   EXPECT_EQ(shared.mismatches + shared.traffic_mismatches, 0u);
 }
 
-TEST(SharedGolden, TextureRunRejectsOneOfOtherConfiguration) {
+TEST(SharedGolden, TextureRunRejectsGoldenFromOtherConfiguration) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.footprint = spec::texture::FootprintRule::kMax;
@@ -176,7 +176,7 @@ TEST(SharedGolden, TextureRunRejectsOneOfOtherConfiguration) {
   EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
-TEST(SharedGolden, TextureRunRejectsOneOfAnotherCache) {
+TEST(SharedGolden, TextureRunRejectsGoldenFromAnotherCache) {
   const tb::SceneParameters scene = picture("tunnel", 48);
   tb::TextureRunOptions options;
   options.texture.cache_bytes = 1024;
@@ -185,7 +185,7 @@ TEST(SharedGolden, TextureRunRejectsOneOfAnotherCache) {
   EXPECT_THROW(simulate(scene, {}, options), tb::Mismatch);
 }
 
-TEST(SharedGolden, MorphologicalRunAcceptsOneOfOtherHardware) {
+TEST(SharedGolden, MorphologicalRunAcceptsGoldenFromOtherHardware) {
   const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =
@@ -198,7 +198,7 @@ TEST(SharedGolden, MorphologicalRunAcceptsOneOfOtherHardware) {
   EXPECT_EQ(outcome.mismatches + outcome.traffic_mismatches, 0u);
 }
 
-TEST(SharedGolden, MorphologicalRunRejectsOneOfOtherConfiguration) {
+TEST(SharedGolden, MorphologicalRunRejectsGoldenFromOtherConfiguration) {
   const std::vector<tb::MorphologicalInput> frames = {rendered("cylinders", 96, 64)};
   MorphologicalRunOptions options;
   options.expectation =

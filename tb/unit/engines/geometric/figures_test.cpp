@@ -449,7 +449,7 @@ std::uint64_t errors_of(const std::vector<Frame>& sequence, GeometricSetup setup
 
 // Lines at the end of a region belong only to the largest frame: it has the errors, at any position
 // among the others, and STATUS and MEMORY_ERRORS keep them to the end.
-TEST(GeometricFigures, ErrorsOfOneFrameOfThreeAreExpected) {
+TEST(GeometricFigures, ExpectsErrorsInOnlyOneOfThreeFrames) {
   for (const GeometricSetup& setup : setups()) {
     const Frame &large = frames()[0], &small = frames()[2];
     const std::vector<Frame> both = {large, small};

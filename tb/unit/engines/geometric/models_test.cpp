@@ -133,7 +133,7 @@ TEST(Phong, HighlightLiesInTheMirrorDirection) {
   EXPECT_GT(image.at(32, 32)[0], image.at(0, 0)[0] + 50);
 }
 
-TEST(Phong, SuperAndMultisamplingUsePhong) {
+TEST(Phong, SupersamplingAndMultisamplingUsePhong) {
   const Scene scene = make_scene("sphere");
   const LitFrames frames = render_lit_frames(scene, 128, 96, 8, nullptr, Shading::kPhong);
   const Image msaa = render_msaa4(scene, 128, 96, Shading::kPhong);

@@ -339,7 +339,7 @@ std::uint64_t errors_of(const std::vector<MorphologicalInput>& input, std::int64
 
 // Lines at the end of memory belong to the largest frame only: it has the errors, at any position
 // among the others, and MEMORY_ERRORS keeps them to the end.
-TEST(MorphologicalFigures, ErrorsOfOneFrameOfThreeAreExpected) {
+TEST(MorphologicalFigures, ExpectsErrorsInOnlyOneOfThreeFrames) {
   // 2 x 33 and 4 x 11 lines
   const MorphologicalInput &tall = frames()[1], flat = morphological_system::a_fifth(50, 11);
   const std::int64_t behind = 4096 + 64 * 50;

@@ -143,7 +143,7 @@ TEST(Parameters, NamedValuesOverridePresetInAnyOrder) {
   }
 }
 
-TEST(Parameters, CheckReportsBuildLimitsLikeCommand) {
+TEST(Parameters, CheckReportsSameBuildLimitsAsCommand) {
   const Handle handle(deburr_texture_new());
   expect_ok(handle, deburr_check(handle.get()));
   expect_ok(handle, deburr_set(handle.get(), "cache.ways", "3"));

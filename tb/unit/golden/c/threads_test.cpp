@@ -57,8 +57,8 @@ TEST(Threads, SeparateHandlesAreIndependent) {
   EXPECT_NE(results[0], results[2]);
 }
 
-// While one thread is in a call, calls of another one return DEBURR_BUSY and change nothing. Some
-// functions are enough, since all of them use golden::c::call.
+// While one thread is in a call, calls from another thread return DEBURR_BUSY and change nothing.
+// Testing a few functions is enough, since all of them go through golden::c::call.
 TEST(Threads, ConcurrentCallReturnsBusy) {
   const Handle handle(deburr_geometric_new());
   deburr_golden* const golden = handle.get();

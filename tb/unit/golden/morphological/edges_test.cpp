@@ -355,7 +355,7 @@ TEST(MorphologicalEdges, DynamicThresholdIsExact) {
 }
 
 // A floor of 2 codes equals alpha x luma at alpha = 1/16 (1048576) and a luma of 32 codes.
-TEST(MorphologicalEdges, FloorDecidesUpToEquality) {
+TEST(MorphologicalEdges, FloorAppliesUpToEqualDynamicThreshold) {
   using golden::morphological::PixelPair;
   using spec::morphological::DynamicLuma;
   auto p = golden::morphological::preset_parameters(spec::morphological::Preset::kDeburrLine);
@@ -385,7 +385,8 @@ TEST(MorphologicalEdges, PaperAndSmaaContrastDifferOnlyAtEquality) {
     int x, y;            // neighbour of pixel (3, 3)
     int from_x, from_y;  // the pixel that the step is taken from
   };
-  // c(p, b), c(p, r), c(p, t) or c(p, l), c(t, 2t), c(l, 2l).
+  // Contrasts considered: c(p, b), c(p, r), either c(p, t) or c(p, l) (the edge not under test),
+  // c(t, 2t) and c(l, 2l); p = pixel, 2t = second pixel above.
   for (const bool top : {false, true}) {
     for (const Neighbour& n : {Neighbour{3, 4, 3, 3}, Neighbour{4, 3, 3, 3},
                                top ? Neighbour{2, 3, 3, 3} : Neighbour{3, 2, 3, 3},

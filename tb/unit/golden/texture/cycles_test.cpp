@@ -151,7 +151,8 @@ TEST(Cycles, FifoAndFillBufferLimitTheRateOfMisses) {
   EXPECT_EQ(with(106, 106), 135u + 499 + 499 / 106);
   EXPECT_EQ(with(107, 105), 135u + 499 + 499 / 105);
   EXPECT_EQ(with(0, 106, {.latency = 99}), 134u + 499);
-  // 32 latency / 100 entries: at least 8, a multiple of 4, at most 256.
+  // 32 x width x (latency + 12) / 112 entries, rounded up to a multiple of 4, at least 8 and at
+  // most 256.
   EXPECT_EQ(with(0, 0, {.latency = 5}), 40u + 499 + 499 / 8 * (11 - 8));
   EXPECT_EQ(with(0, 0, {.latency = 40}), 75u + 499 + 499 / 16 * (46 - 16));
   EXPECT_EQ(with(0, 0, {.latency = 101}), 136u + 499 + 499 / 36 * (107 - 36));
@@ -231,7 +232,8 @@ TEST(Cycles, GroupHasAtMostWaysLinesOfASet) {
 TEST(Cycles, TheFirstOfSeveralLimitsIsTheCause) {
   Parameters p = wide();
   p.cache_lookups = 4;
-  // The third request is a fifth line, a third word of bank 0 and a third line of set 0.
+  // The third request exceeds all three limits at once: it needs a fifth line, a third word of bank
+  // 0 and a third line of set 0.
   const auto in_set_0 = [](std::uint32_t i) { return i * 128 * kLine; };
   const Quad quad = {at(in_set_0(0), in_set_0(1), in_set_0(0), kLine), at(2 * kLine),
                      at(in_set_0(2)), at(in_set_0(2))};

@@ -130,8 +130,8 @@ TEST(LineCache, WaitsForMemory) {
   b.find(15, {1, 3});
   EXPECT_EQ(b.look_up(16), "idle 0, 2 decided");
 }
-// A line that arrives in cycle t can be used from t + 2 on, one per cycle, in the order of
-// requests. One cycle later its fill entry is free and its word is readable.
+// Lines that arrive in cycle t are installed from t + 2 on, one per cycle, in the order of their
+// requests. One cycle after a line is installed, its fill entry is free and its word can be read.
 TEST(LineCache, InstallsOneLinePerCycleInTheOrderOfRequests) {
   CacheBench b(MemoryKind::kSram, 2);
   b.find(10, {1, 2});

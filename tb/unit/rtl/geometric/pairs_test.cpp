@@ -78,7 +78,7 @@ TEST(PairFetch, LatencyMatchesDatasheetUnlessALineIsMissing) {
   EXPECT_EQ(b.latency(b.ends, PairBench::number(3)), "29");
   b.clock.run(10);
   const std::string hit_latency = b.latency(b.ends, PairBench::number(9));
-  expect_notices_a_clock(
+  expect_detects_one_cycle(
       PairFetch::datasheet(), &rtl::Datasheet::latency,
       [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   EXPECT_EQ(b.latency(b.ends, PairBench::number(10)), "29");
@@ -162,7 +162,8 @@ TEST(PairFetch, DroppedEdgesIgnoreABlockedOutput) {
   b.clock.run(50);
   EXPECT_EQ(b.unit.invalid_edges.value(), 2u);
   EXPECT_EQ(b.unit.kept_edges.value(), 3u);
-  // Taken in from + 1 to from + 6; the fifth would leave in from + 7.
+  // The inputs are taken in cycles `from` + 1 to `from` + 6; the fifth output would leave in cycle
+  // `from` + 7.
   EXPECT_EQ(stalls(b.unit, "downstream"), 50u - 7);
   b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
   b.clock.run(5);

@@ -84,7 +84,7 @@ TEST(DepthScreen, LatencyMatchesDatasheetUnlessALineIsMissing) {
   EXPECT_EQ(b.latency(b.ends, ScreenBench::inside(1, 1)), "31");
   b.clock.run(10);
   const std::string hit_latency = b.latency(b.ends, ScreenBench::inside(1, 1));
-  expect_notices_a_clock(
+  expect_detects_one_cycle(
       DepthScreen::datasheet(), &rtl::Datasheet::latency,
       [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, hit_latency); });
   // The second miss comes one cycle later.

@@ -64,8 +64,9 @@ TEST(EdgeClassifier, LatencyMatchesDatasheet) {
   ClassifierBench b(ClassifierBench::all(Lanes::kTwo));
   const std::string measured = b.latency(b.ends, ClassifierBench::beat(2, 2));
   // A datasheet that is off by one cycle fails.
-  expect_notices_a_clock(EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
+  expect_detects_one_cycle(
+      EdgeClassifier::datasheet(), &rtl::Datasheet::latency,
+      [&](const rtl::Datasheet& sheet) { expect_latency_of(sheet, measured); });
 }
 TEST(EdgeClassifier, OneBeatPerCycleWithOneKeptEdge) {
   ClassifierBench b(ClassifierBench::all(Lanes::kFour));
@@ -222,13 +223,14 @@ TEST(MemoryArbiter, LatencyMatchesDatasheetEachWay) {
   b.arbiter.connect(Client::kDepth, asker.memory);
   asker.wanted = 1;
   b.clock.run(60);
-  // Arbiter, port, M + 1, port, arbiter.
+  // In cycles: the arbiter's latency, one for the port, M + 1 = 21 for memory, one for the port,
+  // and the arbiter's latency again.
   ASSERT_EQ(asker.answered.size(), 1u);
   const Cycle each_way = MemoryArbiter::datasheet().latency.cycles;
   EXPECT_EQ(asker.answered[0] - asker.asked[0], each_way + 1 + (20 + 1) + 1 + each_way);
   EXPECT_EQ(b.arbiter.read_latency(Client::kDepth).min(), asker.answered[0] - asker.asked[0] - 2);
 }
-// Two responses wait in the link of a client that takes none, the third in the arbiter.
+// While a client takes no responses, two wait in its link and the third waits in the arbiter.
 TEST(MemoryArbiter, ResponseWaitsForItsClient) {
   Frame b({});
   b.tie();
@@ -240,8 +242,8 @@ TEST(MemoryArbiter, ResponseWaitsForItsClient) {
   EXPECT_TRUE(asker.answered.empty());
   b.clock.run(20);
   EXPECT_THAT(asker.answered, ::testing::ElementsAre(100, 101, 102, 103, 104));
-  // Two came after 23 cycles, requested in 0 and 1; those requested in 2, 3 and 4 left the arbiter
-  // in 101, 102 and 103.
+  // The reads requested in cycles 0 and 1 came after 23 cycles. Those requested in cycles 2, 3 and
+  // 4 left the arbiter in cycles 101, 102 and 103.
   EXPECT_THAT(asker.asked, ::testing::ElementsAre(0, 1, 2, 3, 4));
   EXPECT_EQ(text_of(b.arbiter.read_latency(Client::kDepth)), "23 x 2, 98 x 3");
 }
@@ -433,8 +435,8 @@ TEST(CoverageUnit, GroupWithoutCandidateIgnoresBlockedOutput) {
   b.clock.run(50);
   EXPECT_EQ(b.ends.in.pops(), 32u);
   EXPECT_EQ(b.unit.stalled_cycles(), 0u);
-  // Sent in 50, taken in 51; it would leave in 53, but leaves in 101, one cycle after the first
-  // one.
+  // The group is sent in cycle 50 and taken in cycle 51. It would leave in cycle 53, but leaves in
+  // cycle 101, one cycle after the first group.
   b.ends.source.add(CoverageBench::group(false, 7, 9));
   b.clock.run(60);
   ASSERT_EQ(b.ends.sink.taken.size(), 3u);

@@ -68,7 +68,7 @@ TEST(DescriptorWalkBlock, LatencyMatchesDatasheet) {
   while (visit < 5 && !bench.finds(x++, match, visit)) ++visit;
   ASSERT_LE(x, kDescriptors);
   // The next unit receives the edges one cycle after the last stage.
-  expect_notices_a_clock(
+  expect_detects_one_cycle(
       DescriptorWalk::datasheet(), &rtl::Datasheet::latency,
       [&](const rtl::Datasheet& sheet) { expect_latency(sheet, match + visit + 1); });
 }
@@ -145,8 +145,8 @@ TEST(LearnedWeightsBlock, LatencyAndIntervalMatchDatasheet) {
   EXPECT_GT(sums[0] + sums[1] + sums[2], 0);
   for (Cycle& clock : cycles) ++clock;  // the output register
   const auto check = [&](const rtl::Datasheet& sheet) { expect_cycles(sheet, cycles, kAsked + 1); };
-  expect_notices_a_clock(LearnedWeights::datasheet(), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(LearnedWeights::datasheet(), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(LearnedWeights::datasheet(), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(LearnedWeights::datasheet(), &rtl::Datasheet::interval, check);
 }
 
 // The row above is addressed one cycle before the weights of this row arrive; its weights leave in

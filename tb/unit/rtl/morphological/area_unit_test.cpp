@@ -127,12 +127,13 @@ void expect_sum_of_parts(const rtl::Datasheet& weights, Cycle measured) {
   const std::vector<rtl::Datasheet> parts = {DescriptorWalk::datasheet(), weights,
                                              WeightRows::datasheet()};
   for (std::size_t part = 0; part < parts.size(); ++part)
-    expect_notices_a_clock(parts[part], &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
-      Cycle others = 0;
-      for (std::size_t other = 0; other < parts.size(); ++other)
-        if (other != part) others += parts[other].latency.cycles;
-      expect_latency(sheet, measured - others);
-    });
+    expect_detects_one_cycle(parts[part], &rtl::Datasheet::latency,
+                             [&](const rtl::Datasheet& sheet) {
+                               Cycle others = 0;
+                               for (std::size_t other = 0; other < parts.size(); ++other)
+                                 if (other != part) others += parts[other].latency.cycles;
+                               expect_latency(sheet, measured - others);
+                             });
 }
 
 class AreaLatency : public ::testing::TestWithParam<std::tuple<AreaSource, int>> {};
@@ -194,10 +195,10 @@ TEST_P(AreaLanes, DescriptorFinishesOneCycleAfterItsPop) {
   // Each pair of columns shares a bank, so lines wait once.
   const int banks = std::max(1, bench.lanes / 2), cycles = bench.lanes / banks;
   ASSERT_EQ(done.taken.size(), static_cast<std::size_t>(2 * cycles));
-  expect_notices_a_clock(DescriptorStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) {
-                           expect_latency(sheet, done.taken[0].cycle - (even + 2));
-                         });
+  expect_detects_one_cycle(DescriptorStore::datasheet(small(GetParam())), &rtl::Datasheet::latency,
+                           [&](const rtl::Datasheet& sheet) {
+                             expect_latency(sheet, done.taken[0].cycle - (even + 2));
+                           });
   for (int i = 0; i < cycles; ++i) {
     const auto clock = static_cast<std::size_t>(i), later = static_cast<std::size_t>(cycles + i);
     // Slot k is popped in k + 1 and reaches its second stage in k + 2, in which the line is popped.
@@ -421,7 +422,7 @@ TEST_P(AreaLanes, TableFinishesDescriptorOneCycleLater) {
   bench.clock.run(slot + 40);
   ASSERT_EQ(bench.finished_gate.taken.size(), 1u);
   // Popped in slot + 2.
-  expect_notices_a_clock(
+  expect_detects_one_cycle(
       DescriptorStore::datasheet(with_area(AreaSource::kTableMerged, GetParam())),
       &rtl::Datasheet::latency, [&](const rtl::Datasheet& sheet) {
         expect_latency(sheet, bench.finished_gate.taken[0].cycle - (slot + 2));

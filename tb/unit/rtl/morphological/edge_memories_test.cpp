@@ -193,7 +193,7 @@ TEST(EdgeMemory, WindowTracksItsRows) {
 
 // With every edge set, a step can go along any line except the frame's right border. Only the edges
 // across that border exist, so there is no line to follow for any corners.
-TEST(EdgeMemory, RightBorderHasNoStepAlongIt) {
+TEST(EdgeMemory, NoStepRunsAlongRightBorder) {
   constexpr int kWidth = 150;
   constexpr std::uint8_t kAll = kBeforeBit | kAfterBit | kFirstBit | kSecondBit;
   Shown shown(built(true), kWidth, 1000);

@@ -265,7 +265,7 @@ class Kit : public EngineKit {
     p.text_guard = random.chance(500);
     return p;
   }
-  // Adds depths, and marks for builds with a bypass.
+  // Adds a depth to each pixel and, for builds with a bypass, a mark to every fifth pixel.
   static Frame marked(Frame frame) {
     for (std::size_t i = 0; i < frame.pixel.size(); ++i) {
       frame.depth[i] = std::uint32_t{frame.pixel[i][0]} << 16;

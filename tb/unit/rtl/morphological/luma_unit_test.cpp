@@ -35,8 +35,8 @@ TEST(LumaUnitBlock, LumaIsExactAfterTwoCycles) {
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(ends.sink), 1);
   };
-  expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(LumaUnit::datasheet(), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(LumaUnit::datasheet(), &rtl::Datasheet::interval, check);
   // From the first pop to the last push.
   EXPECT_EQ(luma.busy_cycles(), 4u);
   EXPECT_EQ(luma.idle_cycles(), 7u - 4u);

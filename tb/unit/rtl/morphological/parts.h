@@ -95,11 +95,12 @@ struct WiredRegisters : RegisterFile {
   Cycle now_ = 0;
 };
 
-using unit_bench::cycles_of, unit_bench::Ends, unit_bench::of_a_stage_less, unit_bench::tokens_of;
+using unit_bench::cycles_of, unit_bench::Ends, unit_bench::read_one_cycle_early,
+    unit_bench::tokens_of;
 
 // Runs the unit one stage early from now on; this memory must report that a word is used too early.
 inline void expect_used_early(rtl::Unit& unit, ClockDomain& clock, const char* memory) {
-  EXPECT_THAT(of_a_stage_less(unit, clock),
+  EXPECT_THAT(read_one_cycle_early(unit, clock),
               ::testing::AllOf(::testing::HasSubstr(memory), ::testing::HasSubstr("is used")));
 }
 

@@ -33,7 +33,8 @@ rtl::Memory<Word>& rom(const std::string& name) {
   return *found;
 }
 
-// Hashes of an engine's ROMs: T and U, from the layout that stores only them; S; R; D.
+// Hashes of the engine's ROMs T, U, S, R and D. Those of T and U are taken from the layout that
+// stores only these two tables.
 struct RomHashes {
   std::array<std::uint64_t, 2> tiles;
   std::uint64_t roots, mix, diagonals;

@@ -243,8 +243,8 @@ TEST_P(TextGuardCycles, RowLeavesEightRowsLater) {
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(bench.gate), 9 * beats);
   };
-  expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(TextGuard::datasheet(p), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(TextGuard::datasheet(p), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(TextGuard::datasheet(p), &rtl::Datasheet::interval, check);
   expect_stages_in_order(TextGuard::datasheet(p));
 }
 

@@ -286,8 +286,8 @@ INSTANTIATE_TEST_SUITE_P(TextureRtl, DataStageCycles,
                                                           PassesAndFills{0, 0, 2, {2, 0, 1, 0}},
                                                           PassesAndFills{0, 0, 4, {4, 0, 3, 0}})));
 
-// Two hits of one request: two passes in different words of a bank, one pass in the same word, for
-// any pair of texels.
+// Two hits of one request take two passes if they are in different words of one bank, and one pass
+// if they are in the same word. Holds for any pair of texels.
 using TexelPair = std::pair<std::size_t, std::size_t>;
 class TwoTexels : public testing::TestWithParam<std::tuple<TexelPair, bool>> {};
 TEST_P(TwoTexels, ConflictUnlessTheyShareWord) {
@@ -327,22 +327,22 @@ TEST(TextureRtlDataStage, FillWaitsForRequestAfterBankConflicts) {
 
 TEST(TextureRtlDataBanks, WordReadInSameCycleIsRejected) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
-  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Rejects("banks", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.stage, b.clock), Rejects("banks", kEarly));
 }
 
 // A second request, while the output registers hold words of the first.
-std::string of_a_stage_less_again(std::array<std::uint32_t, 4> place) {
+std::string read_again_one_cycle_early(std::array<std::uint32_t, 4> place) {
   StageBench b(StageBench::hit({0, 4, 16, 20}));
   b.clock.run(2);
   b.requests.push(b.clock.cycle() - 1, StageBench::hit(place));
   b.clock.run(1);
-  return of_a_stage_less(b.stage, b.clock);
+  return read_one_cycle_early(b.stage, b.clock);
 }
 TEST(TextureRtlDataBanks, OtherWordOfPreviousRequestIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({32, 36, 48, 52}), Rejects("banks", kEarly));
+  EXPECT_THAT(read_again_one_cycle_early({32, 36, 48, 52}), Rejects("banks", kEarly));
 }
 TEST(TextureRtlDataBanks, SameWordOfPreviousRequestIsStale) {
-  EXPECT_THAT(of_a_stage_less_again({0, 4, 16, 20}), Rejects("banks", kEarly));
+  EXPECT_THAT(read_again_one_cycle_early({0, 4, 16, 20}), Rejects("banks", kEarly));
 }
 
 TEST(TextureRtlDataBanks, SecondQuadInOneCycleIsRejected) {

@@ -220,7 +220,7 @@ struct CodedBench : FilterBench {
 
 TEST(TextureRtlFilterSrgb, WordReadInSameCycleIsRejected) {
   CodedBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("srgb", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, b.clock), Rejects("srgb", kEarly));
 }
 
 TEST(TextureRtlFilterSrgb, SecondQuadInOneCycleIsRejected) {
@@ -249,7 +249,7 @@ TEST(TextureRtlFilterSrgb, ReadsForSrgbTexelsOnly) {
   EXPECT_EQ(reads(), 12u);
 }
 
-// The weight tables: ports as used, and no read before its cycle.
+// The weight tables have exactly the ports that are used, and no entry is read before its cycle.
 struct WeightBench : FilterBench {
   WeightBench()
       : FilterBench(configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
@@ -261,7 +261,7 @@ struct WeightBench : FilterBench {
 };
 TEST(TextureRtlFilterWeights, WordReadInSameCycleIsRejected) {
   WeightBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("weights", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, b.clock), Rejects("weights", kEarly));
 }
 TEST(TextureRtlFilterWeights, SecondSampleInOneCycleIsRejected) {
   WeightBench b;

@@ -41,8 +41,8 @@ TEST(TextureRtlFootprint, LatencyAndIntervalMatchDatasheet) {
     ASSERT_EQ(seen.size(), 40u);
     // Pushed in i, taken in i + 1; a datasheet that is one cycle off is detected.
     const auto check = [&](const rtl::Datasheet& sheet) { expect_cycles(sheet, seen, 1); };
-    expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::latency, check);
-    expect_notices_a_clock(sheet_of(rule), &rtl::Datasheet::interval, check);
+    expect_detects_one_cycle(sheet_of(rule), &rtl::Datasheet::latency, check);
+    expect_detects_one_cycle(sheet_of(rule), &rtl::Datasheet::interval, check);
     // From the first token's cycle to the last token's last stage.
     const Cycle busy = 39 + sheet_of(rule).latency.cycles;
     EXPECT_EQ(bench->unit.busy_cycles(), busy);

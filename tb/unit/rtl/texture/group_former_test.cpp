@@ -53,8 +53,8 @@ TEST(TextureRtlGroupFormer, LatencyAndIntervalMatchDatasheet) {
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(b.ends.sink), 1);
   };
-  expect_notices_a_clock(GroupFormer::datasheet(), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(GroupFormer::datasheet(), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(GroupFormer::datasheet(), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(GroupFormer::datasheet(), &rtl::Datasheet::interval, check);
   EXPECT_EQ(b.former.slots.value(), 9u * 4);
   EXPECT_EQ(b.former.requests.value(), 9u * 4);
   EXPECT_EQ(slots_of(b.former), Slots{});
@@ -172,7 +172,7 @@ std::vector<Limit> limits() {
        {token_of({two_lines(0, 32), request({at(64, 0), at(64, 0), at(64, 0), at(64, 0)})})},
        {1, 1},
        {{"banks", 3}, {"starved", 3}}},
-      // A request that exceeds limits by itself leaves alone, whatever follows.
+      // A request that alone exceeds the limits forms a group of its own, whatever follows.
       {"alone",
        with(8, 2),
        {token_of({heap, one_word(1, 0), heap, nothing})},

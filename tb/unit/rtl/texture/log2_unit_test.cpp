@@ -70,7 +70,7 @@ struct ExactBench {
 
 TEST(TextureRtlLog2Table, WordReadInSameCycleIsRejected) {
   ExactBench b;
-  EXPECT_THAT(of_a_stage_less(b.unit, b.clock), Rejects("table", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, b.clock), Rejects("table", kEarly));
 }
 
 TEST(TextureRtlLog2Table, SecondFragmentInOneCycleIsRejected) {

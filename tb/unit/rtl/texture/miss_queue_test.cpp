@@ -171,7 +171,7 @@ TEST(TextureRtlMissQueue, SecondLineSentInOneCycleIsRejected) {
   b.clock.run(3);  // taken in 1, the first line is sent in 2
   ASSERT_EQ(b.queue.line_fills.value(), 1u);
   b.requests.reset();
-  EXPECT_THAT(of_a_stage_less(b.queue, b.clock), Rejects("lines", kTooMany));
+  EXPECT_THAT(read_one_cycle_early(b.queue, b.clock), Rejects("lines", kTooMany));
 }
 
 // Memory takes nothing: two lines are in the link, and the third waits and is counted as waiting.

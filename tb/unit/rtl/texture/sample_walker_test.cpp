@@ -87,7 +87,7 @@ struct DividingBench : WalkerBench {
 TEST(TextureRtlWalkerReciprocal, WordReadInSameCycleIsRejected) {
   ClockDomain clock("clock", period());
   DividingBench b(clock);
-  EXPECT_THAT(of_a_stage_less(b.unit, clock), Rejects("reciprocal", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.unit, clock), Rejects("reciprocal", kEarly));
 }
 
 TEST(TextureRtlWalkerReciprocal, SecondFragmentInOneCycleIsRejected) {

@@ -46,7 +46,7 @@ using rtl::Link;
 using rtl::Out;
 using rtl::Unit;
 
-using unit_bench::of_a_stage_less, unit_bench::period, unit_bench::rejection;
+using unit_bench::read_one_cycle_early, unit_bench::period, unit_bench::rejection;
 
 // Sends a second token in the same cycle, for a unit that has forgotten the first.
 template <class T>

@@ -31,8 +31,8 @@ TEST(TextureRtlWideCache, HitTakesTimeOfDatasheet) {
   const rtl::Datasheet sheet = TextureCache::datasheet(wide_cache());
   EXPECT_EQ(sheet.latency.cycles, kWideHit);
   const auto check = [&](const rtl::Datasheet& said) { expect_cycles(said, seen, start + 1); };
-  expect_notices_a_clock(sheet, &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(sheet, &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(sheet, &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(sheet, &rtl::Datasheet::interval, check);
 }
 
 // The time of a group by its misses and how many lines are written per cycle.

@@ -69,8 +69,8 @@ TEST(TextureRtlWideDataStage, LatencyMatchesDatasheet) {
   StageBench b;
   b.requests.push(0, Group().line(3).read(0, 0).token);
   const Cycle latency = ready_at(b.clock, b.texels) - 1;
-  expect_notices_a_clock(WideDataStage::datasheet(), &rtl::Datasheet::latency,
-                         [&](const rtl::Datasheet& sheet) { expect_latency(sheet, latency); });
+  expect_detects_one_cycle(WideDataStage::datasheet(), &rtl::Datasheet::latency,
+                           [&](const rtl::Datasheet& sheet) { expect_latency(sheet, latency); });
 }
 
 // Cycles of one group whose lines have all arrived, and its stalls.
@@ -362,7 +362,7 @@ TEST(TextureRtlWideDataStage, RejectsWordReadInSameCycle) {
   StageBench b;
   b.requests.push(0, hits({{0, 0}}).token);
   b.clock.run(2);
-  EXPECT_THAT(of_a_stage_less(b.stage, b.clock), Rejects("banks", kEarly));
+  EXPECT_THAT(read_one_cycle_early(b.stage, b.clock), Rejects("banks", kEarly));
 }
 TEST(TextureRtlWideDataStage, RejectsSlotBeyondLastLine) {
   StageBench b;

@@ -77,8 +77,8 @@ TEST(TextureRtlWideTagStage, LatencyAndIntervalMatchDatasheet) {
   const auto check = [&](const rtl::Datasheet& sheet) {
     expect_cycles(sheet, cycles_of(b.ends.sink), 1);
   };
-  expect_notices_a_clock(WideTagStage::datasheet(), &rtl::Datasheet::latency, check);
-  expect_notices_a_clock(WideTagStage::datasheet(), &rtl::Datasheet::interval, check);
+  expect_detects_one_cycle(WideTagStage::datasheet(), &rtl::Datasheet::latency, check);
+  expect_detects_one_cycle(WideTagStage::datasheet(), &rtl::Datasheet::interval, check);
 }
 
 // max(1, misses / A) cycles; in the last one the group and its misses leave, and the next group is
