@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Checks whether hardware can be built: each parameter in its range (spec/parameters.h), and the
-// rules between parameters that an engine lists in spec/ENGINE/check_build.h:
+// Checks whether hardware can be built: each parameter must be in its range (spec/parameters.h),
+// and the rules between parameters must hold that an engine lists in spec/ENGINE/check_build.h:
 //
 //   inline constexpr std::array<BuildRule<Parameters>, 1> kBuildRules = {{
 //       {{"cache.bytes"}, "must be a power of two", [](const Parameters& p) { return ...; }},
 //   }};
 //   inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&);
 //
-// check_build() is called by the constructor of the hardware, and earlier for resolved
+// The constructor of the hardware calls check_build(). It is called earlier too, for resolved
 // configurations, plans of sweeps, searches and random draws. The reference pages list the rules.
 // Nothing here computes what an engine computes.
 #pragma once
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMostRuleNames = 6;
 
 template <class Parameters>
 struct BuildRule {
-  // The parameter that is restricted, then those that it depends on.
+  // The parameter that is restricted, then the parameters on which it depends.
   std::array<std::string_view, kMostRuleNames> names;
   std::string_view must;  // text that holds for all values: "must be a power of two"
   bool (*holds)(const Parameters&);
@@ -126,7 +126,7 @@ std::string rejection(std::string_view engine, const BuildRule<Parameters>& rule
   return text;
 }
 
-// Returns the parameters if hardware can be built with them; otherwise throws ConfigError with the
+// Returns the parameters if hardware can be built with them. Otherwise throws ConfigError with the
 // first reason.
 template <class Parameters>
 const Parameters& check_build(std::string_view engine, const Parameters& parameters) {

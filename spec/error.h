@@ -18,7 +18,8 @@ enum class ExitCode : int {
 };
 
 // Base of every error caused by input, configuration or the environment. The text says what is
-// wrong, where (file, line, instance, cycle, pixel), what was expected and given, and what to do.
+// wrong and where (file, line, instance, cycle, pixel), what was expected, what was given, and what
+// to do.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -66,8 +67,8 @@ class CheckFailed : public std::logic_error {
 
 }  // namespace deburr::spec
 
-// DEBURR_CHECK(condition, text): an invariant that is checked in every build. `text` is only
-// evaluated on failure; it names the instance, cycle or pixel.
+// DEBURR_CHECK(condition, text): an invariant that is checked in every build. `text` names the
+// instance, cycle or pixel; it is evaluated only on failure.
 #define DEBURR_CHECK(condition, text)                                     \
   do {                                                                    \
     if (!(condition)) [[unlikely]]                                        \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Declaration of 32-bit registers: offset, name, meaning and fields; for each field bits, access,
-// reset value and meaning. Register sockets, masks, encoders and decoders, the tables of the docs,
-// the C header for software and SystemRDL are made from these rows.
+// Declaration of 32-bit registers. A row has offset, name, meaning and fields of a register; each
+// field has bits, access, reset value and meaning. Register sockets, masks, encoders and decoders,
+// the tables in docs/, the C header for software and the SystemRDL file are made from these rows.
 #pragma once
 
 #include <array>
@@ -37,8 +37,8 @@ struct Field {
   Access access;
   std::string_view meaning;
   std::span<const std::string_view> codes{};  // names of the codes, for a choice
-  // Value after a reset, unless loaded_registers() of the engine derives another one from the build
-  // parameters. nullopt: not reset.
+  // Value after a reset, unless loaded_registers() of the engine derives another value from the
+  // build parameters. nullopt: a reset does not change the field.
   std::optional<std::uint32_t> reset = 0;
 
   constexpr std::uint32_t mask() const { return (~std::uint32_t{0} >> (31 - high + low)) << low; }
@@ -47,7 +47,7 @@ struct Field {
   constexpr std::uint32_t in(std::uint32_t value) const { return value << low & mask(); }
 };
 
-// The field of a register that contains a single number; it has no name.
+// The only field, without a name, of a register that contains a single number.
 constexpr std::array<Field, 1> number(Access access, std::optional<std::uint32_t> reset = 0) {
   return {{{{}, 31, 0, access, {}, {}, reset}}};
 }
@@ -95,8 +95,8 @@ struct LoadedRegister {
   std::uint32_t offset, value;
 };
 
-// Finds a register by name, and a field of a register by name, for any engine. Without a match:
-// nullptr, 0.
+// Find a register by its name, and a field of a register by its name, for any engine. Without a
+// match they return nullptr and 0.
 constexpr const RegisterInfo* register_named(std::span<const RegisterInfo> table,
                                              std::string_view name) {
   for (const RegisterInfo& info : table)
@@ -109,11 +109,11 @@ constexpr std::uint32_t bits_named(const RegisterInfo& info, std::string_view fi
   return 0;
 }
 
-// For a register with the address of a memory line.
+// The field of a register that holds the address of a memory line.
 inline constexpr Field kLineAddress{"address", 31, 6, Access::kReadWrite,
                                     "bits 31..6 of a multiple of 64"};
 
-// Whether fields are ordered from the lowest bit without overlap, commands are single bits that
+// Whether fields are ordered from the lowest bit and do not overlap, commands are single bits that
 // reset to 0, and reset values fit.
 constexpr bool fields_are_in_order(std::span<const RegisterInfo> table) {
   for (const RegisterInfo& info : table) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packets inside the geometric engine that are compared between golden model and RTL model.
-// Formats: docs/reference/geometric/algorithm.md.
+// Packets inside the geometric engine in which golden model and RTL model are compared. Formats:
+// docs/reference/geometric/algorithm.md.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ using Weights = std::array<std::uint8_t, 4>;  // U0.8, 0..128, by Direction
 
 enum class Axis : std::uint8_t { kHorizontal, kVertical };  // major axis of a line
 
-// A line for the walkers. `position`: minor coordinate at the centre of column `first`, plus half a
-// unit of 2^-16; `depth`: depth there. Columns run along the major axis.
+// A line for the walkers. Columns are along the major axis. `position` is the minor coordinate at
+// the centre of column `first`, plus half a unit of 2^-16; `depth` is the depth there.
 struct LineRecord {
   Axis axis = Axis::kHorizontal;
   bool tie_forward = false;     // a line through the centre of a pixel blends it down or right
@@ -45,8 +45,8 @@ struct LineRecord {
   }
 };
 
-// A pixel and the neighbour that a line blends it with. With coverage = area the second pixel of a
-// column follows the first.
+// A pixel and the neighbour with which a line blends it. With coverage = area the second candidate
+// of a column follows the first.
 struct Candidate {
   std::uint16_t x = 0, y = 0;
   Direction direction = Direction::kUp;
@@ -65,7 +65,7 @@ struct Candidate {
   }
 };
 
-// A touched block of 4 x 4 pixels when it is resolved; pixels row by row.
+// A touched block of 4 x 4 pixels, as it is resolved. Pixels are in order of rows.
 struct BlockRecord {
   std::uint16_t x = 0, y = 0;  // in blocks
   std::array<Weights, kBlockPixels> weights{};
@@ -82,7 +82,8 @@ struct BlockRecord {
   }
 };
 
-// A line access to memory. Reads and writes of a region are compared separately, each in order.
+// An access to a line of memory. Reads and writes of a region are compared separately, each in
+// order.
 struct MemoryAccess {
   std::uint32_t address = 0;  // bytes, multiple of kLineBytes
   bool write = false;
@@ -102,7 +103,7 @@ enum class Region : std::uint8_t {
 inline constexpr std::array<std::string_view, 9> kRegionNames = {
     "faces", "edges", "vertices", "depth", "weights", "colour", "copy", "pairs", "coarse"};
 
-// Work of a frame; golden model and RTL model count the same.
+// Counts of the work of a frame; golden model and RTL model must agree.
 struct Work {
   std::uint64_t edges = 0;
   std::uint64_t boundary_edges = 0;

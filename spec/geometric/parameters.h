@@ -93,8 +93,8 @@ inline constexpr std::int32_t kMinCopyLines = 2, kMaxCopyLines = 256;
 // Limits of lines kept on the chip: docs/reference/geometric/memory.md.
 inline constexpr std::int32_t kMaxColourLines = 256, kMaxWriteBuffer = 128;
 
-// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
-// `deburr`.
+// Configuration: it changes pixels. Golden model and RTL model both implement it. The defaults are
+// those of preset `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Select select = Select::kEdges;
@@ -109,8 +109,9 @@ struct Configuration {
   bool mark = false;
 };
 
-// Build parameters: change cycles, traffic and cost, but no pixels. Runs that only differ in these
-// have the same golden picture. `layout` and `frame_copy` are registers nevertheless.
+// Build parameters: they change cycles, traffic and cost, but no pixels. Runs that differ only in
+// these have the same golden picture. `layout` and `frame_copy` are fields of registers
+// nevertheless.
 struct Build {
   Layout layout = Layout::kTiled;
   bool frame_copy = false;

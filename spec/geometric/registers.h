@@ -11,7 +11,8 @@
 
 namespace deburr::spec::geometric {
 
-// Reason why the last START was rejected: the first that holds. Nothing is read or written then.
+// The reason why the last START was rejected: the first one in this order that holds. Memory is
+// then neither read nor written.
 enum class Rejection : std::uint8_t {
   kNone,
   kDisabled,      // enable is 0 in the same write

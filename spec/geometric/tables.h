@@ -15,9 +15,9 @@ namespace deburr::spec::geometric {
 using morphological::kLinear12FromSrgb;
 using morphological::kSrgbFromLinear12;
 
-// Entry i: 2^26 - floor(2^36 / (1024 + i)), 25 bits: the difference between 2^26 and the reciprocal
-// of a length with the leading bits 1024 + i, all others 0. A table for lengths of n bits has every
-// 2^(11 - n)-th entry.
+// Entry i is 2^26 - floor(2^36 / (1024 + i)), 25 bits. This is the difference between 2^26 and the
+// reciprocal of a length whose leading bits are 1024 + i and whose other bits are 0. A table for
+// lengths of n bits has every 2^(11 - n)-th entry.
 // clang-format off
 inline constexpr std::array<std::uint32_t, 1024> kReciprocalDeficit = {
     0, 65473, 130817, 196034, 261124, 326088, 390926, 455638, 520224, 584686, 649022, 713235,
@@ -135,7 +135,7 @@ inline constexpr std::array<std::uint32_t, 1024> kReciprocalDeficit = {
 // clang-format on
 
 // Entry [k - 1][i], for coverage = area: the area, U0.8, that a line of slope k / 32 cuts off a
-// pixel whose centre is (2 i + 1) / 128 pixel away along the column.
+// pixel if the line is (2 i + 1) / 128 pixel away from the centre of the pixel along the column.
 // clang-format off
 inline constexpr std::array<std::array<std::uint8_t, kAreaDistances>, kAreaSlopes> kCutArea = {{
     {{126, 122, 118, 114, 110, 106, 102, 98, 94, 90, 86, 82, 78, 74, 70, 66, 62, 58, 54, 50, 46, 42,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Test vectors of the geometric engine: golden model and RTL model must both produce them. The
-// tables of docs/reference/geometric/vectors.md and algorithm.md are made from them; contents of
-// frames and hashes: docs/reference/geometric/vectors.md.
+// tables of docs/reference/geometric/vectors.md and algorithm.md are made from them. For the
+// contents of frames and hashes see docs/reference/geometric/vectors.md.
 #pragma once
 
 #include <array>
@@ -73,7 +73,8 @@ enum class DrawnFrame : std::uint8_t { kRandom, kSpecial, kTiles };
 struct FrameVector {
   char name;
   Preset preset;
-  // In addition to the preset, by the names and values of describe(): "walkers=1 mark=true".
+  // Settings in addition to the preset, with the names and values of describe(): "walkers=1
+  // mark=true".
   std::string_view settings;
   FrameResult result;
   DrawnFrame frame = DrawnFrame::kRandom;

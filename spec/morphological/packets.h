@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Packets of the morphological engine: input and output pixels, and packets that are compared
-// between golden model and RTL model. Formats: docs/reference/morphological/algorithm.md.
+// Packets of the morphological engine: input and output pixels, and packets in which golden model
+// and RTL model are compared. Formats: docs/reference/morphological/algorithm.md.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace deburr::spec::morphological {
 
 using Rgba8 = std::array<std::uint8_t, 4>;  // R, G, B, A codes, U0.8 unorm
 
-// The pixels of one cycle, all of one row, in raster order, lane 0 leftmost. A row starts a new
-// beat.
+// The pixels of one cycle, all from one row, in raster order, with lane 0 leftmost. Each row starts
+// with a new beat.
 struct PixelBeat {
   std::array<Rgba8, kMaxLanes> pixel{};
   std::array<std::uint32_t, kMaxLanes> depth{};  // U24, grows towards the eye; 0 without depth
@@ -34,9 +34,9 @@ struct PixelBeat {
   }
 };
 
-// Probe of the blend decision, for checks and pictures. first: weight of the upper (left)
-// neighbour; second: of the lower (right) one; U0.8, before blend = strongest mixes them. Both are
-// 0 if the pixel passed unchanged.
+// Probe of the blend decision, for checks and pictures. `first` is the weight of the upper (left)
+// neighbour, `second` that of the lower (right) one, both U0.8 and before blend = strongest mixes
+// them. Both are 0 if the pixel passed unchanged.
 struct BlendProbe {
   bool horizontal = false;  // the neighbours are left and right
   std::uint8_t first = 0, second = 0;
@@ -73,13 +73,13 @@ enum class Axis : std::uint8_t { kHorizontal, kVertical };  // direction of the 
 enum class RunPart : std::uint8_t { kWhole, kHead, kTail };
 
 // A run descriptor. Horizontal: `line` is the row of the top edges, positions are columns.
-// Vertical: `line` is the column of the left edges, positions are rows. Its corners are `start` and
-// `start + length`; for a head (tail) only the first (second) one is a corner of the run.
+// Vertical: `line` is the column of the left edges, positions are rows. The corners of the run are
+// `start` and `start + length`; a head has only the first of them, a tail only the second.
 // `far`: crossings that continue for a second pixel (docs/reference/morphological/smaa.md,
-// "Corners"): bits 0 and 1 for the first and second side at the start, bits 2 and 3 at the end;
-// 0 without round_corners.
-// `endless`: ends beyond the frame with border = clamp (smaa.md, "Border"): bit 0 start, bit 1 end;
-// such an end has no crossings.
+// "Corners"). Bits 0 and 1 are for the first and second side at the start, bits 2 and 3 for those
+// at the end. 0 without round_corners.
+// `endless`: ends that go on beyond the frame, with border = clamp (smaa.md, "Border"). Bit 0 is
+// for the start, bit 1 for the end. Such an end has no crossings.
 struct RunDescriptor {
   Axis axis = Axis::kHorizontal;
   RunPart part = RunPart::kWhole;
@@ -137,20 +137,20 @@ struct LineDescriptor {
   }
 };
 
-// A line access with storage = memory.
+// An access to a line of memory, with storage = memory.
 struct FrameAccess {
   std::uint32_t address = 0;  // bytes, multiple of kFrameLineBytes
   bool write = false;
   friend bool operator==(const FrameAccess&, const FrameAccess&) = default;
 };
 
-// Work of a frame; golden model and RTL model count the same.
+// Counts of the work of a frame; golden model and RTL model must agree.
 struct Work {
   std::uint64_t pixels = 0;
   std::uint64_t edge_pixels = 0;      // pixels with a left or a top edge
   std::uint64_t horizontal_runs = 0;  // maximal runs, each counted once
   std::uint64_t vertical_runs = 0;
-  std::uint64_t long_runs = 0;  // of both axes, longer than the search range
+  std::uint64_t long_runs = 0;  // in both axes, longer than the search range
   std::uint64_t z_runs = 0;     // clean Z, not long
   std::uint64_t extended_runs = 0;
   std::uint64_t steps = 0;            // extensions kept

@@ -53,9 +53,9 @@ inline constexpr std::array<std::string_view, 2> kBorderNames = {"end", "clamp"}
 enum class Predictor : std::uint8_t { kNone, kChord, kFit };
 inline constexpr std::array<std::string_view, 3> kPredictorNames = {"none", "chord", "fit"};
 
-// The three tables are layouts of the same table and give the same pixels. Learned: from the line
-// for a clean Z that was extended or is long, from ROMs otherwise
-// (docs/reference/morphological/learned_weights.md).
+// Source of the areas of a run. The three tables are layouts of the same table and give the same
+// pixels. With learned weights, a clean Z that was extended or is long takes its weights from the
+// line; all other runs take them from ROMs (docs/reference/morphological/learned_weights.md).
 enum class AreaSource : std::uint8_t {
   kAnalytic,
   kTableFull,
@@ -99,14 +99,14 @@ inline constexpr int kMaxDiagonalWeight = 255;
 inline constexpr int kMixFractionBits = 4;       // fraction bits of strongest in addition to U0.8
 inline constexpr int kThresholdBits = 24;        // U8.16 codes; alpha U0.24
 inline constexpr std::int32_t kOneCode = 65536;  // one code in a threshold
-// Larger than any step, even one of 255 codes.
+// Larger than any step between pixels, even a step of 255 codes.
 inline constexpr std::int32_t kMaxThreshold = (1 << kThresholdBits) - 1;
-inline constexpr int kLongZ = 16;  // pixels; with area = learned such a clean Z keeps its line
-inline constexpr int kRowLag = 5;  // rows of delay in addition to the search range
+inline constexpr int kLongZ = 16;  // pixels; a clean Z this long keeps its line (area = learned)
+inline constexpr int kRowLag = 5;  // rows of delay beyond the search range
 inline constexpr int kLeastDividerLatency = 14;
 
-// Cycles from one block accepting a slot to the next one accepting it; Blender: to the push of its
-// output beat.
+// Cycles from the cycle in which a block accepts a slot to the cycle in which the next block
+// accepts it. For the Blender: to the push of its output beat.
 inline constexpr int kSequencerLatency = 1;
 inline constexpr int kLumaLatency = 2;
 inline constexpr int kEdgeLatency = 4;
@@ -114,15 +114,15 @@ inline constexpr int kExtractorLatency = 2;
 inline constexpr int kAreaLatency = 9;
 inline constexpr int kPixelStoreLatency = 2;  // in parallel to AreaUnit
 inline constexpr int kBlenderLatency = 5;
-// From a slot to its output beat.
+// Cycles from a slot to its output beat.
 inline constexpr int kPipelineLatency = kSequencerLatency + kLumaLatency + kEdgeLatency +
                                         kExtractorLatency + kAreaLatency + kBlenderLatency;
 
 // Luma weights, U0.16; their sum is exactly 65536.
 inline constexpr std::array<std::uint32_t, 3> kLumaWeights = {13933, 46871, 4732};
 
-// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
-// `deburr`.
+// Configuration: it changes pixels. Golden model and RTL model both implement it. The defaults are
+// those of preset `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Quality quality = Quality::kHigh;
@@ -158,10 +158,10 @@ struct Configuration {
   std::int32_t search_columns = 256;
 };
 
-// Configuration of a frame that the geometric engine has smoothed before, on top of a preset with a
-// fixed threshold: luma edges, but only at depth edges, and none of blended pixels. `preset`
-// applies if no preset was given; learned weights were not trained on what the geometric engine
-// leaves over.
+// Configuration for a frame that the geometric engine has already smoothed. It is applied on top of
+// a preset with a fixed threshold: luma edges count only at depth edges, and never at blended
+// pixels. `preset` applies if no preset was given. It has no learned weights, since those were not
+// trained on the edges that the geometric engine leaves.
 struct FollowingRules {
   Preset preset = Preset::kDeburrLine;
   EdgeSource edge_source = EdgeSource::kPredicated;
@@ -170,8 +170,8 @@ struct FollowingRules {
   Bypass bypass = Bypass::kMasked;
 };
 
-// Build parameters: change cycles and cost, but no pixels. Runs that only differ in these have the
-// same golden picture.
+// Build parameters: they change cycles and cost, but no pixels. Runs that differ only in these have
+// the same golden picture.
 struct Build {
   Lanes lanes = Lanes::kOne;
   std::int32_t line_pixels = kMaxFrameSize;
@@ -305,8 +305,8 @@ void describe(Parameters& p, Visitor& v) {
   describe(static_cast<Build&>(p), v);
 }
 
-// The parameters that a quality of the SMAA presets sets, before the preset's own row. Unused
-// diagonal_steps and corner_rounding keep their defaults.
+// The parameters that a quality of the SMAA presets sets; the preset's own row is applied after it.
+// Where diagonal_steps or corner_rounding is unused, it keeps its default.
 struct QualityRow {
   Quality quality;
   std::int32_t threshold;  // U8.16, only of `smaa`
@@ -373,7 +373,7 @@ constexpr bool has_qualities(Preset preset) {
 template <class Set>
 constexpr void for_each_of(Preset preset, Quality quality, Set&& set) {
   const PresetRow& row = row_of(kPresets, &PresetRow::preset, preset);
-  // No other preset uses the blocks that only a quality enables.
+  // Only qualities enable these blocks, so no other preset uses them.
   bool diagonals = false, round_corners = false;
   std::int32_t threshold = row.threshold;
   if (row.has_qualities) {

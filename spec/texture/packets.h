@@ -14,8 +14,9 @@ inline constexpr int kCoordinateFractionBits = 24;
 inline constexpr std::int32_t kCoordinateOne = 1 << kCoordinateFractionBits;
 
 // Four adjacent pixels: lane 0 = (x, y), 1 = (x+1, y), 2 = (x, y+1), 3 = (x+1, y+1), x and y even.
-// All four lanes have coordinates, since the derivatives are differences between lanes; lanes that
-// are not covered have those of the extrapolated primitive. Only lanes in `coverage` give a colour.
+// All four lanes have coordinates, since the derivatives are differences between lanes. The
+// coordinates of lanes that are not covered are those of the extrapolated primitive. Only lanes in
+// `coverage` give a colour.
 struct Quad {
   std::uint32_t tag = 0;            // returned with each colour; not used by the unit
   std::uint16_t x = 0, y = 0;       // pixel of lane 0, only for traces and error texts
@@ -56,8 +57,8 @@ struct Colour {
   }
 };
 
-// The colours that the unit delivers in one cycle, in the order of their fragments: at least one,
-// at most one per request of a cycle (docs/reference/texture/width.md).
+// The colours that the unit delivers in one cycle, in the order of their fragments. There is at
+// least one, and at most as many as the requests per cycle (docs/reference/texture/width.md).
 struct ColourGroup {
   std::uint8_t count = 1;
   std::array<Colour, 4> colour{};

@@ -42,9 +42,10 @@ enum class NamedBuild : std::uint8_t { kNarrow, kLean, kWide };
 inline constexpr std::array<std::string_view, 3> kNamedBuildNames = {"narrow", "lean", "wide"};
 
 // ---- Limits of the build
-// Four lines are looked up one after the other in a cycle, which leaves time for this many ways.
+// Four lines are looked up one after the other within a cycle. This leaves time for no more than
+// this many ways.
 inline constexpr std::int32_t kMostCacheWays = 8;
-// Tags are flip-flops, limited to 16 kbit.
+// Tags are flip-flops, and these are limited to 16 kbit.
 inline constexpr std::int32_t kMostCacheLines = 512;
 inline constexpr std::int32_t kMostFifoDepth = 4096;
 inline constexpr std::int32_t kLeastCacheBytes = 256;
@@ -58,8 +59,8 @@ inline constexpr std::int32_t kMostLineBanks = 8;
 inline constexpr std::int32_t kMostBankReads = 2;
 inline constexpr std::int32_t kMostFillWrites = 4;
 
-// Configuration: changes pixels; implemented by golden model and RTL model. Defaults: preset
-// `deburr`.
+// Configuration: it changes pixels. Golden model and RTL model both implement it. The defaults are
+// those of preset `deburr`.
 struct Configuration {
   Preset preset = Preset::kDeburr;
   Axes axes = Axes::kFour;
@@ -74,8 +75,8 @@ struct Configuration {
   Derivatives derivatives = Derivatives::kFine;
 };
 
-// Build parameters: change cycles and cost, but no pixels. Runs that only differ in these have the
-// same golden picture.
+// Build parameters: they change cycles and cost, but no pixels. Runs that differ only in these have
+// the same golden picture.
 struct Build {
   std::int32_t cache_bytes = 16384;
   std::int32_t cache_line_bytes = 64;

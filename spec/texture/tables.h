@@ -16,8 +16,9 @@ inline constexpr std::array<std::uint16_t, 65> kLog2Table = {
     2812, 2869, 2926, 2982, 3037, 3092, 3146, 3200, 3254, 3307, 3359, 3412, 3463,
     3514, 3565, 3615, 3665, 3715, 3764, 3812, 3861, 3908, 3956, 4003, 4050, 4096};
 
-// Log2Rule::kCorrected: correction of n + y in eighth i of the octave, U0.12. Each entry is the
-// middle of the range of lb(1 + y) - y over [i/8, (i+1)/8], which minimises the residual.
+// Log2Rule::kCorrected: the correction, U0.12, that is added to n + y in eighth i of the octave.
+// Each entry is the middle of the range of lb(1 + y) - y over [i/8, (i+1)/8], which minimises the
+// residual.
 inline constexpr std::array<std::uint16_t, 8> kLog2Correction = {92,  239, 320, 349,
                                                                  329, 272, 183, 65};
 
@@ -50,7 +51,8 @@ inline constexpr std::array<Axis, 8> kAxes = {
     {{128, 0}, {118, 49}, {90, 90}, {49, 118}, {0, 128}, {-49, 118}, {-90, 90}, {-118, 49}}};
 
 // CountRule::kAny: entry n = round(4096 lb n) + 72, U3.12; entry 0 is not used. 72 exceeds the
-// total error of three logarithms of `segments`, so that a square takes one sample and 8 : 1 eight.
+// total error of three logarithms of `segments`, so that a square footprint takes one sample and a
+// footprint of 8 : 1 takes eight.
 inline constexpr std::array<std::uint16_t, 16> kLog2Count = {
     0,     72,    4168,  6564,  8264,  9583,  10660, 11571,
     12360, 13056, 13679, 14242, 14756, 15229, 15667, 16075};

@@ -11,8 +11,8 @@
 namespace deburr::tb {
 namespace {
 
-// Only waiting for memory responses: hidden latency. It counts as idle; its cost shows as the stall
-// of the unit that needs the line.
+// Whether the unit only waits for memory responses. Such cycles count as idle, since this latency
+// may be hidden; its cost is the stall of the unit that needs the line.
 bool only_waits(const rtl::Unit& unit, std::string_view cause) {
   return cause == "wait_memory" ||
          (cause == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);

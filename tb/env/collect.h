@@ -16,8 +16,8 @@ namespace deburr::tb {
 // "a line is missing" -> "A line is missing."
 std::string sentence(std::string text);
 
-// Name of an object in reports. A unit has its own name; any other object is prefixed by its
-// owner's name, unless the owner is the engine. "engine.cache.tag_stage" -> "tag_stage",
+// Name of an object in reports. A unit has its own name. Any other object has the name of its owner
+// as a prefix, unless the owner is the engine. "engine.cache.tag_stage" -> "tag_stage",
 // "engine.cache.tag_stage.hits" -> "tag_stage_hits", "engine.edge_window" -> "edge_window".
 std::string name_within(const sc_core::sc_object& engine, const sc_core::sc_object& object);
 
@@ -25,11 +25,11 @@ UnitCycles unit_cycles(std::string name, const rtl::Unit& unit);
 // Result key of each activity code, as in unit_cycles(): "busy", "idle" or "stalls.CAUSE".
 std::vector<std::string> activity_keys(const rtl::Unit& unit);
 
-// For frames of this width; 0: no size depends on a width.
+// Figures for frames of this width; 0: no size depends on the width.
 MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, int width);
 
-// Bins have equal width, a power of two. Empty bins in between are included, since they belong on
-// the axis.
+// All bins have the same width, a power of two. Empty bins between others are included, since they
+// belong on the axis.
 Latency latency_of(const rtl::Histogram& histogram);
 
 }  // namespace deburr::tb

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Testbench half of an engine's declaration: parameters, input files, registers, coverage,
-// statistics and datasheets. Usable without the command, whose half derives from it
-// (tool/run/engine.h).
+// The testbench's half of an engine's declaration: parameters, input files, registers, coverage,
+// statistics and datasheets. It can be used without the command. The command's half
+// (tool/run/engine.h) derives from it.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct DatasheetSection {
   std::vector<rtl::Datasheet> sheets;
 };
 
-// An engine's section of docs/reference/coverage.md: all bins, including those that only directed
+// An engine's section of docs/reference/coverage.md: all bins, including bins that only directed
 // tests hit.
 struct CoverageSection {
   std::string title;  // title of the table; empty: the engine has no bins of its own
@@ -63,8 +63,9 @@ class EngineTestbench {
   // Every file that a run opens or tries to open, named by a parameter or by another file. Results
   // are cached under a key of their contents. Call it after Engine::resolve().
   virtual std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const = 0;
-  // Build parameters that change the golden result, as a cache's size changes its misses. Runs that
-  // agree in these, in configuration and in inputs share one golden result.
+  // Build parameters that change the golden result; for example, the size of a cache changes its
+  // misses. Runs with the same values of these, the same configuration and the same inputs share
+  // one golden result.
   virtual std::vector<std::string_view> built_for_golden() const { return {}; }
   // Every counter, stall cause and fault of a run of this engine, for docs/reference/statistics.md.
   // It elaborates the environment, so call it at most once per process and not in a process that

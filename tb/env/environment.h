@@ -3,8 +3,8 @@
 // faults, figures. A Simulation runs one environment; a composition of several is itself an
 // environment (frame_composition.h).
 //
-// A single environment has no name. In a composition each has one ("painter"), which prefixes its
-// figures and faults: work.painter_fragments, --fault painter.flip-bit.
+// A single environment has no name. In a composition each environment has a name ("painter"), which
+// is the prefix of its figures and faults: work.painter_fragments, --fault painter.flip-bit.
 #pragma once
 
 #include <fmt/format.h>
@@ -43,12 +43,12 @@ struct Amount {
 
 class RegisterScoreboard;
 
-// Checks counters against a second source: memory or the golden model.
+// Compares counters with a second source: memory or the golden model.
 class FigureScoreboard {
  public:
   void check(const std::string& name, std::uint64_t counted, std::uint64_t expected);
-  // Checks a counter of this engine, unless its unit is replaced by an RTL counterpart that does
-  // not count.
+  // Checks a counter of this engine, unless the counter's unit is replaced by an RTL counterpart,
+  // which does not count.
   void check(const rtl::Engine& engine, const rtl::Counter& counter, std::uint64_t expected);
   // Checks the requests of an engine to memory that no other client uses.
   void check(const rtl::Engine& engine, const rtl::MemoryPort& port,
@@ -73,10 +73,11 @@ class Environment {
   Environment& operator=(const Environment&) = delete;
 
   // ---- phases of a run, in the order in which Simulation calls them
-  // After a reset: checks identification and writes the registers that stay for the whole run.
+  // After a reset: checks the identification registers and writes the registers that stay constant
+  // during the run.
   virtual void configure() = 0;
-  // Starts piece `piece` of the work (a frame of several), which ends before the next starts.
-  // Returns false if there are no more.
+  // Starts piece `piece` of the work, such as one of several frames; a piece ends before the next
+  // one starts. Returns false if there are no more pieces.
   virtual bool begin(std::size_t piece) = 0;
   // Between cycles: checks everything recorded since the last call.
   virtual void watch() {}
@@ -84,7 +85,8 @@ class Environment {
   virtual bool done() const = 0;
   // Called when a piece is done and its links are empty.
   virtual void end() = 0;
-  // Restarts a piece after a reset within it and configure(). Its earlier output is discarded.
+  // Called after configure() if a reset interrupted a piece. Starts the piece again; its earlier
+  // output is discarded.
   virtual void restart() = 0;
   // Called when all pieces are done: checks counters.
   virtual void finish() = 0;
@@ -102,20 +104,21 @@ class Environment {
   virtual Boards outputs() const = 0;   // pixels, colours
   virtual Boards traffic() const = 0;   // memory accesses
   virtual Boards counters() const = 0;  // the engine's own counters, which only echo earlier errors
-  // With a golden model, throws Mismatch if anything differs or a scoreboard compared less than
-  // finish() requires.
+  // If there is a golden model, throws Mismatch if a scoreboard found a difference or made fewer
+  // comparisons than finish() requires.
   void check() const;
 
-  // ---- results, also of an aborted run
+  // ---- results, available after an aborted run too
+
   // Adds units, memories, bytes and counters, prefixed by this environment's name.
   virtual void collect(Result& result) const = 0;
-  // Shows every observable part under its name from collect().
+  // Shows the observer every observable part, under the name that the part has in collect().
   virtual void show_parts(Observer& observer) const = 0;
   // Per-pixel maps of the last frame; requires SimulationOptions::maps.
   virtual std::vector<PictureMap> maps() const = 0;
   // History of SimulationOptions::pixel in the last frame; empty if no part records one.
   virtual std::optional<PixelHistory> pixel_history() const { return std::nullopt; }
-  // Functional coverage: every bin of its engines with its hits. Requires
+  // Functional coverage: every bin of the environment's engines, with its hits. Requires
   // SimulationOptions::coverage and a golden model.
   virtual Coverage coverage() const = 0;
   // Throughput, latency, headline figures and bottleneck; called for the main environment only.
@@ -126,8 +129,8 @@ class Environment {
       : simulation_(simulation), name_(std::move(name)) {}
 
   Simulation& simulation() const { return simulation_; }
-  // Runs until memory is idle after a reset: a late write of an earlier request would corrupt newly
-  // loaded data.
+  // After a reset, runs until memory is idle. Otherwise a late write of an earlier request could
+  // corrupt newly loaded data.
   void drain_memory() const;
   bool golden() const { return simulation_.options().golden; }
   bool programs() const { return simulation_.options().program; }
@@ -141,17 +144,18 @@ class Environment {
   }
   // Declares memory_faults() and applies the range of `error_address`.
   void inject_in(platform::MemoryModel& memory, const MemoryParameters& parameters) const;
-  // Declares `blind-NAME` for each scoreboard of this run: it skips all comparisons, so the run
-  // must not pass.
+  // Declares the fault `blind-NAME` for each scoreboard of this run. With it the scoreboard skips
+  // all comparisons, so the run must not pass.
   void let_blind(std::initializer_list<ScoreboardBase*> boards);
-  // Declares `miscount-NAME` for each register that is checked: the engine counts one too many or
-  // too few.
+  // Declares the fault `miscount-NAME` for each register that is checked. With it the engine counts
+  // one too many or too few.
   void let_miscount(RegisterScoreboard& board, std::span<const std::uint32_t> offsets);
-  // Declares `wrong-figures`: adds one to every counter that is checked against a second source.
+  // Declares the fault `wrong-figures`. It adds one to every counter that is compared with a second
+  // source.
   void let_miscount(FigureScoreboard& board);
-  // Declares `misdecode-REGISTER-FIELD` for each field of these registers: hardware decodes a
-  // choice as the next one, a number as its half, and 0 as all ones, but reads return the written
-  // value. `needs`: why these faults cannot be injected in this run.
+  // Declares the fault `misdecode-REGISTER-FIELD` for each field of these registers. With it
+  // hardware decodes a choice as the next one, a number as its half, and 0 as all ones; reads still
+  // return the written value. `needs` says why these faults cannot be injected in this run.
   void let_misdecode(rtl::ControlRegisters& control, std::span<const std::uint32_t> offsets,
                      const std::string& needs);
   static void reject_untouched(const platform::MemoryModel& memory,
@@ -186,7 +190,7 @@ class RegisterScoreboard {
   Scoreboard<Status> board_;
 };
 
-// FNV-1a over 64-bit words, to compare runs whose outputs must be identical.
+// FNV-1a hash over 64-bit words, for comparing runs whose outputs must be identical.
 class OutputHash {
  public:
   void add(std::uint64_t value) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Looks up faults by name (`--fault NAME`) for every engine and composition.
-// docs/reference/tests.md says which check must detect each.
+// docs/reference/tests.md says which check must detect each fault.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace deburr::tb {
 // (fault_injector.h).
 struct InjectedFault {
   std::string name, meaning, link_fault{};
-  std::string needs{};  // why it cannot be injected in this run; empty: it can
+  std::string needs{};  // why this run cannot inject it; empty: it can
 };
 
 // Faults of a memory in request kFaultyRequest: `lost-response` and `memory-error`.
@@ -29,8 +29,8 @@ class FaultPlan {
   explicit FaultPlan(std::vector<std::string> given) : given_(std::move(given)) {}
 
   void know(std::string_view environment, std::vector<InjectedFault> faults);
-  // May be called before all environments have declared their faults, because hardware is built
-  // with it. link_faults() rejects a name that turns out to be ambiguous.
+  // May be called before all environments have declared their faults, since hardware is built from
+  // the result. If a name turns out to be ambiguous, link_faults() rejects it.
   bool injected(std::string_view environment, std::string_view name) const;
   // All declared faults, in the order of environments.
   std::vector<std::string> known_names() const;

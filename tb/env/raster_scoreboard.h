@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scoreboard for a frame that is known in advance. Compares in raster order with values in place,
-// so a frame of millions of pixels needs neither copies nor a queue.
+// Scoreboard for a frame that is known in advance. It compares in raster order and reads the
+// expected values where they are, so a frame of millions of pixels needs neither copies nor a
+// queue.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ class RasterScoreboard final : public ScoreboardBase {
     width_ = static_cast<std::size_t>(width);
     at_ = 0;
   }
-  // Restarts the frame after a reset; comparisons so far count.
+  // Restarts the frame after a reset. Comparisons made so far still count.
   void restart() { at_ = 0; }
 
   void got(const Value& value, std::uint64_t cycle) {
@@ -49,7 +50,7 @@ class RasterScoreboard final : public ScoreboardBase {
             describe_(value)});
     ++at_;
   }
-  // Reports a framing error rather than a wrong pixel.
+  // Reports a framing error instead of a wrong pixel.
   void complain(std::uint64_t cycle, std::size_t position, std::string field, std::string expected,
                 std::string got) {
     fail({"", fmt::format("cycle {}", cycle), pixel(position), std::move(field),

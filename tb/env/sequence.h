@@ -41,8 +41,8 @@ inline constexpr char kListSeparator = ';';
 // Splits a list; a text without a separator is a single entry.
 std::vector<std::string> listed(std::string_view text);
 // As listed(), for file names. A pattern with *, ? or [ ] expands to the matching files in natural
-// order. Throws ConfigError for a pattern without a match. A text that is the name of an existing
-// file is neither split nor expanded.
+// order. Throws ConfigError for a pattern without a match. If the text is the name of an existing
+// file, it is neither split nor expanded.
 std::vector<std::string> listed_files(std::string_view parameter, const std::string& text);
 
 // Per-frame values of list parameters.
@@ -50,7 +50,8 @@ class FrameLists {
  public:
   // Throws ConfigError if two lists differ in length, and for an empty entry.
   void add(std::string parameter, std::vector<std::string> entries);
-  // Value of a parameter in a frame: its entry, or the only one.
+  // The value of a parameter in a frame: the entry for this frame or, if there is only one entry,
+  // this entry.
   const std::string& at(std::string_view parameter, int frame) const;
   int frames() const { return frames_; }
   // Name of a list parameter; empty if there is none.
@@ -79,7 +80,8 @@ std::vector<std::filesystem::path> files_of_frames(const Parameters& parameters,
 void add_camera(FrameLists& lists, const CameraParameters& camera);
 void choose_camera(CameraParameters& camera, const FrameLists& lists, int frame);
 
-// Adds flicker counters of a run of several frames: of the golden model's output and of its input.
+// Adds the flicker of a run of several frames: that of the golden model's output and that of its
+// input.
 void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& before);
 
 }  // namespace deburr::tb

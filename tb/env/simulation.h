@@ -69,16 +69,17 @@ class Simulation {
   // of any function here. Throws ConfigError for faults and waveform scopes that do not exist.
   void elaborate(Environment& environment);
 
-  // Called every few thousand cycles with the delivered and taken amounts (Environment::amount());
-  // returning false ends the run early.
+  // Called every few thousand cycles with the delivered and taken amounts (Environment::amount()).
+  // If it returns false, the run ends early.
   using GoOn = std::function<bool(std::uint64_t delivered, std::uint64_t taken)>;
-  // Resets the design and runs every piece of work to its end. Mismatches do not throw here: see
+  // Resets the design and runs every piece of work to its end. Mismatches do not throw here; see
   // Environment::check(). Throws SimulationError for memory errors and protocol violations,
-  // DeadlockError for lack of progress, OutOfCycles for max_cycles.
+  // DeadlockError if there is no progress, and OutOfCycles after max_cycles.
   void run(const GoOn& go_on = {});
 
   bool complete() const { return complete_; }  // false if ended early
-  // Total cycles of all pieces so far. A piece restarted by a reset counts from the reset.
+  // Total cycles of all pieces so far. If a reset restarted a piece, its cycles count from the
+  // reset on.
   rtl::Cycle cycles() const;
   rtl::Cycle begun() const { return begun_; }  // start cycle of the last piece
   std::uint64_t activations() const { return clock_.activations(); }

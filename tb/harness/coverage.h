@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functional coverage. Bins are declared before they are hit, so a coverage hole shows as a bin
-// with zero hits. Runs merge by addition.
+// Functional coverage. Bins are declared before they are hit, so a coverage hole is a bin with zero
+// hits. To merge runs, their hits are added.
 //
 // Bin names are paths such as "texture/cache/miss": engine, coverage group, bin.
 #pragma once

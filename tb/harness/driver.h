@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Endpoints of a test: a Driver feeds a link and a Sink drains one, both with optional random
-// stalls. A reset restarts both, with the same stalls if these come from the seed.
+// stalls. A reset restarts both; stalls that come from the seed are then the same again.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Kit: the interface by which the shared test suites build an engine, give it work and collect the
-// outcome. Each engine declares one; register_suites<Kit>() (tb/unit/rtl/engine_suites.h)
-// instantiates the suites for it: reset_suite.h, register_suite.h, stress_suite.h,
-// register_noise.h, tb/unit/rtl/token_suite.h.
+// A Kit is the interface through which the shared test suites build an engine, give it work and
+// collect the outcome. Each engine declares a Kit; register_suites<Kit>()
+// (tb/unit/rtl/engine_suites.h) instantiates the suites for it: reset_suite.h, register_suite.h,
+// stress_suite.h, register_noise.h, tb/unit/rtl/token_suite.h.
 //
 //   class Kit : public EngineKit {           // EngineKit has defaults of optional members
 //    public:
@@ -54,7 +54,7 @@
 
 namespace deburr::tb {
 
-// kWhole is compared; kBroken is longer and is interrupted by resets.
+// The outcome of a kWhole job is compared; a kBroken job is longer and is interrupted by resets.
 enum class Job { kWhole, kBroken };
 
 // Disturbances that the bench applies to the engine.
@@ -78,11 +78,11 @@ struct EngineKit {
   static constexpr rtl::Cycle kStep = 1;
   static constexpr rtl::Cycle short_reset() { return 1; }
   static constexpr rtl::Cycle long_reset() { return 1; }
-  // Number of job kinds that the engine must reject; the function starts one, runs it and checks
-  // the rejection.
+  // Number of kinds of jobs that the engine must reject. The function starts a job of one kind,
+  // runs it and checks that it is rejected.
   static constexpr int kRejected = 0;
   void reject(int /*kind*/, rtl::Cycle /*cycles*/) {}
-  // Announces the next jobs: their input may already wait at the engine.
+  // Announces the next jobs, so that their input may already wait at the engine.
   void queue(std::span<const Job> /*jobs*/) {}
   // For register noise: a reset this long outlasts every memory request that noise may have caused.
   static constexpr rtl::Cycle kNoiseReset = 2000;
@@ -90,8 +90,8 @@ struct EngineKit {
   // Error found at the end of a noise run; empty: none.
   static std::string noise_ends() { return ""; }
   void restore() {}  // after a reset: reloads state that reset keeps and noise may have changed
-  // Page with the tables of links, wires and memories; page with the pipeline figure, and the
-  // headers of sub-units that the figure shows.
+  // The page with the tables of links, wires and memories; the page with the pipeline figure; and
+  // the headers of the sub-units that the figure shows.
   static constexpr const char *kTables = "", *kFigure = "";
   static std::vector<std::string> below() { return {}; }
 };
@@ -145,15 +145,16 @@ class NamedWords {
 
 // Observations of a job, grouped by their dependence on timing and history.
 struct Outcome {
-  std::vector<NamedWords> data;     // independent of earlier jobs and of timing
-  std::vector<NamedWords> counted;  // same after any reset: counts since then, cache behaviour
+  std::vector<NamedWords> data;  // independent of earlier jobs and of timing
+  // The same after any reset: counts since the reset, cache behaviour.
+  std::vector<NamedWords> counted;
   // Cycles from the start of the job; comparable only if no earlier state remains.
   std::vector<NamedWords> cycles;
 };
 
 enum class Compared { kData, kCounted, kAll };
 
-// Describes differences in all categories up to `what`; empty if equal.
+// Describes the differences in all categories up to `what`; empty if there are none.
 std::string difference(const Outcome& was, const Outcome& is, Compared what);
 std::string text_of(const Outcome& outcome, Compared what);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // All readable state of an engine: registers, counters, histograms, cycle accounts of units, beats
-// of links, wire levels, memory high-water marks. Used to compare two engines, or one after reset
-// with a new one.
+// of links, wire levels, memory high-water marks. Used to compare two engines, or an engine after a
+// reset with a new one.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace deburr::tb {
 std::vector<std::string> engine_state(rtl::Engine& engine, platform::RegisterHost& host,
                                       const std::vector<std::uint32_t>& more_registers = {});
 
-// Lines that differ, those of `was` first; empty if none.
+// The lines that differ, those of `was` first; empty if there are none.
 std::string state_difference(const std::vector<std::string>& was,
                              const std::vector<std::string>& is);
 

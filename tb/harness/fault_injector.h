@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Injects faults on named links to show that checks can fail. A fault acts between two cycles, on a
-// beat that has been pushed and that the consumer has not yet seen.
+// beat that has been pushed but that the consumer has not yet seen.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +28,14 @@ struct Fault {
 
 class FaultInjector final : public rtl::Clocked {
  public:
-  // Construct it after the design. Throws ConfigError if the link, or the field or bit in it, does
-  // not exist.
+  // Construct it after the design. Throws ConfigError if the link does not exist, or if its payload
+  // does not have the field or bit.
   FaultInjector(rtl::ClockDomain& clock, const std::vector<Fault>& faults);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
   void reset() override {}
   std::size_t fired() const;
-  // Throws SimulationError if a fault never fired: the run then proves nothing.
+  // Throws SimulationError if a fault never fired, since the run then proves nothing.
   void check_fired() const;
 
  private:

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Divides a run into sampling intervals of equal length and records the counts of each: activities
-// of units, counters, beats and occupancy of links, memory transactions in flight. Counts are
-// differences of existing counters between interval ends; only occupancy is sampled every cycle.
+// Divides a run into sampling intervals of equal length and records counts for each interval:
+// activities of units, counters, beats and occupancy of links, and memory transactions in flight.
+// Counts are differences of existing counters between the ends of intervals; only occupancy is
+// sampled in every cycle.
 //
 //   IntervalRecorder recorder(clock, {.cycles = 1000});   // after the design
 //   environment.show_parts(recorder);
 //   ... run ...
 //   recorder.finish();
 //
-// Memory is bounded: when `most` intervals are full, neighbours are merged and later intervals are
-// twice as long. A reset of the clock domain clears all intervals, as it clears all counters.
+// Memory is bounded: when there are `most` intervals, pairs of neighbours are merged, and later
+// intervals are twice as long. A reset of the clock domain clears all intervals, as it clears all
+// counters.
 #pragma once
 
 #include <cstddef>
@@ -64,7 +66,7 @@ class IntervalRecorder final : public rtl::Clocked, public Observer {
   rtl::Cycle interval_cycles() const { return interval_; }
   const std::vector<rtl::Cycle>& from() const { return from_; }
   const std::vector<rtl::Cycle>& cycles() const { return cycles_; }
-  // Excludes counters that are not sums: maxima, and counters that restart within a run.
+  // Excludes counters that are not sums: maxima and counters that restart within a run.
   std::vector<Series> series() const;
   std::vector<Occupancy> occupancy() const;
   // Content of intervals.json (docs/reference/statistics.md).

@@ -163,7 +163,7 @@ void LinkChecker::follow_beats(Watched& w, rtl::Cycle cycle) {
   }
 }
 
-// A push and a pop in the same cycle: the link was neither empty nor full, so their slots differ.
+// A push and a pop in the same cycle. The link was neither empty nor full, so their slots differ.
 template <std::size_t kBytes>
 void LinkChecker::follow_stream(Watched& w, rtl::Cycle cycle) {
   const rtl::LinkBase& link = *w.link;

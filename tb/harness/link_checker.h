@@ -3,7 +3,8 @@
 // that a beat stays in its slot, unchanged, until it is popped. At the end of every cycle, for
 // every link:
 //   * at most one push and one pop, each through its port (conservation),
-//   * a pop takes a beat of an earlier cycle; a push takes a slot that was free before this cycle,
+//   * a pop takes a beat that was pushed in an earlier cycle; a push takes a slot that was free
+//     before this cycle,
 //   * the payload at the pop equals the payload at the push, bit for bit,
 //   * with `widths`, every field of a pushed beat fits its declared width.
 // At the end of the run no beat may be left in a link. A violation throws SimulationError.
@@ -22,7 +23,8 @@ namespace deburr::tb {
 
 class LinkChecker final : public rtl::Clocked {
  public:
-  // Checks all existing links whose full name matches the glob. Construct it after the design.
+  // Checks all links that exist and whose full name matches the glob. So construct it after the
+  // design.
   explicit LinkChecker(rtl::ClockDomain& clock, const std::string& glob = "*", bool widths = false);
 
   rtl::Activity tick(rtl::Cycle cycle) override;
@@ -73,7 +75,7 @@ class LinkChecker final : public rtl::Clocked {
   static void reject_width(const Watched& watched, rtl::Cycle cycle);
 
   std::vector<Watched> watched_;
-  // Compared beats, minus the pops of all links since their resets.
+  // Number of compared beats, minus the number of pops of all links since their resets.
   std::uint64_t beats_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Interface by which a design presents its observable parts: units, counters, links and memory
-// ports, each under its name in the results. Environment::show_parts() lists them once for all
-// observers.
+// The interface through which a design presents its observable parts: units, counters, links and
+// memory ports. Each has the name that it has in the results. Environment::show_parts() lists the
+// parts, once for all observers.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Builds a configuration that differs from the wanted one in every parameter. An engine built with
-// it exposes a register that software does not write, and a unit that takes a value from its
-// constructor.
+// this configuration gives wrong results if software does not write a register, or if a unit takes
+// a value from its constructor.
 #pragma once
 
 #include <algorithm>

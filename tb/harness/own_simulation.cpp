@@ -18,9 +18,9 @@ namespace {
 
 class OwnSimulation : public testing::EmptyTestEventListener {
   void OnTestEnd(const testing::TestInfo& /*info*/) override {
-    // Ended contexts are kept with their processes and events, as at process exit; otherwise
-    // LeakSanitizer reports them. Other SystemC state persists: counts and actions of reports, the
-    // mode of sc_stop(), the last process created.
+    // Ended contexts are kept with their processes and events, as they are at process exit.
+    // Otherwise LeakSanitizer would report them. Other SystemC state persists: counts and actions
+    // of reports, the mode of sc_stop(), the last process created.
     static auto& ended = *new std::vector<sc_core::sc_simcontext*>;
     ended.push_back(sc_core::sc_curr_simcontext);
     sc_core::sc_curr_simcontext = nullptr;

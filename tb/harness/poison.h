@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Fills unwritten link slots with noise: from the cycle after a beat is popped until the slot is
-// refilled, every field holds a bad pattern, masked to its width. A producer that omits a field, or
-// a consumer that reads a beat after its pop, then sees noise instead of a plausible old value.
-// Rejects a link whose payload does not list its fields.
+// Fills unwritten link slots with noise. From the cycle after a beat is popped until its slot is
+// refilled, every field of the slot holds a bad pattern, masked to its width. If a producer omits a
+// field, or a consumer reads a beat after popping it, noise is read instead of a plausible old
+// value. Rejects a link whose payload does not list its fields.
 #pragma once
 
 #include <cstdint>

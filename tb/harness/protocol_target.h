@@ -4,9 +4,10 @@
 //
 //   engine ─► ProtocolTarget ─► MemoryModel (b_transport: data, status and latency)
 //
-// Everything it sends is legal: one response at a time, none before the previous one has ended. A
+// Everything that it sends is legal: a response begins only when the previous one has ended. A
 // target must accept every way of ending a response that the protocol allows, but many do not.
-// `AcceptedEnds` models one that ignores some: the response then stays open and no other begins.
+// `AcceptedEnds` models a target that ignores some of them: the response then stays open, and no
+// other response begins.
 #pragma once
 
 #include <tlm_utils/peq_with_cb_and_phase.h>
@@ -59,7 +60,8 @@ class ProtocolTarget final : public sc_core::sc_module {
   const std::vector<sc_core::sc_time>& begun_times() const { return begun_times_; }
   // Protocol violations by the initiator, one sentence each.
   const std::vector<std::string>& violations() const { return violations_; }
-  // Number of payloads with references still held. The initiator must still own all of them.
+  // Number of payloads to which someone still holds a reference. The initiator must still own all
+  // of them.
   std::size_t referenced() const;
 
  private:

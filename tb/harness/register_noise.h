@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random register accesses: reads and writes of any register with any value in any cycle. The
-// engine's results are not checked, but it must not crash or violate a protocol, and a reset must
-// restore it.
+// Random register accesses: reads and writes of any register, with any value, in any cycle. The
+// results of the engine are not checked, but the engine must not crash or violate a protocol, and a
+// reset must restore it.
 #pragma once
 
 #include <unistd.h>
@@ -102,8 +102,9 @@ std::string left_by_noise(std::uint64_t seed) {
 }
 
 // Runs `work` for consecutive seeds, each in its own process, until one returns a complaint: at
-// least `seeds` of them, or for DEBURR_FUZZ_SECONDS if that is set. DEBURR_FUZZ_SEED selects a
-// single seed. Returns the first complaint with its seed; a crash or a hang is a complaint.
+// least `seeds` of them, or for DEBURR_FUZZ_SECONDS if that is set. If DEBURR_FUZZ_SEED is set,
+// only this seed is run. Returns the first complaint with its seed; a crash or a hang counts as a
+// complaint.
 inline std::string first_complaint(std::uint64_t seeds,
                                    const std::function<std::string(std::uint64_t)>& work) {
   using Clock = std::chrono::steady_clock;

@@ -170,7 +170,7 @@ class Comparison {
     if (expected != got)
       say(info, fmt::format("{}: {:#x} in the file, {:#x} in the hardware", when, expected, got));
   }
-  // A register without readable fields rejects a read; counts as 0.
+  // A register without readable fields rejects a read; its value counts as 0.
   std::uint32_t read(std::uint32_t offset, const FileRegister& info) {
     try {
       const std::uint32_t value = hardware_.read(offset);
@@ -199,7 +199,7 @@ class Comparison {
     }
   }
 
-  // Offsets that the file does not list have no register.
+  // Checks that no register exists at offsets that the file does not list.
   void find_holes() {
     for (std::uint32_t offset = 0; offset < map_.rbegin()->first + 64; offset += 4)
       if (!map_.contains(offset) && hardware_.write(offset, 0) != tlm::TLM_ADDRESS_ERROR_RESPONSE)
@@ -227,7 +227,8 @@ class Comparison {
     const bool shared = (info.changing() & info.writable()) != 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::uint32_t value = values[i] & ~info.commands(), before = read(offset, info);
-      // Compare the other registers in the first rounds, and always where hardware may change them.
+      // Compare the other registers in the first rounds; compare registers that hardware may change
+      // in every round.
       const bool all = i < 2 || shared;
       const std::map<std::uint32_t, std::uint32_t> others = all ? read_others(offset) : kNone;
       write(offset, info, value);
@@ -253,8 +254,8 @@ class Comparison {
       if (other != offset) values[other] = read(other, info);
     return values;
   }
-  // Checks that a write changes no other register, except where hardware may; restores those that
-  // software can.
+  // Checks that a write changes no other register, except fields that hardware may change. Restores
+  // the registers that software can write.
   std::map<std::uint32_t, std::uint32_t> compare_others(
       const FileRegister& written, const std::map<std::uint32_t, std::uint32_t>& before) {
     std::map<std::uint32_t, std::uint32_t> changed;
@@ -295,7 +296,7 @@ class Comparison {
     hardware_.reset();
   }
 
-  // A bit set by hardware stays set until a one is written to it; the interrupt follows it.
+  // A bit that hardware sets stays set until a one is written to it. The interrupt follows the bit.
   void try_sticky(std::uint32_t offset, const FileRegister& info, const FileField& field) {
     hardware_.reset();
     const std::uint32_t idle = read(offset, info);
@@ -405,8 +406,8 @@ std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& 
       if (const std::size_t found = line.find(before); found != std::string::npos)
         add(std::string(line).replace(found, before.size(), after));
     };
-    // A command field reads as 0, like a write-only field. A read-only field with reset value 0 has
-    // no bit set that a read could show.
+    // A command field reads as 0, like a write-only field. A read-only field whose value is 0 shows
+    // no bits.
     const bool is_command = field.has("singlepulse"),
                is_zero = !field.software_writes() && !field.reset.value_or(0);
     replaced("sw = rw;", "sw = r;");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Checks the registers of an engine against its exported SystemRDL file. A parser of the file and a
-// host at the bus check access, reset value and side effects of each field, in every build of a Kit
-// (engine_kit.h). Neither uses the tables in spec/ from which file and hardware are made.
+// Checks the registers of an engine against its exported SystemRDL file, in every build of a Kit
+// (engine_kit.h). A parser reads the file, and a host on the bus checks access, reset value and
+// side effects of each field. Neither uses the tables in spec/ from which the file and the hardware
+// are made.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@
 
 namespace deburr::tb {
 
-// The hardware's registers as software and as the engine's units see them.
+// The registers of the hardware, as software sees them and as the engine's units see them.
 struct RegisterHardware {
   std::function<std::uint32_t(std::uint32_t offset)> read;  // throws SimulationError if rejected
   std::function<tlm::tlm_response_status(std::uint32_t offset, std::uint32_t value)> write;
@@ -36,14 +37,15 @@ struct RegisterHardware {
   std::function<bool()> interrupt;
 };
 
-// Differences between hardware and file, in either direction; empty if they agree. Also counts the
-// fields checked.
+// Describes what the hardware has and the file has not, and the reverse; empty if they agree. Also
+// counts the checked fields.
 std::vector<std::string> register_differences(const std::string& systemrdl,
                                               const RegisterHardware& hardware, int& fields);
-// Mutants of the file, each with one error in the line of a field (bits, access, side effects,
-// reset value, or line removed) and that line. Unobservable mutants are omitted.
+// Mutants of the file, each with the changed line. A mutant has one error in the line of a field:
+// wrong bits, access, side effects or reset value, or the line is removed. Unobservable mutants are
+// omitted.
 std::vector<std::pair<std::string, std::string>> wrong_files(const std::string& systemrdl);
-// Mutants of the hardware, each with one error at its bus and a description.
+// Mutants of the hardware, each with a description. A mutant has one error at its bus.
 std::vector<std::pair<std::string, RegisterHardware>> wrong_hardware(const std::string& systemrdl,
                                                                      const RegisterHardware& right);
 
@@ -57,8 +59,8 @@ class RegisterSuite {
     EXPECT_EQ(difference(file(), hardware(), &fields), "");
     EXPECT_GE(fields, 9);
   }
-  // Every mutant of file and hardware is detected. Each is tried on a new engine in its own
-  // process.
+  // Checks that every mutant of the file and of the hardware is detected. Each mutant is tried on a
+  // new engine in its own process.
   void a_wrong_file_is_seen() {
     EXPECT_EQ(in_child([&] { return difference(file(), hardware()); }), "");
     const auto files = wrong_files(file());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reset tests for every build of an engine's Kit (engine_kit.h). After a reset the engine behaves
-// as a new one, bit and cycle exact, and every register, counter, histogram and cycle account has
-// its initial value. A job after another one has the same outcome as on a new engine.
+// Reset tests for every build of an engine's Kit (engine_kit.h). After a reset the engine must
+// behave like a new engine, to the bit and to the cycle, and every register, counter, histogram and
+// cycle account must have its initial value. A job that follows another job must have the same
+// outcome as on a new engine.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ class ResetSuite {
  public:
   explicit ResetSuite(const typename Kit::Build& build) : kit_(build) {}
 
-  // Resets in half of the cycles that are tried: even or odd ones, selected by `half` (0 or 1).
+  // Tries resets in half of the cycles: even ones or odd ones, as `half` (0 or 1) says.
   void any_clock_of_a_job_may_be_the_last(rtl::Cycle half) {
     const Outcome fresh = first();
     kit_.expect_enough(Job::kWhole);
@@ -116,7 +117,7 @@ class ResetSuite {
       ASSERT_EQ(state_difference(after_, state_of(kit_)), "");
     }
   }
-  // Also gives every writable register another value.
+  // Also writes another value to every writable register.
   void spoil() {
     kit_.spoil();
     for (const spec::RegisterInfo& info : kit_.engine().control.registers.table())

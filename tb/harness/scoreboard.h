@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Compares outputs with expectations. A run passes only if every expected item came, no other item
-// came, and the promised minimum number of comparisons was made.
+// came, and at least the required number of comparisons was made.
 //
-// A lost, duplicated or late item is one mismatch: the scoreboard resynchronises on the items after
-// it.
+// A lost, duplicated or late item counts as one mismatch, since the scoreboard resynchronises on
+// the items after it.
 #pragma once
 
 #include <fmt/format.h>
@@ -69,8 +69,8 @@ class ScoreboardBase {
   std::vector<Difference> differences_;
 };
 
-// Without a key, items are compared in order; with a key, in order per key and in any order between
-// keys.
+// Without a key, items are compared in order. With a key, items with the same key are compared in
+// order; items with different keys may come in any order.
 template <class T>
 class Scoreboard final : public ScoreboardBase {
  public:
@@ -106,7 +106,7 @@ class Scoreboard final : public ScoreboardBase {
   }
 
  private:
-  // Search distance for an item that came out of order.
+  // How many items ahead an item that came out of order is searched.
   static constexpr std::size_t kLookAhead = 64;
   struct Expected {
     T value;

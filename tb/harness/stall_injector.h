@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random stalls on any link, like MatchLib's RAND_STALL: in a drawn cycle the link appears not
-// ready to its producer or not valid to its consumer. Only timing may change, not data. Links
-// without an injector have no overhead.
+// Random stalls on any link, like MatchLib's RAND_STALL: in randomly drawn cycles the link appears
+// not ready to its producer or not valid to its consumer. Stalls may change only timing, not data.
+// Links without an injector have no overhead.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class StallInjector final : public rtl::Clocked {
     std::uint64_t seed = 1;           // each link has its own random stream derived from it
     std::string glob = "*";           // full names of links
   };
-  // Applies to the links that exist now: construct it after the design.
+  // Applies to the links that exist now, so construct it after the design.
   StallInjector(rtl::ClockDomain& clock, const Options& options);
 
   rtl::Activity tick(rtl::Cycle cycle) override;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Checks that results are bit-identical under disturbances, for every build of an engine's Kit
-// (engine_kit.h): stalls on every link, late and reordered memory responses, evaluation order, the
-// fast path, checkers, noise in unwritten fields, configuration by reset values or by register
-// writes. Each simulation runs in its own process.
+// Checks that disturbances do not change a bit of the results, for every build of an engine's Kit
+// (engine_kit.h). Disturbances are stalls on every link, late and reordered memory responses,
+// another evaluation order, the fast path on or off, checkers on or off, noise in unwritten fields,
+// and configuration by register writes instead of reset values. Each simulation runs in its own
+// process.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -69,7 +69,7 @@ void Timeline::look_at(Level& level, std::size_t number, rtl::Cycle cycle) {
   samples_.push_back({number, cycle, now});
 }
 
-// The activity whose count rose in the last cycle names the unit's activity.
+// The activity of the unit is the one whose count rose in the last cycle.
 void Timeline::look_at(Track& track, std::size_t number, rtl::Cycle cycle) {
   const std::array<std::uint64_t, rtl::kActivities> now = track.unit->counts();
   if (cycle >= options_.from) {
@@ -111,7 +111,7 @@ void Timeline::look_at(Port& port, std::size_t number, rtl::Cycle cycle) {
   const auto& response =
       *reinterpret_cast<const rtl::MemoryResponse*>(responses.beat(responses.pushes() - 1));
   if (!response.last) return;
-  // Tags are local to a unit and need not be unique; if they are ambiguous, the address decides.
+  // Tags are local to a unit and need not be unique. If a tag is ambiguous, the address decides.
   const auto answers = [&](const Transaction& t, bool by_address) {
     return t.request.tag == response.tag && t.request.write == response.write &&
            (!by_address || t.request.address == response.address);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Records some cycles of a run in the Trace Event format (JSON) for trace viewers such as Perfetto
-// and chrome://tracing. Each unit has a track with a slice for each busy or stalled period, named
-// by its stall cause. Each memory transaction is an asynchronous event, from acceptance of the
-// request to the last response. Counter tracks show FIFO occupancy and transactions in flight of a
-// port at the end of each cycle. One microsecond in the viewer is one cycle; idle cycles have no
-// slice.
+// and chrome://tracing. Each unit has a track with a slice for each busy or stalled period; a
+// stalled slice has the name of the stall cause. Each memory transaction is an asynchronous event,
+// from the cycle in which the request is accepted to the last response. Counter tracks show, at the
+// end of each cycle, the occupancy of FIFOs and the transactions in flight at each port. One
+// microsecond in the viewer is one cycle; idle cycles have no slice.
 //
 //   Timeline timeline(clock, {.from = 1000, .to = 3000});   // after the design
 //   environment.show_parts(timeline);
@@ -40,7 +40,7 @@ class Timeline final : public rtl::Clocked, public Observer {
   using Observer::see;
   void see(const std::string& name, const rtl::Unit& unit,
            const std::vector<std::string>& activities) override;
-  // Shows only FIFOs: links deeper than one beat per cycle requires.
+  // Shows only FIFOs: links that are deeper than a throughput of one beat per cycle requires.
   void see(const std::string& name, const rtl::LinkBase& link) override;
   void see(const std::string& name, const rtl::MemoryPort& port) override;
 

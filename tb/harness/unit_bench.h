@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Helpers for tests of a single unit: a Source and a Sink that stall on request and record cycles
-// (driver.h has endpoints with random stalls for whole runs), both combined with their links as
-// Ends, and checks of stall causes and of rejected memory accesses.
+// Helpers for tests of a single unit: a Source and a Sink, which stall on request and record
+// cycles; Ends, which combines both with their links; and checks of stall causes and of rejected
+// memory accesses. For whole runs, driver.h has endpoints with random stalls.
 //
 //   unit_bench::Ends<Token, Result> ends(clock);   // source -> in -> [unit] -> out -> sink
 //   halver.tokens_in(ends.in);
@@ -28,7 +28,8 @@ namespace deburr::tb::unit_bench {
 // Clock period for tests that measure cycles only.
 inline sc_core::sc_time period() { return {10, sc_core::SC_NS}; }
 
-// Pushes its tokens in order, each in its given cycle or as soon as there is space.
+// Pushes its tokens in order, each in the given cycle or, if there is no space then, as soon as
+// there is.
 template <class T>
 class Source final : public rtl::Unit {
  public:
@@ -62,7 +63,8 @@ class Source final : public rtl::Unit {
   std::size_t next_ = 0;
 };
 
-// Takes every token at once unless told to wait, and records the first cycle in which it could.
+// Takes every token at once, unless it is told to wait, and records the first cycle in which it
+// could have taken the token.
 template <class T>
 class Sink final : public rtl::Unit {
  public:

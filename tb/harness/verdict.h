@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Run errors other than deadlocks and violations: a failed comparison (exit code 1), an exhausted
-// cycle budget (3).
+// Errors of a run other than deadlocks and protocol violations: a failed comparison (exit code 1)
+// and an exhausted cycle budget (3).
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@
 namespace deburr::tb {
 
 // Throws DeadlockError when no link of the domain has moved a beat for `patience` cycles. It checks
-// four times in that span, so detection may take a quarter longer; the cost is one call per cycle.
+// four times in that time, so detection may take a quarter longer. It costs one call per cycle.
 class Watchdog final : public rtl::Clocked {
  public:
   explicit Watchdog(rtl::ClockDomain& clock, rtl::Cycle patience = 100'000);

@@ -8,8 +8,9 @@
 
 namespace deburr::tb {
 
-// If runs differ in such a parameter they did different work, so a difference in their results says
-// little about the hardware. kSource may name a file; then its content counts and not its name.
+// If two runs differ in such a parameter, they did different work, so a difference in their results
+// says little about the hardware. A kSource may name a file; then the content of the file counts,
+// not its name.
 enum class GivenWork : std::uint8_t { kNone, kSource, kSetting };
 inline constexpr std::array<std::string_view, 3> kGivenWorkNames = {"none", "source", "setting"};
 

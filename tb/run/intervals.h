@@ -10,9 +10,9 @@
 
 namespace deburr::tb {
 
-// Checks that intervals add up: in each interval the cycles of every unit equal the interval's
-// length, and over all intervals every sum equals the value in result.json. Throws CheckFailed that
-// names the first differing key.
+// Checks that intervals add up: in each interval the cycles of every unit sum to the length of the
+// interval, and the sum of a count over all intervals equals the value in result.json. Throws
+// CheckFailed with the first key that differs.
 void check_intervals(const nlohmann::ordered_json& intervals, const nlohmann::ordered_json& result);
 
 // Keys of intervals.json.

@@ -57,8 +57,8 @@ std::string scalar_of(const YAML::Node& map, const char* key) {
 }
 bool is_map(const YAML::Node& node) { return node.IsDefined() && node.IsMap(); }
 
-// Reads a run's manifest.json. Only given values matter; the rest is derived again, except a
-// default that has changed since: its old value is kept.
+// Reads a run's manifest.json. Only values that were given matter; all others are derived again.
+// But if a default has changed since the run, its old value is kept.
 class Manifest {
  public:
   static bool is_one(const YAML::Node& root) {
@@ -88,8 +88,8 @@ class Manifest {
   }
 
  private:
-  // Whether the parameter gets this value without being set. If the manifest does not say, its
-  // value is used as it is.
+  // Whether the parameter gets this value without being set. If the manifest does not tell, the
+  // value in the manifest is set.
   bool follows(const Parameter* parameter, const std::string& value) const {
     if (!parameter) return false;
     const auto found = from_.find(parameter->name);
@@ -409,8 +409,8 @@ std::string ParameterSet::yaml() const {
   std::string out;
   for (const Parameter& p : parameters_) {
     YAML::Emitter value;
-    // Quoted because text may contain any character; numbers, choices and switches are safe
-    // unquoted.
+    // Text is quoted, since it may contain any character; numbers, choices and switches need no
+    // quotes.
     if (p.json().is_string()) value << YAML::DoubleQuoted;
     value << p.text();
     const bool by_preset = !p.implied_by.empty() && p.text() == p.implied;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Every parameter of a run by its dotted name. Command line, configuration files, manifest and
-// reference pages all access the parameter structs (spec/parameters.h) through this set.
+// All parameters of a run, by their dotted names. Command line, configuration files, manifest and
+// reference pages access the parameter structs (spec/parameters.h) through this set.
 //
 // A struct is added under a prefix, so `cache.bytes` of the texture unit is `texture.cache.bytes`
-// everywhere. Precedence: defaults, then the configuration file, then the command line in the given
-// order. A value that cannot be applied is a ConfigError with its origin (file and line, or option)
-// and near matches; nothing is ignored.
+// everywhere. Values are applied in this order, and the last one wins: defaults, the configuration
+// file, the command line from left to right. A value that cannot be applied throws a ConfigError
+// that names its origin (file and line, or option) and near matches. No value is ignored.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ namespace deburr::tb {
 // hundred.
 inline constexpr std::size_t kMaxConfigurationBytes = 1 << 20;
 
-// The effect of a parameter. Runs with equal configuration, inputs and seed share one golden
-// result, whatever their build parameters.
+// What a parameter affects. Runs with equal configuration, inputs and seed share one golden result,
+// even if their build parameters differ.
 enum class ParameterKind : std::uint8_t {
   kRun,           // simulation and checks; not the hardware
   kInput,         // input data of the engine
@@ -50,8 +50,8 @@ struct Parameter {
   std::string range;  // "1..16", "half | quarter | ...", "true | false"
   std::string meaning;
   std::string default_value;
-  // Value that a preset implies if the parameter is not given, and the name of the preset; empty
-  // otherwise.
+  // If a preset implies a value: that value, used if the parameter is not given, and the name of
+  // the preset.
   std::string implied, implied_by;
   std::function<std::string()> text;                   // current value
   std::function<nlohmann::ordered_json()> json;        // current value with its JSON type
@@ -64,7 +64,7 @@ inline std::string_view kind_name(const Parameter& parameter) {
   return kParameterKindNames[static_cast<std::size_t>(parameter.kind)];
 }
 
-// A constraint on build parameters, in addition to their ranges.
+// A constraint on build parameters beyond their ranges.
 struct BuildLimit {
   std::vector<std::string> parameters;  // the first one is the subject of the message
   std::string must;                     // "must be a power of two"
@@ -86,8 +86,8 @@ class ParameterSet {
     Binder binder(*this, prefix, kind);
     describe(values, binder);
   }
-  // As add(), for an engine: a struct with Rules and Build, and its build constraints
-  // (spec/check_build.h).
+  // As add(), for the parameters of an engine: a struct with Rules and Build. Also adds its build
+  // constraints (spec/check_build.h).
   template <class P>
   void add_engine(std::string_view prefix, P& values) {
     add(prefix, ParameterKind::kRule, static_cast<typename P::Configuration&>(values));
@@ -97,7 +97,7 @@ class ParameterSet {
         [engine = std::string(prefix), &values] { spec::check_build(engine, values); });
   }
 
-  // Adds an alias for a value, such as the usual term in this field.
+  // Adds another name for a value, such as the term that is usual in the field.
   void alias(std::string_view name, std::string_view word, std::string_view value);
 
   enum class Origin { kCommandLine, kFile };
@@ -109,8 +109,8 @@ class ParameterSet {
   // Applies "a.b=value", as given to --set.
   void set_assignment(std::string_view assignment, std::string_view where);
   // Applies a YAML file with nested maps or dotted keys. Unknown, duplicate, malformed or
-  // out-of-range entries are errors with file and line. A run's manifest.json restores what that
-  // run was given.
+  // out-of-range entries are errors with file and line. If the file is the manifest.json of a run,
+  // the values that were given to that run are restored.
   void load(const std::filesystem::path& file);
   // As above, for text already read. A manifest must belong to a run of `engine`.
   void load(const std::filesystem::path& file, const std::string& text, std::string_view engine);
@@ -123,8 +123,8 @@ class ParameterSet {
   std::vector<const Parameter*> changed() const;
   // Origin of the value, for the manifest: "given", the preset that implied it, or "default".
   std::string_view origin(const Parameter& parameter) const;
-  // Throws ConfigError if the parameter was given but has no effect. A file may still hold its
-  // default, because it may be a complete resolved configuration.
+  // Throws ConfigError if the parameter, which has no effect, was given. The default is allowed in
+  // a file, since a file may be a complete resolved configuration.
   void reject(std::string_view name, std::string_view why) const;
   // Applies reject() to every parameter whose name starts with `prefix`.
   void reject_all(std::string_view prefix, std::string_view why) const;
@@ -137,14 +137,14 @@ class ParameterSet {
   nlohmann::ordered_json resolved() const;
   // Parameters of one kind.
   nlohmann::ordered_json resolved(ParameterKind kind) const;
-  // Configuration as a YAML file that load() accepts, with the meaning of each line as comment.
-  // Values implied by a preset are commented out, so that another preset can be selected together
-  // with the file.
+  // The configuration as a YAML file that load() accepts, with the meaning of each parameter as a
+  // comment. Values implied by a preset are commented out, so that the file can be used with
+  // another preset.
   std::string yaml() const;
 
  private:
-  // Visitor of spec/parameters.h, with two additional kinds that only the testbench uses, and with
-  // attributes that apply to the last declared parameter.
+  // A visitor for spec/parameters.h. It has two more kinds of parameters, which only the testbench
+  // uses, and attributes that apply to the parameter declared last.
   class Binder {
    public:
     Binder(ParameterSet& set, std::string_view prefix, ParameterKind kind)

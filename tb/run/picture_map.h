@@ -41,9 +41,9 @@ MapFigures figures_of(const PictureMap& map);
 // Throws CheckFailed if the total differs from the model's count.
 void check_map(const PictureMap& map);
 
-// Colour scale from minimum to maximum. If a few values are far above the rest, the last colour
-// step covers all values from `knee` on, and 99.5 % of the pixels are below the knee. Otherwise the
-// knee is the maximum.
+// Colour scale from minimum to maximum. If a few values are far above all others, the last colour
+// step covers all values from `knee` on, where 99.5 % of the pixels are below the knee. Otherwise
+// the knee is the maximum.
 struct MapScale {
   double least = 0, knee = 0, most = 0;
   bool bent() const { return knee < most; }
@@ -51,7 +51,7 @@ struct MapScale {
   double part(double value) const;
 };
 MapScale scale_of(const PictureMap& map);
-// Evenly spaced from minimum to maximum.
+// Colours at even steps from minimum to maximum.
 std::vector<Rgba8> map_colours();
 
 // False-colour picture (dark blue, green, yellow; grey: no value) with the scale below it: minimum,

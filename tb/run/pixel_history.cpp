@@ -108,7 +108,7 @@ std::string text_of(const PixelHistory& history, const std::string& report) {
   std::vector<const PixelStep*> rows;
   for (const PixelStep& step : history.steps)
     if (!step.detail || step.differs) rows.push_back(&step);
-  // Steps that differ come first; others fill the remaining rows.
+  // Steps that differ are taken first; other steps fill the remaining rows.
   std::size_t room = kMostRows - std::min(kMostRows, history.differences());
   std::erase_if(rows, [&](const PixelStep* row) {
     if (row->differs) return false;

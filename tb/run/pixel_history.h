@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// History of one pixel in a run, step by step, golden model and hardware side by side. Shown as
-// `pixel` of result.json, as a table of the report and on the terminal.
+// History of one pixel in a run, step by step, with golden model and hardware side by side. It is
+// shown under `pixel` in result.json, as a table in the report, and on the terminal.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@ struct PixelStep {
   bool detail = false;  // omitted on the terminal
 };
 
-// Which sides have progressed past this step; such a side lacks a step that it does not have.
+// Which sides have progressed past this step. If such a side does not have the step, the step is
+// missing there.
 struct PixelSides {
   bool golden = false, hardware = false;
 };
@@ -40,12 +41,15 @@ struct PixelHistory {
   std::string note{};  // why the history is empty or incomplete
   std::vector<PixelStep> steps{};
 
-  // Adds a value, which may exist on one side only. Differs if both texts exist and differ.
+  // Adds a value, which may exist on one side only. The step counts as different if both texts
+  // exist and differ.
   void compare(PixelStep step);
-  // Adds an event. Also differs if one side has it and the other has progressed past it without it.
+  // Adds an event. The step also counts as different if only one side has the event and the other
+  // side has progressed past it.
   void compare(PixelStep step, const PixelSides& came);
-  // Aligns records of both sides, which are in the same order. A missing record does not misalign
-  // the rest. `same` compares two records, not their texts; `row` makes a step from one or both.
+  // Aligns the records of both sides, which are in the same order. If a record is missing, later
+  // records are still aligned. `same` compares two records, not their texts; `row` makes a step
+  // from one record or from both.
   using Record = std::optional<std::size_t>;
   void compare_records(std::size_t golden, std::size_t hardware,
                        const std::function<bool(std::size_t, std::size_t)>& same,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Progress of long work on the error stream. On a terminal: a bar with rate and remaining time,
 // fitted to the current width. Otherwise: a plain line every few seconds. Input that was taken
-// counts half, because a pipeline that first buffers input delivers nothing for a long time.
+// counts as half of the progress, since a pipeline that first buffers input delivers nothing for a
+// long time.
 #pragma once
 
 #include <chrono>
@@ -53,7 +54,7 @@ class Progress {
   Clock::time_point start_, last_;
 };
 
-// Elapsed time of work whose remaining amount is unknown, such as rendering a reference.
+// Shows the elapsed time of work whose remaining amount is unknown, such as rendering a reference.
 class Waiting {
  public:
   explicit Waiting(std::string label, bool quiet = false);

@@ -23,8 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using spec::FileError;
 
-// Normalises values as a reader of the file gets them, so that pages made before and after writing
-// are equal: non-negative numbers are unsigned and non-finite ones are null.
+// Converts values to what a reader of the file gets, so that pages made before and after writing
+// are equal: non-negative numbers become unsigned, and non-finite numbers become null.
 template <class T>
 Json json_of(const T& value) {
   if constexpr (std::is_floating_point_v<T>)
@@ -199,7 +199,7 @@ std::vector<std::string> not_implementable_memories(const Json& result) {
 namespace {
 
 constexpr std::string_view kDownstream = "downstream";
-// A unit that waits for run descriptors waits for a unit that completes them.
+// A unit that stalls with this cause waits for the unit that completes run descriptors.
 constexpr std::string_view kDescriptors = "descriptors";
 constexpr std::array<std::string_view, 5> kFinishDescriptors = {
     "endpoint_predictor_h", "endpoint_predictor_v", "line_unit_h", "line_unit_v", "area_unit"};
@@ -251,7 +251,7 @@ std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
       losses.push_back({&unit, &stall, share(stall.cycles, unit)});
       largest = std::max(largest, losses.back().share);
     }
-  // A stall that does not reach the head of the pipeline costs nothing: a FIFO absorbs it.
+  // A stall that does not reach the head of the pipeline costs nothing, since a FIFO absorbs it.
   const auto head = std::find_if(units.begin(), units.end(),
                                  [](const UnitCycles& unit) { return unit.busy > 0; });
   const bool felt =

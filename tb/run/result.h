@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Measurements of a run and their file result.json (schema 4, docs/reference/run.md).
 //
-// An engine writes it at the end of a run; `deburr report` and `deburr compare` read it. Keys are
-// described in result_description.h. Unit and meaning of each value are stored in the file under
-// "meaning"; those of counters and stall causes come from their declarations.
+// An engine writes the file at the end of a run; `deburr report` and `deburr compare` read it. Keys
+// are described in result_description.h. The file stores the unit and the meaning of each value
+// under "meaning". For counters and stall causes these come from their declarations.
 #pragma once
 
 #include <cmath>
@@ -60,10 +60,10 @@ struct Bottleneck {
 };
 
 // Finds the bottleneck of a pipeline whose units are listed from input to output; empty if there
-// are no cycles. Stalls by the next unit are attributed to that unit, except at `output`. Among
-// causes with at least half the cycles of the largest one, the most downstream counts: the others
-// echo it. If the first working unit is not stalled, stalls are ignored and the busiest unit is the
-// bottleneck.
+// are no cycles. A stall caused by the next unit is attributed to that unit, except at `output`. Of
+// all causes with at least half as many cycles as the largest one, the most downstream is chosen,
+// since the others echo it. If the first working unit is not stalled, all stalls are ignored and
+// the busiest unit is the bottleneck.
 std::optional<Bottleneck> find_bottleneck(std::span<const UnitCycles> units,
                                           std::string_view output);
 
@@ -76,8 +76,8 @@ struct Latency {
   std::vector<LatencyBin> histogram;
 };
 
-// Comparison with a reference image, next to that of the input image. A value that does not exist
-// (no edge pixels) is absent; for identical images PSNR is infinite.
+// Comparison of an image with the reference; the input image is compared in the same way. A value
+// that does not exist (no edge pixels) is absent. For identical images PSNR is infinite.
 struct Quality {
   std::string reference;
   std::optional<double> psnr_db, psnr_edge_db, psnr_silhouette_db;
@@ -85,8 +85,9 @@ struct Quality {
   std::optional<double> flip, flip_before, ssim, ssim_before;
 };
 
-// Changes relative to the input image, right or wrong: percentages of pixels that differ by more
-// than a number of codes in R, G or B, among all pixels and among those that were right before.
+// Changes relative to the input image, whether they improve it or not: the percentage of pixels
+// that differ by more than a number of codes in R, G or B. It is given for all pixels and for the
+// pixels that were right before.
 struct Change {
   static constexpr int kSmall = 2, kLarge = 16;  // codes
   double small_percent = 0, large_percent = 0;
@@ -119,12 +120,12 @@ struct LinkFigures {
   std::vector<std::uint64_t> cycles;
 };
 
-// Summary of a per-pixel map; its files are map_NAME.png and map_NAME.pfm.
+// Summary of a per-pixel map. The map itself is in map_NAME.png and map_NAME.pfm.
 struct MapFigures {
   std::string name, title, unit, meaning;
   double min = 0, max = 0, sum = 0;
   std::uint64_t pixels = 0;  // with a value
-  std::string account;       // count that its total was checked against; empty: none
+  std::string account;       // count with which its total was compared; empty: none
 };
 
 // Links of an engine, without those inside FIFOs.
@@ -134,7 +135,7 @@ struct LinkBits {
 
 // Bits of all memories of one kind.
 struct MemoryBits {
-  // "flops", "sram" or "rom"; "total" of these; "registers": flip-flops in addition to memories;
+  // "flops", "sram" or "rom"; "total": the sum of these; "registers": flip-flops outside memories;
   // "links".
   std::string_view kind;
   std::uint64_t memories = 0, logical = 0, physical = 0, logical_at_frame_width = 0;
@@ -142,21 +143,21 @@ struct MemoryBits {
 // One entry per existing kind, and the total.
 std::vector<MemoryBits> memory_bits(std::span<const MemoryFigures> memories, const LinkBits& links);
 
-// A headline figure: a value of the result by its key ("work.frame_cycles") and a value to compare
-// it with. Without a second key, against_label is a remark.
+// A headline figure: the key of a value of the result ("work.frame_cycles") and the key of a value
+// to compare it with. Without the second key, against_label is a remark.
 struct Figure {
   std::string label, key;
   std::string against_label{}, against{};
   bool tile = false;  // shown as a tile at the top
 };
 
-// Comparisons of one scoreboard, or of all scoreboards with that name in a composition.
+// Comparisons made by one scoreboard, or by all scoreboards of the same name in a composition.
 struct ScoreboardFigures {
   std::string name;
   std::uint64_t comparisons = 0, mismatches = 0;
 };
 
-// One mismatch: check, position in the run ("cycle 812"), item ("pixel (3, 4)").
+// One mismatch: the check, the position in the run ("cycle 812") and the item ("pixel (3, 4)").
 struct MismatchLine {
   std::string check, where, item, field, expected, got;
 };
@@ -201,7 +202,7 @@ struct Result {
   double mcycles_per_s() const {
     return host_seconds > 0 ? static_cast<double>(cycles) / host_seconds / 1e6 : 0;
   }
-  // Mean rate over the run in 10^9 bytes per second, at clock_mhz.
+  // Mean data rate over the run at clock_mhz, in 10^9 bytes per second.
   double gb_per_s(std::uint64_t bytes) const {
     return cycles > 0
                ? static_cast<double>(bytes) * clock_mhz / (1000 * static_cast<double>(cycles))
@@ -214,8 +215,8 @@ nlohmann::ordered_json to_json(const Result& result);
 // "name (why)" for each memory in a result.json that cannot be implemented.
 std::vector<std::string> not_implementable_memories(const nlohmann::ordered_json& result);
 
-// Reads DIR/result.json (or the file itself) and checks that it is a complete result of this
-// schema; throws FileError otherwise. with_infinity() has been applied.
+// Reads DIR/result.json, or `path` itself if it is a file, and applies with_infinity(). Throws
+// FileError unless it is a complete result of this schema.
 nlohmann::ordered_json read_result(const std::filesystem::path& path);
 
 // Restores infinite PSNR values, which the file stores as null for identical images.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Describes every key of result.json once, in file order, with value, unit and meaning. Visitors
-// are the writer of the file (result.cpp) and the table of keys (statistics.cpp) from which
-// docs/reference/statistics.md is made. A visitor has
+// Describes every key of result.json once, in file order, with value, unit and meaning. There are
+// two visitors: the writer of the file (result.cpp) and the table of keys (statistics.cpp), from
+// which docs/reference/statistics.md is made. A visitor has
 //
 //   bool has(bool there);           whether to visit an optional part, given whether the run has it
 //   void value(std::string_view name, const T& value, std::string_view unit,
@@ -33,7 +33,7 @@ inline std::string_view name_of(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-// JSON has no infinity: the PSNR of identical images is null, and a separate flag says why.
+// JSON has no infinity. So the PSNR of identical images is null, and a separate flag says why.
 struct PsnrFigure {
   std::string name;
   std::optional<double> db;

@@ -16,8 +16,8 @@ namespace deburr::tb {
 
 inline constexpr int kBandRows = 48;
 
-// A symmetric or antisymmetric kernel, stored from its middle to the right: tap -k is tap k, or
-// -tap k.
+// A symmetric or antisymmetric kernel, stored from its middle to the right. Tap -k equals tap k, or
+// minus tap k.
 template <class T>
 struct Kernel {
   std::vector<T> taps;
@@ -111,7 +111,7 @@ void convolve_along_rows(const ImageOf<T>& in, const Kernel<T>& kernel, ImageOf<
   }
 }
 
-// Processes rows from..from + rows - 1 only. The kernel must not reach beyond the existing rows.
+// Processes only rows from..from + rows - 1. The kernel must not extend beyond the existing rows.
 template <class T>
 void convolve_along_columns(const ImageOf<T>& in, const Kernel<T>& kernel, int from, int rows,
                             ImageOf<T>& out) {

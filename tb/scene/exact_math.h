@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sine, cosine, exponential and logarithm from + - * / only. The C library's functions differ in
-// the last bit between processors, but a scene must give the same fragments, and training the same
-// weights, everywhere. The absolute error of sine and cosine is below 1e-15 for |angle| < 1e6; the
-// relative error of the others is below 1e-15.
+// the last bit between processors. But a scene must give the same fragments on every machine, and
+// training must give the same weights. The absolute error of sine and cosine is below 1e-15 for
+// |angle| < 1e6; the relative error of the others is below 1e-15.
 #pragma once
 
 #include <cmath>

@@ -60,7 +60,8 @@ std::array<float, 256> linear_of_codes() {
   return linear;
 }
 
-// Branch-free cube root for values above (6/29)^3 = 0.00886, within one bit of single precision.
+// Branch-free cube root for values above (6/29)^3 = 0.00886, accurate to one bit of single
+// precision.
 float cube_root(float value) {
   // Divides exponent and mantissa by three in one integer division, with the error centred.
   auto bits = std::bit_cast<std::uint32_t>(value);
@@ -143,7 +144,7 @@ double sum_of(const Kernel<double>& kernel) {
   return 2 * std::accumulate(kernel.taps.begin(), kernel.taps.end(), 0.0) - kernel.taps[0];
 }
 
-// In single precision; drops taps too small to change a sum.
+// The kernel in single precision, without taps that are too small to change a sum.
 Kernel<float> scaled(const Kernel<double>& kernel, double factor) {
   constexpr double kNothing = 1e-10;
   Kernel<float> result{{}, kernel.odd};
@@ -178,7 +179,7 @@ struct FeatureKernels {
   Kernel<float> smooth, edge, point;
 };
 
-// A Gaussian and its derivatives, scaled so that the positive taps sum to 1 and the negative to -1.
+// A Gaussian and its derivatives, scaled so that positive taps sum to 1 and negative ones to -1.
 FeatureKernels feature_kernels(double pixels_per_degree) {
   const double deviation = 0.5 * kFeatureWidth * pixels_per_degree;
   Kernel<double> smooth, edge{{}, true}, point;
@@ -289,7 +290,7 @@ class Eye {
   }
 
   // Converts filtered planes to L*a*b*. Colours out of gamut are clamped per channel. Each step
-  // processes many pixels, so that it vectorises.
+  // processes many pixels, so that the compiler can vectorise it.
   void colours(std::array<Plane, 3>& planes) const {
     const std::size_t n = planes[0].pixels.size();
     float *const first = planes[0].pixels.data(), *const second = planes[1].pixels.data(),

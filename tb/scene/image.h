@@ -37,7 +37,8 @@ struct ImageOf {
 
 using Image = ImageOf<Rgba8>;
 using FloatImage = ImageOf<Rgbaf>;
-// Inverse depth near/w in [0, 1], 0 = infinitely far; or any other positive monotone depth.
+// Inverse depth near/w in [0, 1], where 0 is infinitely far, or any other positive depth that is
+// monotone.
 using DepthImage = ImageOf<float>;
 using Mask = ImageOf<std::uint8_t>;  // 1 = selected
 

@@ -22,7 +22,7 @@ void append_bytes(std::string& bytes, const ImageOf<Pixel>& image) {
                image.pixels.size() * sizeof(Pixel));
 }
 
-// Reads what append_bytes() wrote and removes it from the front.
+// Reads what append_bytes() wrote, and removes it from the front of the bytes.
 template <class Pixel>
 ImageOf<Pixel> take_image(std::string_view& bytes) {
   std::int32_t size[2] = {};

@@ -20,7 +20,8 @@ class ImageDecoder {
   struct Header {
     int width = 0, height = 0, channels = 0;  // of the stored pixels
     int other_layers = 0;                     // channels of an EXR after its first layer
-    // The whole image (the display window of an EXR), and position of the stored pixels in it.
+    // Size of the whole image (the display window of an EXR), and position of the stored pixels in
+    // it.
     int full_width = 0, full_height = 0, x = 0, y = 0;
     int alpha = -1;             // index of the alpha channel
     bool alpha_named = false;   // the file declares that channel as alpha

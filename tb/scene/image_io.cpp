@@ -31,8 +31,8 @@ namespace fs = std::filesystem;
 using DecoderPointer = std::unique_ptr<ImageDecoder>;
 using Header = ImageDecoder::Header;
 
-// libpng and others print errors that they also return; this suppresses the printed copy. Nothing
-// else in this process may print during its lifetime.
+// libpng and others also print the errors that they return; this class suppresses the printed copy.
+// While such an object exists, nothing else in this process may print.
 class SilentLibraries {
  public:
   SilentLibraries() : kept_(::dup(STDERR_FILENO)) {
@@ -77,7 +77,7 @@ DecoderPointer open_file(const fs::path& path) {
   return std::move(source.decoder);
 }
 
-// Whether the stored pixels cover only a part of the image or extend beyond it.
+// Whether the stored pixels cover only part of the image, or extend beyond the image.
 bool is_window(const Header& header) {
   return header.x != 0 || header.y != 0 || header.width != header.full_width ||
          header.height != header.full_height;
@@ -219,7 +219,7 @@ std::uint8_t straight_code(std::uint64_t colour, std::uint64_t alpha) {
       std::min<std::uint64_t>((510 * colour + alpha) / (2 * alpha), 255));
 }
 
-// Clamped to [0, 1], NaN to 0; rounded half up.
+// Clamps to [0, 1], turns NaN into 0, and rounds half up.
 std::uint8_t code_of(float value, bool linear) {
   if (!(value > 0.0f)) return 0;
   const double clamped = std::min<double>(value, 1.0);
@@ -230,8 +230,9 @@ std::uint8_t code_of(float value, bool linear) {
 constexpr const char *kBytes = "uint8", *kWords = "uint16";
 constexpr float kLargestWord = 65535.0f;
 
-// Decided by OpenImageIO's name of the file's colour space: "Linear" (every EXR), "linear" (HDR),
-// "lin_srgb", "scene_linear". Integers are always taken as encoded.
+// Depends on the name that OpenImageIO gives the file's colour space: "Linear" (every EXR),
+// "linear" (HDR), "lin_srgb" and "scene_linear" are linear light. Integers are always taken as
+// encoded.
 bool declares_linear_light(const Header& header) {
   if (!header.floating_point) return false;
   std::string space = header.colour_space;
@@ -361,7 +362,7 @@ Image decode(const std::string& name, ImageDecoder& decoder, ReadReport* report)
   return placed(of_floats(values, header, channels, linear, report), header, kNothing);
 }
 
-// NaN has no distance; silhouettes would be found around it.
+// NaN is rejected, since it is not a distance and silhouettes would be found around it.
 void check_depths(const std::string& name, const DepthImage& depths, ReadReport* report) {
   spec::DepthCheck check;
   for (const float depth : depths.pixels) check.add_binary32(std::bit_cast<std::uint32_t>(depth));
@@ -371,7 +372,7 @@ void check_depths(const std::string& name, const DepthImage& depths, ReadReport*
     report->conversions.push_back(note);
 }
 
-// The codes of a depth, as the reals that depth_codes() makes the same codes of.
+// The real number from which depth_codes() makes this code.
 float depth_of_code(std::uint64_t code) {
   return static_cast<float>(static_cast<double>(code) / spec::kLargestDepth);
 }
@@ -496,7 +497,7 @@ DepthImage read_depth(const fs::path& path, ReadReport* report) {
   const std::optional<int> named = named_depth(name, header, report);
   if (named && report != nullptr) report->channels = 1;
   DepthImage depth(header.width, header.height);
-  // Colours converted by the file's encoding or the decoder are no longer exact codes.
+  // Colours that the file's encoding or the decoder has converted are no longer exact codes.
   const bool divided = header.value_format == kBytes && header.associated;
   const bool changed = header.cmyk || header.lossy;
   if (named) {

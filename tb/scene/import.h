@@ -12,7 +12,8 @@
 
 namespace deburr::tb {
 
-// Reads a mesh in two steps, so that the files it opens are known without building the mesh.
+// Reads a mesh in two steps, so that the names of all opened files are known without building the
+// mesh.
 class Importer {
  public:
   Importer(std::filesystem::path path, const ImportOptions& options)
@@ -23,9 +24,9 @@ class Importer {
 
   // Finds the mesh file and all files that it names. Throws FileError as import_mesh() does.
   virtual void open() = 0;
-  // Builds a mesh from the files found by open(); reads no others.
+  // Builds a mesh from the files that open() found; reads no other files.
   virtual Mesh build() = 0;
-  // Files found, and files looked for but not found, by open(); also if open() failed.
+  // Files that open() found, and files that it looked for but did not find, even if open() failed.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
  protected:

@@ -55,8 +55,8 @@ spec::texture::Wrap wrap_of(int gl) {
   return spec::texture::Wrap::kRepeat;
 }
 
-// KHR_texture_transform: scale, then rotation, then offset. The rotation follows the extension's
-// example and other readers; its GLSL listing rotates the other way.
+// KHR_texture_transform: scale, then rotation, then offset. The rotation follows the example in the
+// extension, as other readers do; the GLSL listing in the extension rotates the other way.
 struct TextureTransform {
   V2d offset{0, 0}, scale{1, 1};
   double rotation = 0.0;
@@ -248,15 +248,15 @@ class GltfImporter final : public Importer {
       errors += error.what();
     }
     if (!unreadable_.empty()) throw spec::FileError(unreadable_);
-    // Check extensions before reporting tinygltf's errors, because it reports data held by an
-    // unsupported extension as missing.
+    // Checked before tinygltf's errors, since data held by an unsupported extension appears to be
+    // missing.
     for (const std::string& extension : model_.extensionsRequired)
       if (!is_applied(extension) && !is_harmless(extension))
         fail(fmt::format("it requires the extension {}, which is not supported; export without it",
                          extension));
     while (errors.ends_with('\n')) errors.pop_back();
     for (char& c : errors) c = c == '\n' ? ' ' : c;
-    // tinygltf drops a primitive without attributes; its messages on an accepted file are not
+    // tinygltf drops a primitive without attributes. If it accepts a file, its messages are not
     // always errors.
     if (!good || errors.find("'attributes'") != std::string::npos) {
       const std::set<std::string> unread = unread_extensions();
@@ -292,7 +292,8 @@ class GltfImporter final : public Importer {
     return true;
   }
 
-  // tinygltf decodes data URIs of some types; others arrive here as a file name with a folder.
+  // tinygltf decodes data URIs of some types. URIs of other types arrive here as a file name with a
+  // folder.
   static std::size_t start_of_data(const std::string& name) {
     constexpr std::string_view kEncoded = ";base64,";
     const std::size_t uri = name.find("data:"), data = name.find(kEncoded);
@@ -302,7 +303,7 @@ class GltfImporter final : public Importer {
     return data + kEncoded.size();
   }
 
-  // tinygltf turns every plus sign of a URI into a blank, where only %20 is one.
+  // tinygltf turns every plus sign of a URI into a blank, although only %20 stands for a blank.
   static std::string expand_name(const std::string& name, void* self) {
     auto& importer = *static_cast<GltfImporter*>(self);
     const std::string folder = importer.folder().string();
@@ -383,7 +384,7 @@ class GltfImporter final : public Importer {
     }
   }
 
-  // Drops a chunk after the JSON that is empty or of unknown type; tinygltf rejects both.
+  // Drops chunks after the JSON that are empty or of unknown type, since tinygltf rejects both.
   static void drop_chunk(std::string& bytes) {
     std::uint32_t json = 0, length = 0;
     if (bytes.size() < 20) return;
@@ -618,7 +619,8 @@ class GltfImporter final : public Importer {
     const std::size_t element = each * layout.components;
     const std::size_t stride = view.byteStride != 0 ? view.byteStride : element;
     const std::size_t most = buffer.data.size();
-    // Each term is bounded by the buffer before it is added or multiplied: nothing overflows.
+    // Each term is bounded by the size of the buffer before it is added or multiplied, so nothing
+    // overflows.
     const bool fits = view.byteOffset <= most && view.byteLength <= most - view.byteOffset &&
                       layout.byte_offset <= view.byteLength && stride >= element && stride <= 252 &&
                       layout.count <= most &&
@@ -822,7 +824,7 @@ class GltfImporter final : public Importer {
       return static_cast<std::size_t>(index);
     };
     for (const M44d& matrix : places) {
-      // A singular matrix has no inverse: use face normals.
+      // A singular matrix has no inverse, so face normals are used.
       const double determinant = matrix.determinant();
       const M44d normal_matrix = matrix.inverse().transposed();
       const auto corner_at = [&](std::size_t k) {

@@ -35,7 +35,7 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
-// tinyobjloader's numbers are flat arrays; -1 is "not given".
+// tinyobjloader stores numbers in flat arrays; an index of -1 means "not given".
 class Attributes {
  public:
   Attributes(const fs::path& path, const tinyobj::attrib_t& attributes)
@@ -150,8 +150,8 @@ class ObjImporter final : public Importer {
  public:
   using Importer::Importer;
 
-  // Passes only the lines that name materials: tinyobjloader then requests the same files in the
-  // same order as for the whole file.
+  // Passes only the lines that name materials to tinyobjloader. It then requests the same files, in
+  // the same order, as for the whole file.
   void open() override {
     text_ = with_whole_lines(plain_text(read_mesh(), path().string()), Statements::kObj);
     checked_.emplace(path(), text_);
@@ -190,7 +190,8 @@ class ObjImporter final : public Importer {
  private:
   using MaterialFile = std::function<const ObjMaterials*(const std::string& name)>;
 
-  // Gives tinyobjloader the material indices of `file`; the properties come from our own parser.
+  // Gives tinyobjloader the material indices of `file`. The properties of materials come from our
+  // own parser.
   class Materials final : public tinyobj::MaterialReader {
    public:
     explicit Materials(const MaterialFile& file) : file_(file) {}

@@ -58,7 +58,7 @@ struct Bounds {
   double radius() const { return (high - low).length() * 0.5; }
 };
 Bounds bounds(const Mesh& mesh);
-// Decides by the file extension; case is ignored.
+// Decides by the file extension, ignoring case.
 bool is_mesh_file(const std::filesystem::path& path);
 
 // Import limits, checked before memory is allocated.
@@ -66,7 +66,7 @@ inline constexpr std::uint64_t kMaxMeshFileBytes = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t kMaxTriangles = 4'000'000;
 
 // Reads .obj (with its .mtl and textures), .gltf or .glb (all nodes of the default scene with their
-// transforms; embedded and external textures). Polygons, also concave ones, become triangles.
+// transforms; embedded and external textures). Polygons, including concave ones, become triangles.
 // Omitted content is noted. Triangles without texture coordinates get a box projection: (s, t) are
 // the two coordinates perpendicular to the largest component of the face normal, one repeat per
 // quarter of the mesh's longest side. Triangles without normals get the face normal. OBJ's v axis
@@ -79,8 +79,8 @@ struct ImportOptions {
 Mesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // Every file that import_mesh() opens: the mesh, then all files that it names (materials, textures,
-// buffers), each once. Missing files are listed as well, because creating one changes the mesh.
-// Runs the first step of import_mesh() itself; if that fails, the files found until then.
+// buffers), each once. Missing files are listed too, since the mesh changes if one is created. It
+// runs the first step of import_mesh(); if this step fails, it returns the files found so far.
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path,
                                               const ImportOptions& options = {});
 
@@ -94,12 +94,14 @@ class MeshFiles {
   std::map<std::pair<std::filesystem::path, bool>, std::vector<std::filesystem::path>> known_;
 };
 
-// Appends a file unless it is listed. "./a" equals "a", but "b/../a" may be a different file.
+// Appends a file unless it is already listed. "./a" counts as "a"; "b/../a" does not, since it may
+// be a different file.
 void add_once(std::vector<std::filesystem::path>& files, const std::filesystem::path& file);
 
-// Gives every material a texture, for engines that only support textured materials. If none has one
-// and there is a `fallback`, all get that. Otherwise the plain colours become cells of one palette
-// texture, with texture coordinates at the cell centres, which gives exactly the same colours.
+// Gives every material a texture, for engines that only support textured materials. If no material
+// has a texture and there is a `fallback`, all materials get the fallback. Otherwise the plain
+// colours become cells of one palette texture. Texture coordinates are then at the centres of the
+// cells, so the colours do not change.
 void texture_everything(Mesh& mesh, const Texture* fallback);
 
 }  // namespace deburr::tb

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common part of OBJ and glTF import: collects triangles, fills in missing attributes, merges equal
-// vertices, rejects meshes that cannot be drawn. Internal to tb/scene.
+// The common part of OBJ and glTF import: collects triangles, fills in missing attributes, merges
+// equal vertices, and rejects meshes that cannot be drawn. Internal to tb/scene.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class MeshBuilder {
   void add_triangle(const std::array<Corner, 3>& corners, std::uint32_t material);
   void note(const std::string& text) { mesh_.notes.push_back(printable(text)); }
 
-  // Reads a texture file once per wrap mode, however many materials use it. Throws FileError.
+  // Reads a texture file once per wrap mode, even if several materials use it. Throws FileError.
   int texture_from_file(const std::filesystem::path& file, spec::texture::Wrap wrap);
   int add_texture(Texture texture);
   void add_material(Material material) { mesh_.materials.push_back(std::move(material)); }

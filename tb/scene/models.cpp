@@ -23,7 +23,7 @@ struct ModelSurface {
   std::vector<Face> faces;
 };
 
-// Adds a surface; corners at a point share a normal if their faces are smooth there.
+// Adds a surface. Corners at the same point share a normal if the surface is smooth there.
 void add_surface(Mesh& mesh, const ModelSurface& surface, std::uint32_t material) {
   std::vector<V3d> normals;  // per face; length is twice its area
   std::vector<std::vector<std::uint32_t>> around(surface.points.size());

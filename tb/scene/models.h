@@ -2,9 +2,9 @@
 // Procedural meshes for engines that draw edges: the four models of paper 002, a sphere and a
 // terrain.
 //
-// Counter-clockwise seen from outside and welded (equal positions are bit-identical). Vertex
-// normals are smooth where faces meet at less than 40 degrees and split elsewhere. Materials are
-// the caller's. Internal to tb/scene.
+// Faces are counter-clockwise seen from outside and welded (equal positions are bit-identical).
+// Vertex normals are smooth where faces meet at less than 40 degrees and split elsewhere. The
+// caller chooses the material. Internal to tb/scene.
 #pragma once
 
 #include <cstdint>

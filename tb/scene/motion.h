@@ -23,7 +23,7 @@ struct CameraMove {
   int frame = 0;
 };
 
-// Rotated clockwise about the view direction; 0 returns the camera unchanged, bit for bit.
+// The camera, rotated clockwise about the view direction; 0 returns it unchanged, bit for bit.
 Camera rolled(const Camera& camera, double degrees);
 
 // The camera at frame 0, 1, 2, ... of a motion; frame 0 is the camera unchanged, bit for bit.

@@ -31,7 +31,7 @@ std::string_view next_word(std::string_view& line) {
 }
 
 // tinyobjloader ends a line at a carriage return, whatever follows it. `text` is empty after the
-// last line; `ended` tells whether that line has an end.
+// last line; `ended` tells whether the line has a line ending.
 std::string_view next_line(std::string_view& text, bool& ended) {
   const std::size_t end = text.find_first_of("\r\n");
   const std::string_view line = text.substr(0, end);
@@ -61,7 +61,8 @@ bool is_one_of(const std::array<std::string_view, N>& words, std::string_view wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// A keyword as shown in a note: an unknown keyword can contain any bytes.
+// A keyword as shown in a note, without unprintable bytes, since an unknown keyword can contain any
+// bytes.
 std::string shown(std::string_view keyword) {
   const bool is_word =
       keyword.size() <= 16 &&
@@ -337,7 +338,8 @@ class MaterialParser {
     if (material_.map.empty()) not_read("'map_Kd' without a file");
   }
 
-  // Takes the values of an option of map_Kd; false if it is the file name instead.
+  // Takes the values of an option of map_Kd. Returns false if `name` is the file name instead of an
+  // option.
   bool option(std::string_view name, std::string_view& line) {
     double value = 0.0;
     const auto is_on = [&] {

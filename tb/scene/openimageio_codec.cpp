@@ -20,7 +20,7 @@ std::string on_one_line(std::string text) {
 
 using Io = OIIO::Filesystem::IOProxy;
 
-// Bytes of the file, for properties that OpenImageIO does not report; zeros after its end.
+// Bytes of the file, for properties that OpenImageIO does not report. Bytes after its end are 0.
 std::string bytes_at(Io& io, std::uint64_t at, std::size_t size) {
   std::string bytes(size, '\0');
   if (at < io.size()) io.pread(bytes.data(), size, static_cast<std::int64_t>(at));
@@ -35,7 +35,7 @@ std::uint64_t number_of(std::string_view bytes, bool little_endian) {
   return number;
 }
 
-// Whether a TIFF has a tag ExtraSamples. Without it the meaning of alpha is unspecified.
+// Whether a TIFF has the tag ExtraSamples. Without this tag the meaning of alpha is unspecified.
 bool has_extra_samples(Io& io) {
   const bool little = bytes_at(io, 0, 1) == "I";
   const auto number = [&](std::uint64_t at, std::size_t size) {
@@ -69,7 +69,7 @@ bool is_premultiplied_jpeg2000(Io& io) {
 }
 
 // Colours are requested as stored. They are premultiplied if the file says so or if its format
-// implies it; without information they are taken as straight.
+// implies it. Otherwise they are taken as straight (not premultiplied).
 bool is_associated(const OIIO::ImageSpec& spec, const std::string& format, Io& io) {
   if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) return false;
   constexpr int kTargaPremultiplied = 4;
@@ -98,8 +98,8 @@ std::string last_part(const std::string& channel) {
   return OIIO::Strutil::lower(channel.substr(channel.rfind('.') + 1));
 }
 
-// The only channel of an EXR with the name of a depth; -1 if there are none or several. A Z in a
-// layer with an X is part of a vector.
+// The channel of an EXR whose name says that it holds depth; -1 if there are none or several. A Z
+// in a layer that has an X is part of a vector.
 int depth_channel(const OIIO::ImageSpec& spec) {
   std::vector<std::string> lower;
   for (const std::string& name : spec.channelnames) lower.push_back(OIIO::Strutil::lower(name));
@@ -160,7 +160,7 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   header.height = header.full_height = spec.height;
   header.channels = channels_of_first_layer(spec, format);
   header.other_layers = spec.nchannels - header.channels;
-  // For other formats OpenImageIO's windows are wrong or have another meaning.
+  // For formats other than these, OpenImageIO's windows are wrong or have another meaning.
   if (format == "openexr" || format == "tiff" || format == "dpx" || format == "rla" ||
       format == "iff") {
     header.full_width = spec.full_width;
@@ -185,7 +185,7 @@ ImageDecoder::Header header_of(OIIO::ImageInput& input, Io& io) {
   const std::string colours = spec.get_string_attribute("tiff:ColorSpace");
   for (const char* const name : {"CIELAB", "ICCLAB", "ITULAB", "LOGL", "LOGLUV", "color separated"})
     if (colours == name) header.other_colours = colours;
-  // OpenImageIO inverts these in 8 bits only, and inverts alpha with them.
+  // OpenImageIO inverts these only in 8 bits, and then inverts alpha too.
   if (spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0 &&
       (spec.format != OIIO::TypeUInt8 || spec.nchannels > 1))
     header.other_colours = "grey whose white is 0, of more than 8 bits or with alpha";
@@ -212,7 +212,8 @@ OIIO::ImageSpec read_hints(Io* io = nullptr) {
   return hints;
 }
 
-// Opens once: ImageInput::open() opens the file twice, and some readers resume where they stopped.
+// Opens the file only once. ImageInput::open() would open it twice, and some readers then resume
+// where they stopped.
 std::unique_ptr<OIIO::ImageInput> open_bytes(const std::string& name, Io& bytes) {
   const OIIO::ImageSpec hints = read_hints(&bytes);
   return OIIO::ImageInput::create(name, true, &hints, &bytes);
@@ -235,7 +236,7 @@ class ChangedFile {
   std::unique_ptr<OIIO::ImageInput> input_;
 };
 
-// OpenImageIO always premultiplies the colours of a WebP. With the alpha flag cleared it returns
+// OpenImageIO always premultiplies the colours of a WebP. If the alpha flag is cleared, it returns
 // the stored colours.
 std::string without_alpha(std::string webp) {
   constexpr std::size_t kFlags = 20, kLossless = 24;
@@ -245,8 +246,8 @@ std::string without_alpha(std::string webp) {
   return webp;
 }
 
-// OpenImageIO unpremultiplies DXT2 and DXT4 in bytes that overflow, and divides by 0. DXT3 and DXT5
-// have the same blocks with straight alpha.
+// For DXT2 and DXT4 OpenImageIO divides colours by alpha in bytes, which overflow, and it divides
+// by 0. DXT3 and DXT5 have the same blocks with straight alpha.
 std::string as_straight(std::string dds) {
   dds[87] = static_cast<char>(dds[87] + 1);
   return dds;

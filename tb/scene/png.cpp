@@ -16,10 +16,11 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-// Rendered images are flat areas with few edges. For those this level is three times as fast as
-// zlib's default, and files are a sixth larger.
+// Rendered images are flat areas with few edges. For these this level is three times as fast as
+// zlib's default level, while files are a sixth larger.
 constexpr int kLevel = 4;
-// Stores each byte minus the one above it; on such images choosing a filter per row gains nothing.
+// Stores each byte minus the byte above it. For such images a choice of filter per row gains
+// nothing.
 constexpr unsigned char kFilterUp = 2;
 constexpr char kTrueColour = 2, kTrueColourAlpha = 6;
 

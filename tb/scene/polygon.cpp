@@ -60,8 +60,8 @@ std::size_t longest_side(const PolygonPart& t) {
 }
 
 // The tessellator leaves triangles of zero or near-zero area between collinear corners. Their sides
-// would be drawn as edges that the faces do not have. Each is removed by flipping its longest side,
-// which is inside the polygon, to the other diagonal of the two adjacent triangles.
+// would be drawn as edges that the faces do not have. To remove such a triangle, its longest side,
+// which is inside the polygon, is flipped to the other diagonal of the two adjacent triangles.
 class FlatTriangles {
  public:
   FlatTriangles(std::vector<PolygonPart>& triangles, const V3d& along)
@@ -181,7 +181,7 @@ struct PolygonSplitter::State {
   std::vector<PolygonPart> triangles;
   bool crosses = false, failed = false;
 
-  // The tessellator is written in C: exceptions must not pass through it.
+  // The tessellator is written in C, so exceptions must not pass through it.
   static void vertex(void* corner, void* state) {
     auto& self = *static_cast<State*>(state);
     try {
@@ -190,7 +190,8 @@ struct PolygonSplitter::State {
       self.failed = true;
     }
   }
-  // Coincident corners, as at a bridge, are merged; otherwise edges cross between their corners.
+  // Called for coincident corners, as at a bridge, which are merged, and where edges cross between
+  // their corners.
   static void combine(const GLdouble* position, void* const* parts, const GLfloat* weights,
                       void** result, void* state) {
     auto& self = *static_cast<State*>(state);
@@ -212,7 +213,7 @@ struct PolygonSplitter::State {
       self.failed = true;
     }
   }
-  // With an edge callback the tessellator emits only triangles, no strips or fans.
+  // If there is an edge callback, the tessellator emits only triangles and no strips or fans.
   static void edge(GLboolean) {}
   static void error(GLenum, void* state) { static_cast<State*>(state)->failed = true; }
 

@@ -17,10 +17,11 @@ using PolygonCorners = std::vector<MeshBuilder::Corner>;
 // Twice the area of a polygon along each axis, positive where it is counter-clockwise (Newell).
 Imath::V3d area_vector(const PolygonCorners& polygon);
 
-// Every corner turns the same way; collinear corners are not allowed.
+// Whether every corner turns the same way; a collinear corner makes it false.
 bool is_strictly_convex(const PolygonCorners& polygon);
 
-// The tessellator's time grows with the square of the corners, and with crossings times corners.
+// The tessellator's time grows with the square of the number of corners, and with the number of
+// crossings times that of corners.
 inline constexpr std::size_t kMaxPolygonCorners = 1 << 15;
 inline constexpr std::size_t kMaxPolygonCrossings = 1
                                                     << 12;  // for polygons of more than 128 corners
@@ -37,10 +38,10 @@ class PolygonSplitter {
   PolygonSplitter(const PolygonSplitter&) = delete;
   PolygonSplitter& operator=(const PolygonSplitter&) = delete;
 
-  // Triangles in the polygon's direction, none if its area is zero; valid until the next call or a
-  // change of the polygon. A hole is part of the outline, entered and left by a bridge. Every
-  // region that a self-crossing outline winds around is filled, with new corners at the crossings.
-  // Throws bad_alloc.
+  // Returns triangles in the direction of the polygon, or none if its area is zero. They are valid
+  // until the next call or until the polygon changes. A hole is part of the outline, which enters
+  // and leaves it by a bridge. If the outline crosses itself, every region around which it winds is
+  // filled, with new corners at the crossings. Throws bad_alloc.
   const std::vector<PolygonPart>& split(const PolygonCorners& polygon);
   // Whether the polygon of the last split() crosses itself.
   bool crosses_itself() const;

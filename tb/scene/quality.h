@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Quality metrics: PSNR over a frame or a mask, edge and silhouette masks
-// (docs/reference/scenes.md, "Pictures and quality"). All use stored 8-bit R, G and B; alpha is
-// never compared.
+// Quality metrics: PSNR over a frame or a mask, and edge and silhouette masks
+// (docs/reference/scenes.md, "Pictures and quality"). All of them use stored 8-bit R, G and B;
+// alpha is never compared.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ double psnr(const Image& a, const Image& b);
 double psnr(const Image& a, const Image& b, const Mask& mask);
 double psnr_from_mse(double mse);
 
-// Flicker: mean square over R, G and B of the change between two consecutive images minus the
-// change between their references, in units of 1/255; NaN if the mask is empty.
+// Flicker: the change between two consecutive images minus the change between their references.
+// Returns its mean square over R, G and B, in units of 1/255; NaN if the mask is empty.
 double flicker_square(const Image& before, const Image& after, const Image& reference_before,
                       const Image& reference_after, const Mask& mask);
 
@@ -38,15 +38,15 @@ double flicker_square(const Image& before, const Image& after, const Image& refe
 class FlickerMeter {
  public:
   static Mask everywhere(const Image& image);
-  // `drawn` selects the pixels that count, if they were also drawn in the previous frame; a pair of
-  // frames without any is skipped. Sizes must be equal.
+  // Pixels count if `drawn` selects them here and in the previous frame. A pair of frames without
+  // such pixels is skipped. Sizes must be equal.
   void add(Image picture, Image reference, Mask drawn);
   int frames() const { return frames_; }
   int width() const { return picture_.width; }  // of the last frame
   int height() const { return picture_.height; }
   double mean() const;  // root mean square over all pairs of frames, in units of 1/255
   double worst() const { return worst_; }           // maximum over the pairs
-  int worst_frame() const { return worst_frame_; }  // its second frame
+  int worst_frame() const { return worst_frame_; }  // the second frame of this pair
 
  private:
   Image picture_, reference_;
@@ -61,16 +61,19 @@ std::int64_t count_different(const Image& a, const Image& b, int tolerance = 0);
 std::int64_t count_different(const Image& a, const Image& b, const Mask& mask, int tolerance = 0);
 int max_difference(const Image& a, const Image& b);
 
-// Edge pixels: reference and unfiltered input differ by more than 2/255 in a channel.
+// Edge pixels: pixels in which the reference and the unfiltered input differ by more than 2/255 in
+// a channel.
 Mask edge_mask(const Image& reference, const Image& input, int threshold = 2);
-// The other pixels: they were right before filtering.
+// The pixels outside `mask`. For an edge mask these are the pixels that were right before
+// filtering.
 Mask inverted(const Mask& mask);
 // Pixels of `mask` that are not in `other`.
 Mask without(const Mask& mask, const Mask& other);
 
-// Silhouette pixels: those of `edges` where the depth of one of the four neighbours differs by more
-// than 5 %: max > 1.05 min. Because it is a ratio, it works for depth and inverse depth. 0,
-// infinity and NaN are the background, and background next to a surface is a step.
+// Silhouette pixels: the pixels of `edges` whose depth differs from that of one of their four
+// neighbours by more than 5 %: max > 1.05 min. Since this is a ratio, it works for depth and for
+// inverse depth. 0, infinity and NaN are background; a pixel of background next to a surface counts
+// as a step.
 Mask silhouette_mask(const Mask& edges, const DepthImage& depth, double relative_step = 0.05);
 
 }  // namespace deburr::tb

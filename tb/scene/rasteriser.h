@@ -18,7 +18,7 @@
 
 namespace deburr::tb {
 
-// Order of the quads of one triangle; triangles keep the mesh's order.
+// Order of the quads within a triangle. Triangles keep the order of the mesh.
 enum class Traversal : std::uint8_t {
   kRaster,   // rows of quads, top to bottom
   kTiles8x8  // 8 x 8 pixel tiles in rows, quads in rows inside a tile
@@ -49,7 +49,7 @@ struct RasterCounts {
 struct FragmentStream {
   int width = 0, height = 0;
   std::vector<spec::texture::Quad> quads;
-  // Lanes whose colour is visible: equal to coverage in kVisible, fewer in kOverdraw.
+  // Per quad, the lanes whose colour is visible: all covered lanes in kVisible, fewer in kOverdraw.
   std::vector<std::uint8_t> visible;
   DepthImage depth;  // near/w of the nearest surface at pixel centres, 0 for background
   RasterCounts counts;
@@ -65,8 +65,8 @@ struct FragmentStream {
 // Throws ConfigError for a size outside 1..8192 or an invalid camera.
 FragmentStream rasterise(const Scene& scene, const RasterOptions& options);
 
-// Rounds a coordinate to S7.24, half up. NaN becomes 0, values out of range saturate; both set
-// `clamped`, which is otherwise unchanged.
+// Rounds a coordinate to S7.24, half up. NaN becomes 0, and values out of range saturate; in both
+// cases `clamped` is set. Otherwise `clamped` does not change.
 std::int32_t snap_coordinate(double coordinate, bool& clamped);
 
 // Assembles a frame from colours by tag and lane. The background is the scene's sky.

@@ -25,7 +25,7 @@ using Imath::V3d;
 constexpr int kMaxSamples = 32;
 constexpr double kGamma = 2.2;
 
-// Transfer function of stored bytes during averaging.
+// The transfer function with which stored bytes are decoded for averaging.
 enum class Transfer : std::uint8_t { kStored, kSrgb, kGamma22 };
 
 class Transport {
@@ -172,7 +172,7 @@ ShadedSurface make_surface(const Scene& scene, const Triangle& triangle) {
   for (int i = 0; i < 3; ++i) {
     const V3d& normal = v[static_cast<std::size_t>(i)]->normal;
     const bool smooth = scene.lighting.smooth && normal.length2() > 0.0;
-    // A vertex normal faces the side that the modeller meant as the outside.
+    // A vertex normal points to the side that the modeller intended as the outside.
     const double outside = smooth && normal.dot(face) < 0.0 ? -side : side;
     const V3d turned = smooth ? normal * outside : face * side;
     surface.light[i] = light_on(scene.lighting, turned);
@@ -191,9 +191,9 @@ Colour colour_at(const ColourRow& row, std::size_t k) {
   return {row[0][k], row[1][k], row[2][k], row[3][k]};
 }
 
-// Phong's model: diffuse, ambient and specular light of two directional lights, without shadows,
-// used for deferred and direct lighting. The exponent is a power of two, so multiplications suffice
-// and give the same bits everywhere.
+// Phong's model: diffuse, ambient and specular light from two directional lights, without shadows.
+// Deferred and direct lighting both use it. The exponent is a power of two, so multiplications
+// suffice, and these give the same bits on every machine.
 class Phong {
  public:
   explicit Phong(const Scene& scene) : lighting_(scene.lighting) {
@@ -229,8 +229,9 @@ class Phong {
   V3d key_, fill_;
 };
 
-// Shades one primitive, in the transfer function's space. Samples are shaded in runs by branch-free
-// loops that vectorise; each sample's operations and their order do not depend on the run.
+// Shades one primitive, in the space of the transfer function. Samples are shaded in runs, by
+// branch-free loops that the compiler can vectorise. The operations for a sample and their order do
+// not depend on the run.
 class Shader {
  public:
   Shader(const Scene& scene, const std::vector<Primitive>& primitives, const View& view,
@@ -243,9 +244,9 @@ class Shader {
       readers_.emplace_back(texture, transport, lit);
   }
 
-  // Shades the centres of `count` cells from (x, y) to the right into row[.][first] onwards;
-  // `cells` is the pixel width in cells. With `normals` (kPhong) colours are unlit and normals are
-  // written there.
+  // Shades the centres of `count` cells, from (x, y) to the right, and writes them from
+  // row[.][first] on. `cells` is the width of a pixel in cells. With `normals` (kPhong) colours are
+  // unlit, and normals are written to `normals`.
   void shade(std::int32_t owner, int x, int y, int cells, int count, ColourRow& row,
              std::size_t first = 0, NormalRow* normals = nullptr) const {
     const Primitive& primitive = primitives_[static_cast<std::size_t>(owner)];
@@ -293,7 +294,7 @@ class Shader {
     }
     CellRow light;
     at.interpolate(surface.light, samples, light);
-    // The centre of a multi-sampled pixel can be outside the triangle, where light is extrapolated.
+    // The centre of a multi-sampled pixel can be outside the triangle; light is then extrapolated.
     for (std::size_t c = 0; c < 3; ++c) {
       const double colour = surface.colour[static_cast<int>(c)];
       float* const channel = &row[c][first];
@@ -344,8 +345,8 @@ class Shader {
     return at;
   }
 
-  // Texture footprint of a whole pixel, so that frames with one or many samples per pixel filter
-  // textures alike and differ at edges only.
+  // The texture footprint of a whole pixel. Frames with one or many samples per pixel use it, so
+  // that they filter textures in the same way and differ only at edges.
   class Footprint {
    public:
     Footprint(const Primitive& p, const ShadedSurface& surface, const TextureReader& reader,
@@ -421,7 +422,7 @@ Image render(const Scene& scene, const RenderOptions& options) {
   const View view(scene.camera, options.width, options.height, n);
   const std::vector<Primitive> primitives = set_up(scene.mesh, view);
   const Transport transport = transport_of(options.shading, options.averaging);
-  // Lit colours are in linear light; averaging as stored means encoding each sample first.
+  // Lit colours are in linear light. To average them as stored, each sample is encoded first.
   const bool encode_samples =
       options.shading != Shading::kTexture && options.averaging == Averaging::kStored;
   const Transport stored(Transfer::kStored);

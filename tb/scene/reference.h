@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Software renderer: supersampled reference, plain and multi-sampled frames, and depth. Visibility
-// is the rasteriser's on an N times finer grid.
+// Software renderer for supersampled references, for plain and multi-sampled frames, and for depth.
+// It finds visible surfaces like the rasteriser, but on an N times finer grid.
 #pragma once
 
 #include <array>
@@ -32,16 +32,17 @@ struct RenderOptions {
   std::function<bool()> interrupted = nullptr;  // polled every few rows; true: render() throws
 };
 
-// The box-filtered picture: mean of N x N samples, rounded half up. With samples = 1, the frame
-// without anti-aliasing. Throws ConfigError and Interrupted.
+// The box-filtered picture: the mean of N x N samples, rounded half up. With samples = 1 this is
+// the frame without anti-aliasing. Throws ConfigError and Interrupted.
 Image render(const Scene& scene, const RenderOptions& options);
 
 // 4x MSAA on the rotated grid (-2,-6) (6,-2) (-6,2) (2,6) sixteenths of a pixel: coverage and depth
 // per sample, one colour per triangle at the pixel centre (kLit, kPhong), averaged in linear light.
 Image render_msaa4(const Scene& scene, int width, int height, Shading shading = Shading::kLit);
 
-// MSAA with N x N samples, 1..8, on render()'s grid: the textured one-sample frame with only its
-// edges smoothed. A pixel that shows one surface equals that frame.
+// MSAA with N x N samples, N = 1..8, on the grid of render(). The result is the textured frame with
+// one sample per pixel, but with smooth edges. A pixel that shows only one surface is as in that
+// frame.
 Image render_covered(const Scene& scene, int width, int height, int samples,
                      Shading shading = Shading::kLit);
 
@@ -55,8 +56,8 @@ struct GBuffer {
   DepthImage depth;                      // near/w, 0 for background
 };
 GBuffer render_gbuffer(const Scene& scene, int width, int height);
-// Phong lighting of a G-buffer: both lights, ambient, specular. Equal to render() with kPhong and
-// one sample.
+// Phong lighting of a G-buffer: both lights, ambient, specular. The result equals that of render()
+// with kPhong and one sample.
 Image light(const Scene& scene, const GBuffer& buffer);
 
 // The frames used to evaluate morphological anti-aliasing, described in data/README.md.

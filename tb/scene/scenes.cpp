@@ -58,7 +58,8 @@ void add_grid(Mesh& mesh, int columns, int rows, std::uint32_t material, At&& at
   }
 }
 
-// A flat parallelogram with its corner, sides and the texture repeats along each side.
+// A flat parallelogram, given by a corner, two sides and the number of texture repeats along each
+// side.
 void add_parallelogram(Mesh& mesh, const V3d& corner, const V3d& side_s, const V3d& side_t,
                        const V2d& repeats, std::uint32_t material) {
   const V3d normal = side_s.cross(side_t).normalized();
@@ -67,7 +68,7 @@ void add_parallelogram(Mesh& mesh, const V3d& corner, const V3d& side_s, const V
   });
 }
 
-// Side and both caps of a cylinder between two points.
+// The side and both caps of a cylinder between two points.
 void add_cylinder(Mesh& mesh, const V3d& bottom, const V3d& top, double radius, int segments,
                   std::uint32_t material) {
   const V3d axis = (top - bottom).normalized();
@@ -101,7 +102,7 @@ ImportOptions import_options(const SceneOptions& options) {
   return {.textures = options.texture.empty()};
 }
 
-// A texture by name or from a file; `size` is the side of a procedural one.
+// A texture by name or from a file; `size` is the side of a procedural texture.
 Texture choose_texture(const std::string& wanted, std::string_view otherwise,
                        const SceneOptions& options, Mesh& mesh) {
   Texture texture;
@@ -135,8 +136,8 @@ void add_texture(Scene& scene, const std::string& wanted, std::string_view other
 
 void make_plane(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "checker", options);
-  // Three repeats per ten units. 160 units are more than visible: the horizon is two degrees above
-  // the top edge of the image.
+  // Three repeats per ten units. The visible part is shorter than 160 units: the horizon is two
+  // degrees above the top edge of the image.
   constexpr double kSide = 160.0, kRepeats = 0.3 * kSide;
   add_parallelogram(scene.mesh, V3d(-0.5 * kSide, 0, 4), V3d(kSide, 0, 0), V3d(0, 0, -kSide),
                     V2d(kRepeats, kRepeats), 0);
@@ -162,7 +163,8 @@ void make_tunnel(Scene& scene, const SceneOptions& options) {
 
 void make_object(Scene& scene, const SceneOptions& options) {
   add_texture(scene, options.texture, "brick", options);
-  // A tube around the (2, 3) torus knot; its frame follows the curve and a fixed point on the axis.
+  // A tube around the (2, 3) torus knot. The orientation of its cross-section follows the curve and
+  // a fixed point on the axis.
   auto curve = [](double u) {
     const SinCos p = sin_cos(4.0 * kPi * u), q = sin_cos(6.0 * kPi * u);
     const double r = 1.0 + 0.4 * q.cos;
@@ -206,8 +208,8 @@ void make_cylinders(Scene& scene, const SceneOptions&) {
   scene.camera = {V3d(0, 0.3, 7.4), V3d(0, 0, 0), V3d(0, 1, 0), 0.62, 0.1};
 }
 
-// Camera above, in front and to the right, at the least distance that keeps every vertex in a
-// square picture.
+// Places the camera above, in front and to the right of the mesh, at the least distance at which
+// every vertex is in a square picture.
 void frame_whole_mesh(Scene& scene) {
   const Bounds box = bounds(scene.mesh);
   const V3d centre = box.centre(), direction = V3d(0.55, 0.45, 0.9).normalized();

@@ -23,8 +23,9 @@ struct ClipVertex {
 };
 using Polygon = std::vector<ClipVertex>;
 
-// Clips to the side where distance >= 0. The crossing is always computed from the inner to the
-// outer end, so that triangles that share an edge get the same point and stay watertight.
+// Clips to the side where distance >= 0. The crossing is always computed from the inner end to the
+// outer end, so that triangles that share an edge get the same point and no gap appears between
+// them.
 template <class Distance>
 void clip(Polygon& polygon, Polygon& scratch, Distance&& distance) {
   scratch.clear();
@@ -57,7 +58,8 @@ struct ClipSpace {
   }
 };
 
-// All three corners are outside the same plane of the picture: the triangle is invisible.
+// Whether all three corners are outside the same plane of the picture, so that the triangle is
+// invisible.
 bool outside_picture(const std::array<V3d, 3>& p, const View& view) {
   auto all = [&](auto&& test) { return test(p[0]) && test(p[1]) && test(p[2]); };
   return all([&](const V3d& v) { return v.z < view.near_plane(); }) ||
@@ -76,7 +78,8 @@ Snapped snap(const V3d& position) {
           static_cast<std::int64_t>(std::floor(position.y / position.z * kSubpixelOne + 0.5))};
 }
 
-// First and last cell that can have a sample, up to half a cell from its centre, in [low, high].
+// The first and the last cell that can have a sample in [low, high]; a sample is up to half a cell
+// from the centre of its cell.
 int first_cell(std::int64_t low) {
   return static_cast<int>(std::max<std::int64_t>(0, (low - 128) >> 8));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Transforms a mesh with a camera into clipped, snapped screen triangles and resolves visibility.
-// Shared by the rasteriser and the reference renderer; internal to tb/scene.
+// Transforms a mesh with a camera into clipped screen triangles on a grid, and resolves visibility.
+// The rasteriser and the reference renderer share it; it is internal to tb/scene.
 //
 // Formats: screen positions 24.8 (1/256 of a sample cell), edge functions exact in 64 bits. A
 // position lies within +-kGuardBand cells, so a coordinate has 27 bits, a difference 28 and an edge
@@ -106,9 +106,9 @@ class Occlusion {
     return first_[bin(column, row)] < first_[bin(column, row) + 1];
   }
 
-  // For tile (column, row): owner and 1 / w of the sample at each cell centre + (offset_x,
-  // offset_y) / 256. Row-major with tile() cells per row. Among equal depths the first primitive
-  // wins. Reuses the vectors' memory.
+  // For tile (column, row): owner and 1 / w of the sample in each cell, at the centre of the cell +
+  // (offset_x, offset_y) / 256. The order is row-major, with tile() cells per row. If depths are
+  // equal, the first primitive wins. The memory of the vectors is reused.
   void resolve(int column, int row, int offset_x, int offset_y, std::vector<std::int32_t>& owners,
                std::vector<double>& depths) const;
 

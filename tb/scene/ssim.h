@@ -14,8 +14,8 @@ namespace deburr::tb {
 
 inline constexpr int kSsimWindow = 11;
 
-// Mean over all window positions inside the image, -1..1; NaN if there are none. The reference's
-// part is computed once for all test images. Throws ConfigError if sizes differ.
+// The mean over all window positions inside the image, -1..1; NaN if there are none. What depends
+// only on the reference is computed once for all test images. Throws ConfigError if sizes differ.
 std::vector<double> ssim(const Image& reference, std::span<const Image* const> tests);
 double ssim(const Image& reference, const Image& test);
 

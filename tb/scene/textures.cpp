@@ -34,7 +34,7 @@ constexpr int hash_range(int x, int y, std::uint32_t seed, int low, int high) {
 
 std::uint8_t to_byte(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
 
-// Noise with features of `cell` texels that tiles with the texture, in -amplitude..amplitude.
+// Noise in -amplitude..amplitude, with features of `cell` texels. It repeats with the texture.
 int smooth_noise(int x, int y, int width, int height, int cell, int amplitude, std::uint32_t seed) {
   const int columns = std::max(1, width / cell), rows = std::max(1, height / cell);
   const int cx = x / cell, cy = y / cell, fx = x % cell, fy = y % cell;
@@ -59,9 +59,9 @@ constexpr std::array<std::string_view, 7> kTextureNames = {
 
 // ---- mip levels ---------------------------------------------------------------------------------
 
-// One axis of the box filter. Source texel j covers [j, j+1) * target, target texel i covers [i,
-// i+1) * source, both in units of 1 / (source * target) of the side: the weights are integers and
-// sum to `source` for every target texel.
+// One axis of the box filter. Source texel j covers [j, j+1) * target and target texel i covers [i,
+// i+1) * source, both in units of 1 / (source * target) of the side. So the weights are integers,
+// and for every target texel they sum to `source`.
 struct Taps {
   int first = 0, count = 0;
   std::array<int, 3> weight{};
@@ -105,7 +105,7 @@ class TransferTables {
                                     boundary_.begin());
   }
 
-  // The byte with the nearest linear light.
+  // The byte whose linear light is nearest.
   std::uint8_t byte_of(std::int64_t light) const {
     std::uint8_t value = first_[static_cast<std::size_t>(light >> kStepBits)];
     while (boundary_[value] <= light) ++value;
@@ -113,7 +113,8 @@ class TransferTables {
   }
 
  private:
-  // At most one byte boundary per step, so one comparison from the step's first byte suffices.
+  // A step contains at most one boundary between bytes, so one comparison after the step's first
+  // byte suffices.
   static constexpr int kStepBits = 12;
   std::array<std::int64_t, 256> boundary_{};  // least linear light that rounds to i + 1
   std::array<std::uint8_t, (kLinearOne >> kStepBits) + 1>
@@ -126,7 +127,8 @@ Image half_size(const Image& source, MipSpace space) {
   const std::vector<Taps> across = box_taps(source.width, width);
   const std::vector<Taps> down = box_taps(source.height, height);
   const std::int64_t total = std::int64_t{source.width} * source.height;
-  // Most textures have power-of-two sides; others cost one division per channel.
+  // Most textures have power-of-two sides and need no division; others cost one division per
+  // channel.
   const auto bits = static_cast<std::uint64_t>(2 * total);
   const int shift = std::has_single_bit(bits) ? std::countr_zero(bits) : 0;
   auto rounded_mean = [total, shift](std::int64_t sum) {
@@ -238,8 +240,8 @@ Image stones(int width, int height, std::uint32_t seed) {
         }
       }
     }
-    // The difference of squared distances is twice the distance to the border times that between
-    // the centres.
+    // The difference of the squared distances is twice the distance to the border, times the
+    // distance between the centres.
     constexpr int kGap = 360;
     const int gap = -60 * std::max(0, kGap - (second - nearest)) / kGap;
     int shade = hash_range(x, y, seed + 4, -3, 3);

@@ -247,7 +247,7 @@ Json comparison_of(const CompareOptions& options) {
   return compare_sweeps(options.paths, options.tolerances, unsaid_value);
 }
 
-// A page in a compared folder could replace an input or its report.
+// Rejects a page in a compared folder, since it could replace an input or its report.
 void check_page(const CompareOptions& options) {
   if (options.page.empty()) return;
   const std::filesystem::path folder = std::filesystem::absolute(options.page).parent_path();
@@ -262,7 +262,7 @@ void check_page(const CompareOptions& options) {
   }
 }
 
-// The files were written by deburr and may have been edited since: a value of the wrong type is
+// The files were written by deburr but may have been edited since. So a value of the wrong type is
 // reported as a damaged file, wherever it is found.
 Outcome of_written_files(const std::vector<std::string>& paths,
                          const std::function<Outcome()>& made) {

@@ -22,8 +22,8 @@ namespace deburr::tool {
 namespace {
 
 // Completion words, keyed by "PLACE" (a command: its subcommands and options), "PLACE:WORD" (the
-// values of an option or a parameter) and "PLACE@N" (the N-th positional argument). No entry where
-// only the shell knows the words: files.
+// values of an option or a parameter) and "PLACE@N" (the N-th positional argument). There is no
+// entry where only the shell knows the words, as for files.
 using Words = std::map<std::string, std::string>;
 
 // "a | b | c" and "list of a, b, c" -> "a b c"; empty for any other range.

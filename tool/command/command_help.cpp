@@ -23,7 +23,7 @@ std::string help_page(const CLI::App& app, const std::vector<std::string>& words
     command = &command_named(*command, path, word);
     path += " " + word;
   }
-  // App::help() alone would describe the command that was called, which is this one.
+  // App::help() would describe the command that was called, which is `help` itself.
   return command->get_formatter()->make_help(command, path, CLI::AppFormatMode::Normal);
 }
 
@@ -56,7 +56,7 @@ void add_commands(std::string& page, const CLI::App& app, std::vector<std::strin
   }
 }
 
-// Has no date, so that builds of one commit are identical.
+// The page has no date, so that builds of one commit are identical.
 std::string man_page(const CLI::App& app) {
   std::string page = fmt::format(
       ".\\\" SPDX-License-Identifier: MIT, made by `deburr help --man`\n"

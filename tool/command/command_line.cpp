@@ -84,8 +84,9 @@ int finish(const Outcome& outcome, const CommandLine& line) {
   return outcome.code;
 }
 
-// If a standard stream is closed, the first opened file would get its number and receive what is
-// printed. /dev/null takes its place: output to it fails, errors are discarded.
+// If a standard stream is closed, the next file that is opened would get its number and receive
+// what is printed. So /dev/null takes the place of the stream: output to it fails, errors are
+// discarded.
 void fill_closed_streams() {
   for (const auto& [stream, mode] :
        {std::pair(STDIN_FILENO, O_RDONLY), {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
@@ -109,7 +110,7 @@ void require_utf8(int argc, char** argv) {
           "argument {} is not valid UTF-8, which results and pages need: rename the file", i));
 }
 
-// Flushes standard output: a full disk is a failure too.
+// Flushes standard output, since a full disk is a failure too.
 int flushed(int code) {
   errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
@@ -132,8 +133,9 @@ std::string quoted_names(const std::vector<const CLI::App*>& commands) {
   return names;
 }
 
-// Explains the first error of the command line in the order in which it was written: CLI11 reports
-// the last argument that it could not place, without near matches or the relevant help page.
+// Explains the first error of the command line, in the order in which it was written. CLI11 would
+// report the last argument that it could not place, without near matches and without the help page
+// that applies.
 std::string explain(const CLI::App& app, int argc, char** argv, const std::string& complaint) {
   const CLI::App* command = &app;
   std::string path = "deburr";

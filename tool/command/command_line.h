@@ -20,13 +20,13 @@ struct Outcome {
   std::filesystem::path directory{};   // of the results
   std::string result = "result.json";  // file in it that --json shows
   std::string details{};               // a JSON object; --json shows its members too
-  // Arguments of `deburr` that reproduce a failure where the same command would not; empty: use the
-  // command.
+  // Arguments of `deburr` that reproduce a failure if the same command would not; empty: the
+  // command does.
   std::string repro{};
 };
 
 struct CommandLine {
-  std::string text;   // as typed, with what makes it reproducible later
+  std::string text;   // as typed, plus what is needed to reproduce it later
   char** words;       // argv of main()
   bool json = false;  // standard output is one JSON object
   std::function<Outcome()> action;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// `deburr papers`: every table and figure of the papers next to ours. It needs many more parts of
-// the golden models than the other commands, so it is a separate program, deburr_papers, installed
-// next to `deburr` and started with the same command line.
+// `deburr papers` prints every table and figure of the papers next to ours. It needs many more
+// parts of the golden models than the other commands, so it is a separate program, deburr_papers,
+// installed next to `deburr` and started with the same command line.
 #pragma once
 
 #include <string>

@@ -88,7 +88,8 @@ class Regression {
   }
 
  private:
-  // From the command line, from the report in question, or today's.
+  // The base seed: from the command line, from the report that the command uses, or from today's
+  // date.
   static std::uint64_t base_seed_of(const RegressOptions& options, const Testplan& testplan) {
     if (options.seed) return *options.seed;
     return options.action == "rerun" ? seed_of_last_report(options.out, testplan.name)
@@ -107,7 +108,8 @@ class Regression {
     return check(collect());
   }
 
-  // Selects failures by run name: after a change of the model, the points' hashes differ.
+  // Selects failures by the names of runs, since the hashes of points differ after a change of the
+  // model.
   Outcome rerun() {
     reject_while_submitted(place_);
     std::vector<PlannedPoint> points;
@@ -125,7 +127,8 @@ class Regression {
     return check_again(points);
   }
 
-  // Updates the whole report if every run has a result, else only the runs that were repeated.
+  // Updates the whole report if every run has a result. Otherwise updates only the runs that were
+  // repeated.
   Outcome check_again(const std::vector<PlannedPoint>& points) const {
     std::vector<const PlannedPoint*> failed;
     std::uint64_t passed = 0;
@@ -181,8 +184,8 @@ class Regression {
     return settings;
   }
 
-  // Failures group into few signatures: their waveforms are recorded here, regardless of where the
-  // points ran.
+  // Failures have only a few signatures, so their waveforms are recorded on this machine, wherever
+  // the points ran.
   RegressionResult collect() const {
     RegressionResult result = collect_regression(testplan_, place_);
     const std::vector<PlannedPoint> runs = runs_with_waves(result, place_);

@@ -239,7 +239,7 @@ Outcome run_engine(Engine& engine, const RunOptions& options, CommandLine& line)
       directory};
 }
 
-// The placeholder of its value in --help.
+// The placeholder for the option's value in --help.
 std::string value_name(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (!shorthand.second_parameter.empty()) return "WxH";
   if (parameter.range.find_first_not_of("0123456789.| ") == std::string::npos) return "NUMBER";
@@ -249,7 +249,7 @@ std::string value_name(const Shorthand& shorthand, const tb::Parameter& paramete
   return shorthand.option == "--in" ? "FILE" : "NAME";
 }
 
-// Its help text, with the default if that is a number.
+// The help text of the option, with the default if the default is a number.
 std::string help_of(const Shorthand& shorthand, const tb::Parameter& parameter) {
   if (shorthand.help.empty() || parameter.range.find("..") == std::string::npos ||
       !shorthand.second_parameter.empty())

@@ -67,7 +67,7 @@ Outcome run_sweep(const SweepOptions& options, const SweepDefinition& sweep,
   return ended(options, what, place, pending.done, code);
 }
 
-// A generation is small: inputs shared by its points are prepared once per job.
+// Since a generation is small, inputs that its points share are prepared once per job.
 int run_generation(const SweepOptions& options, const SweepPlace& place, Plan plan,
                    const std::vector<PlannedPoint>& points, const RunSettings& settings) {
   if (!options.slurm.empty()) {

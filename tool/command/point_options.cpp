@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using spec::ExitCode;
 
-// Called programs would take a leading dash for an option.
+// Puts ./ before a name with a leading dash, since called programs would take it for an option.
 CLI::Validator as_a_name() {
   return CLI::Validator(
       [](std::string& name) {
@@ -88,8 +88,8 @@ void add_point_options(CLI::App& command, PointOptions& options, CommandLine& li
       "Print one JSON object: exit code, outcome, counts, failures, collected files");
 }
 
-// CLI11 alone takes -1 and numbers that are too large for the largest number, and an empty text for
-// 0.
+// CLI11 alone would take -1 and numbers that are too large as the largest number, and an empty text
+// as 0.
 void add_seed(CLI::App& command, const std::string& meaning,
               const std::function<void(std::uint64_t)>& take) {
   const auto read = [take](const std::string& text) {

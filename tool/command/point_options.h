@@ -42,8 +42,8 @@ Outcome run_on_slurm(const PointOptions& options, const std::string& what, const
 // The outcome of a run; `before` points were done when it began.
 Outcome ended(const PointOptions& options, const std::string& what, const SweepPlace& place,
               std::uint64_t before, int code);
-// Reports what has changed since planning, and the consequences. A report with another model's
-// results is not replaced: ConfigError for `collect`.
+// Reports what has changed since planning, and the consequences. For `collect` it throws
+// ConfigError, so that a report with the results of another model is not replaced.
 void say_changes(const PointOptions& options, const std::string& action, const SweepPlace& place,
                  const std::filesystem::path& file);
 Outcome planned_outcome(const std::string& what, const Plan& plan, const SweepPlace& place);

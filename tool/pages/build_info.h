@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sources and tools that this program was built from. Only a small generated file is recompiled
-// when the commit changes.
+// The sources and tools from which this program was built. When the commit changes, only a small
+// generated file is recompiled.
 #pragma once
 
 #include <string>

@@ -65,9 +65,9 @@ Better better_of(const std::string& key) {
 using KeyValues = std::vector<std::pair<std::string, Json>>;
 
 void flatten(const Json& node, const std::string& path, KeyValues& values) {
-  // Not compared: the host's speed is unrelated to the hardware, coverage bins are without
-  // direction, the histogram is covered by its percentiles, and identical pictures have infinite
-  // values.
+  // These are not compared: the host's speed, which is unrelated to the hardware; coverage bins,
+  // which have no direction; the histogram, which its percentiles cover; and the flags for
+  // identical pictures, whose values are infinite.
   if (path == "host" || path == "quality.identical" || path == "change.identical" ||
       path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
       path == "schema")
@@ -166,7 +166,7 @@ Trend check(const std::string& key, std::optional<double> a, std::optional<doubl
     if (b.value_or(1) != 0) return Trend::kWorse;
     return a.value_or(0) != 0 ? Trend::kBetter : Trend::kEqual;
   }
-  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // none of this kind
+  if (rule == Better::kBits) a = a.value_or(0), b = b.value_or(0);  // no memory of this kind
   if (rule == Better::kNone && maximise)
     rule = *maximise ? Better::kMoreIsBetter : Better::kLessIsBetter;
   if (rule == Better::kNone || !a) return Trend::kNone;  // nothing to compare with
@@ -211,7 +211,7 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
     value.worse = value.verdict == Trend::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;
-    // A result whose memory is not implementable is worse than one that is.
+    // A result with a memory that is not implementable is worse than one without.
     if (key.starts_with("not_implementable.")) value.worse = right != nullptr && left == nullptr;
     if (value.worse) value.verdict = Trend::kWorse;
     if (left && right && *left == *right && !value.worse) continue;

@@ -18,13 +18,13 @@ struct Tolerances {
   double psnr_db = 0.05;          // quality may fall by this much
   double flip = 0.0005;           // FLIP may grow by this much
   double ssim = 0.0005;           // SSIM may fall by this much
-  // Allowed growth of memory bits; without it they are compared but never fail: the cost of a
-  // choice is not a fault.
+  // Allowed growth of memory bits. If it is not set, memory bits are compared but never fail, since
+  // the cost of a choice is not a fault.
   std::optional<double> memory_percent{};
 };
 
-// By the value's direction: fewer cycles, more decibels. kEqual: within the tolerance; kNone: no
-// direction.
+// Judged by the direction of the value: fewer cycles or more decibels are better. kEqual: within
+// the tolerance; kNone: the value has no direction.
 enum class Trend : std::uint8_t { kNone, kEqual, kBetter, kWorse };
 inline constexpr std::array<std::string_view, 4> kTrendNames = {"", "equal", "better", "worse"};
 
@@ -32,11 +32,11 @@ struct ComparedValue {
   std::string key;
   std::string a, b, change;  // change in percent or dB; "" if neither applies
   Trend verdict = Trend::kNone;
-  bool worse = false;  // and it fails the comparison
+  bool worse = false;  // worse, and it fails the comparison
 };
 
 struct Comparison {
-  std::vector<ComparedValue> values;  // every one that differs or is worse
+  std::vector<ComparedValue> values;  // all values that differ or are worse
   bool worse = false;
 };
 
@@ -45,13 +45,13 @@ struct Comparison {
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 
-// Compares two numbers by their result key; kNone: no direction, unless `maximise` gives one. Empty
-// optionals: no value.
+// Compares two numbers by their result key. kNone: the key has no direction and `maximise` gives
+// none. An empty optional means that there is no value.
 Trend check(const std::string& key, std::optional<double> a, std::optional<double> b,
             const Tolerances& tolerances, std::optional<bool> maximise = std::nullopt);
 // Whether a worse value of this key fails a comparison.
 bool counts(const std::string& key, const Tolerances& tolerances);
-// Its changes are differences rather than percentages.
+// Whether changes of this key are given as differences instead of percentages.
 bool in_decibels(const std::string& key);
 // "+3.20 %", "-0.31 dB", or "".
 std::string change_of(const std::string& key, std::optional<double> a, std::optional<double> b);
@@ -62,7 +62,7 @@ std::optional<double> as_number(const nlohmann::ordered_json& value);
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
 
 // Compares the work of two manifests: inputs (by content) and parameters marked as work (scene,
-// size, clock). Differences make the results hard to compare. One line each.
+// size, clock). Returns a line for each difference; differences make results hard to compare.
 std::vector<std::string> different_work(const nlohmann::ordered_json& a,
                                         const nlohmann::ordered_json& b);
 

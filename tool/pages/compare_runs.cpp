@@ -26,7 +26,7 @@ struct Run {
   Json result, manifest;  // manifest: null if missing
 };
 
-// Explains why the result is missing, as far as the directory shows.
+// Explains why the result is missing, as far as the contents of the directory show it.
 [[noreturn]] void reject_unfinished(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / ".deburr_run" / "claim.json", error))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares two or more collected sweeps of one engine: points with the same axis values are matched
-// and compared with the first sweep's, and fronts are overlaid.
+// Compares two or more collected sweeps of one engine. Points with the same axis values are matched
+// and compared with the point of the first sweep. Fronts are overlaid.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,15 @@
 
 namespace deburr::tool {
 
-// Schema version of a sweep's collected.json. In it an infinite value is null, and the point's list
-// `identical` names its metric.
+// Schema version of a sweep's collected.json. In this file an infinite value is null, and the list
+// `identical` of the point names the metric.
 inline constexpr int kCollectionSchema = 3;
 
 // A sweep's directory, or its collected.json.
 bool is_sweep(const std::filesystem::path& path);
 
-// The value of a parameter that a sweep does not set, given the settings of its base.
+// Returns the value of a parameter that a sweep does not set, given the settings of the sweep's
+// base.
 using UnsaidValue = std::function<std::string(
     const std::string& engine, const std::vector<std::pair<std::string, std::string>>& base,
     const std::string& parameter)>;

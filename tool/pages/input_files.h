@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The files that a run depends on: hashes of their contents for keys, and their entries in
-// manifests. The engine lists them (Engine::input_files), including files that other files name and
-// files that do not exist: creating one changes the run.
+// manifests. The engine lists them (Engine::input_files). The list includes files that other files
+// name, and files that do not exist, since creating one changes the run.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ namespace deburr::tool {
 inline constexpr std::string_view kMissingFile = "missing";  // there is no such file
 // a folder, a pipe, or no permission
 inline constexpr std::string_view kUnreadableFile = "unreadable";
-// The SHA-256 of the file's content, or one of these.
+// The SHA-256 of the file's content, or one of the two names above.
 std::string content_of(const std::filesystem::path& file);
 
-// An entry of "inputs" in a manifest or a collection. A file that only defines the run, which the
-// parameters describe too, has a role: "configuration", "definition".
+// An entry of "inputs" in a manifest or a collection. A file that only defines the run has a role
+// ("configuration", "definition"), since the parameters describe the run too.
 nlohmann::ordered_json input_entry(const std::filesystem::path& file, std::string_view content,
                                    std::string_view role = "");
 // The content_of() that the entry records.
@@ -33,13 +33,13 @@ std::string listed_content(const nlohmann::ordered_json& entry);
 // there are none. Files are identified by content, since they may have been moved.
 std::string different_inputs(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 
-// Contents of files, hashed once however many runs read them.
+// Contents of files. Each file is hashed once, however many runs read it.
 class InputFiles {
  public:
   const std::string& content(const std::filesystem::path& file);
   // Of several files, under one key.
   std::vector<std::string> contents(const std::vector<std::filesystem::path>& files);
-  // FileError if one of them has changed since its first use.
+  // FileError if one of the files has changed since its first use.
   void reject_changed(const std::vector<std::filesystem::path>& files);
   // All files used so far, and their contents.
   std::map<std::string, std::string> all() const;

@@ -14,7 +14,7 @@ namespace deburr::tool {
 // Escaped; names may wrap after '_', '.' and '/', but not within words.
 std::string breakable(const std::string& text);
 
-// A text, followed by HTML; `look`: classes in addition to the column's.
+// A text, followed by HTML. `look`: classes in addition to those of the column.
 struct HtmlCell {
   HtmlCell(std::string text_of_cell, std::string look_of_cell = "")
       : text(std::move(text_of_cell)), look(std::move(look_of_cell)) {}
@@ -37,7 +37,7 @@ class HtmlTable {
            const std::string& tip = "");
   void part(const std::string& name);  // a row across all columns
   std::size_t rows() const { return rows_; }
-  // With its scroll container; `around`: attributes of the container.
+  // The table in its scroll container. `around`: attributes of the container.
   std::string html(const std::string& around = R"(class="scroll")") const;
 
  private:
@@ -52,8 +52,8 @@ struct Tile {
 // In one row, or in two rows of equal length.
 std::string html_of(const std::vector<Tile>& tiles);
 
-// The page with `content`, a template called `name`. From `page` it takes title, brand, verdict
-// with badge, and footer; data and script belong to the page.
+// The page with `content`, a template called `name`. Title, brand, verdict with badge and footer
+// come from `page`; data and script belong to the page.
 std::string filled_page(std::string_view content, std::string_view name,
                         kainjow::mustache::data page, bool with_charts = true);
 

@@ -40,7 +40,7 @@ Json fill_over_time(const ReportSource& source, mustache::data& page) {
                                          {"--trace", "--trace-from", "--trace-to"});
   page.set("intervals_command", intervals["command"].get<std::string>());
   intervals.erase("units");
-  // From here on no key of `intervals` is added or erased, as that would move its values.
+  // From here on no key of `intervals` may be added or erased, since this would move its values.
   Json& series = intervals["series"];
   demand(series.is_object() && series.contains("work") && series["work"].is_object());
   const std::size_t count = intervals["from"].size();

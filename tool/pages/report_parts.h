@@ -24,7 +24,8 @@ constexpr std::size_t kMaxImageBytes = 256u << 20;
 void fill_pixel(const ReportSource& source, kainjow::mustache::data& page);
 // Pictures, and maps over them; returns the script's data for maps.
 nlohmann::ordered_json fill_pictures(const ReportSource& source, kainjow::mustache::data& page);
-// Charts over time and links, for a run with sampling intervals; returns the script's data.
+// Charts over time and charts of links, for a run with sampling intervals; returns the script's
+// data.
 nlohmann::ordered_json fill_over_time(const ReportSource& source, kainjow::mustache::data& page);
 
 // Formats numbers for readers: grouped counts, rates with four significant digits.
@@ -32,9 +33,10 @@ std::string report_text(const nlohmann::ordered_json& value);
 // The same for one key of an object.
 std::string report_text(const nlohmann::ordered_json& object, const char* key);
 double number(const nlohmann::ordered_json& object, const char* key);  // 0 for anything else
-// The run's command without some options, so that others can be appended.
+// The run's command without some options, so that other options can be appended.
 std::string without_options(std::string command, std::initializer_list<std::string_view> options);
-// Accepts only names inside the directory: a manifest of unknown origin must not embed other files.
+// Throws for names outside the directory, since a manifest of unknown origin must not embed other
+// files.
 void reject_path(const std::filesystem::path& directory, const std::filesystem::path& file);
 
 }  // namespace deburr::tool

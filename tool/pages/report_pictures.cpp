@@ -34,8 +34,8 @@ std::pair<std::uint64_t, std::uint64_t> png_size(const std::string& bytes) {
   return {number(kWidth), number(kHeight)};
 }
 
-// Frames of only a few rows or columns are stretched to be visible. Pictures larger than the frame
-// (with the scale of a map) are cropped to the frame.
+// Frames with only a few rows or columns are stretched, so that they can be seen. Pictures larger
+// than the frame (with the scale of a map) are cropped to the frame.
 void fill_stills(const ReportSource& source, mustache::data& page) {
   constexpr std::uint64_t kNarrow = 8;
   const Json list = source.manifest.value("images", Json::array());

@@ -64,8 +64,8 @@ Json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
 struct RunContext::Listed {
   Json inputs = Json::array(), images = Json::array(), records = Json::object();
 
-  // The golden model's picture follows the hardware model's and is usually identical; comparing
-  // them costs a hundredth of encoding one.
+  // The picture of the golden model comes after that of the hardware model and is usually
+  // identical. Comparing both costs a hundredth of the time of encoding one.
   const std::string& png_of(const tb::Image& image) {
     DEBURR_CHECK(!image.pixels.empty(), "a picture without pixels");
     if (image.width != last_.width || image.pixels != last_.pixels) {
@@ -96,7 +96,7 @@ fs::path RunContext::draft_file(const char* name) const {
 
 void RunContext::claim(IfTaken if_taken) {
   std::vector<std::string> names = {kResult, kReport};
-  // Parameters that request files: the value that requests nothing, and the file.
+  // Parameters that request files: the name, the value that requests no file, and the file.
   constexpr std::array<std::array<std::string_view, 3>, 5> kAsked = {
       {{"run.trace", "", "trace.vcd"},
        {"run.line_trace", "none", "lines.trace"},
@@ -195,7 +195,7 @@ void RunContext::add_record(const std::string& kind, std::string_view file,
 }
 
 // A hash of everything that affects the golden model: runs with the same hash have the same golden
-// result. Files count by content. A memory line with an error reads as zero, and its size is a
+// result. Files are hashed by content. A memory line with an error reads as zero, and its size is a
 // build parameter.
 std::string RunContext::golden_key() const {
   Json key = {{"input", parameters_.resolved(ParameterKind::kInput)},

@@ -5,7 +5,7 @@
 //   context.claim();                // may reject; then waveforms may be written to trace_file()
 //   context.add_inputs(files);      // every file that was read
 //   context.add_image(...);
-//   context.finish(result);         // without it, an earlier run's results stay as they were
+//   context.finish(result);         // without it, the results of an earlier run stay
 #pragma once
 
 #include <cstdint>
@@ -31,32 +31,32 @@ namespace deburr::tool {
 inline constexpr std::string_view kIntervalsFile = "intervals.json",
                                   kTimelineFile = "timeline.json";
 
-// Names of the files that a run may write for users, as declared by its engine.
+// Names of the output files that a run may write, as declared by its engine.
 struct Leaves {
   std::vector<std::string> pictures, maps;
   bool pixel_history = false;  // run.pixel has an effect
 };
 
-// The dependencies of a golden result, by name and value; files by their names.
+// What a golden result depends on: names and values of parameters, and names of files.
 nlohmann::ordered_json golden_dependencies(const tb::ParameterSet& parameters, std::uint64_t seed,
                                            const std::vector<std::string_view>& built);
 
 class RunContext {
  public:
-  // `command` is the line that repeats the run.
+  // `command` is the command line that repeats the run.
   RunContext(std::filesystem::path directory, const tb::ParameterSet& parameters,
              std::string command, std::uint64_t seed);
   ~RunContext();
   // Prints only errors to the error stream.
   void set_quiet(bool quiet) { quiet_ = quiet; }
   bool quiet() const { return quiet_; }
-  // Ends the run after all inputs have been checked, before simulation.
+  // Makes the run end after all inputs have been checked, before simulation.
   void set_checking_only() { checking_only_ = true; }
   bool checking_only() const { return checking_only_; }
   // If false, report.html is not written; `deburr report` can create it later.
   void set_report(bool wanted) { report_ = wanted; }
-  // Runs with the same SharedInputs prepare common inputs once. `files` are all files that this run
-  // reads (Engine::input_files): their contents are part of every key.
+  // Runs with the same SharedInputs prepare common inputs only once. `files` are all files that
+  // this run reads (Engine::input_files); their contents are part of every key.
   void share(std::shared_ptr<SharedInputs> shared, std::vector<std::filesystem::path> files);
   // Returns the result of `make`, cached for runs that agree in the seed, in the contents of the
   // files and in the parameters whose names start with one of `prefixes`. `what` distinguishes
@@ -68,13 +68,14 @@ class RunContext {
     if (!shared_) return std::make_shared<const T>(make());
     return shared_->get<T>(key_of(what, prefixes), make);
   }
-  // The same for bytes, which processes can share too. FileError if a file has changed since its
-  // content became part of the key.
+  // The same for bytes, which can also be shared between processes. FileError if a file has changed
+  // since its content became part of the key.
   std::string shared_bytes(std::string_view what, std::initializer_list<std::string_view> prefixes,
                            const std::function<std::string()>& make) const;
   // Returns the golden result of `make`, cached for later runs with the same seed, inputs,
-  // configuration and `built` (names of build parameters). Null if the run shares nothing, is not
-  // checked, or reads failing memory lines, which only its own golden model knows.
+  // configuration and values of `built` (names of build parameters). Null if the run shares
+  // nothing, if it is not checked, or if it reads failing memory lines, since these are known only
+  // to its own golden model.
   template <class T>
   std::shared_ptr<const T> shared_golden(const std::vector<std::string_view>& built,
                                          const std::function<T()>& make) const {
@@ -82,28 +83,29 @@ class RunContext {
     return shared_->last<T>("golden", key_of_golden(built), make);
   }
   void set_title(std::string title, std::string summary);
-  // Records a decision about an input (a mesh without normals): on the error stream, in result and
-  // report.
+  // Notes a decision about an input (a mesh without normals) on the error stream, in the result and
+  // in the report.
   void add_note(const std::string& note);
-  // Call it before claim(), which does not replace users' files with one of these names.
+  // Call before claim(): it then does not replace files of the user that have one of these names.
   void set_leaves(Leaves leaves) { leaves_ = std::move(leaves); }
   // Claims the directory for this run (RunDirectory::claim).
   void claim(IfTaken if_taken = IfTaken::kReject);
-  // Records files that the result depends on, including those not found. ConfigError if the results
-  // would replace one.
+  // Records files on which the result depends, including those not found. ConfigError if the
+  // results would replace one of them.
   void add_inputs(const std::vector<std::filesystem::path>& files);
   // The same for a configuration file, with the text that was read.
   void add_configuration(const std::filesystem::path& file, const std::string& text);
-  // Temporary location of output that is written during the run: waveforms, requested memory lines,
+  // Temporary paths of files that are written during the run: waveforms, requested memory lines,
   // fragments.
   std::filesystem::path trace_file() const { return draft_file("trace.vcd"); }
   std::filesystem::path line_trace_file() const { return draft_file("lines.trace"); }
   std::filesystem::path fragment_trace_file() const { return draft_file("fragments.trace"); }
-  // Writes NAME.png and lists it for the report. NAME, also its role, is one of the pictures that
-  // the run may write.
+  // Writes NAME.png and lists it for the report. NAME is also its role and must be one of the
+  // pictures that the run may write.
   void add_image(const std::string& name, const tb::Image& image, std::string title,
                  std::string caption);
-  // Writes map_NAME.png, listed for the report, and map_NAME.pfm; NAME is one of its maps.
+  // Writes map_NAME.png, which is listed for the report, and map_NAME.pfm. NAME must be one of the
+  // maps that the run may write.
   void add_map(const tb::PictureMap& map);
   // Adds a file next to the result: `kind` is its name in the manifest's "records".
   void add_record(const std::string& kind, std::string_view file, std::string_view content);

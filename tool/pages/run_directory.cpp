@@ -43,8 +43,8 @@ Json read_json(const fs::path& file) {
   return tb::try_parse_json(tb::read_file(file, kMaxJsonBytes));
 }
 
-// The files listed in a manifest, in order. Only names that a run can have written: a manifest of
-// unknown origin must not cause other files to be deleted.
+// The files listed in a manifest, in order. Only names that a run can have written are returned,
+// since a manifest of unknown origin must not cause other files to be deleted.
 std::vector<std::string> files_of(const fs::path& manifest) {
   constexpr std::array<std::string_view, 6> kExtensions = {".png",  ".pfm", ".json",
                                                            ".html", ".vcd", ".trace"};
@@ -131,7 +131,7 @@ void RunDirectory::claim(const std::string& command, std::vector<std::string> na
 void RunDirectory::lock(IfTaken if_taken) {
   using std::chrono::steady_clock;
   constexpr auto kPoll = std::chrono::milliseconds(20);
-  // The longest time between a run's lock and its entry in the file.
+  // The longest time from when a run locks the file to when its entry is in the file.
   const auto patience = steady_clock::now() + std::chrono::seconds(2);
   bool told = false;
   while (!try_lock()) {
@@ -150,7 +150,7 @@ void RunDirectory::lock(IfTaken if_taken) {
   }
 }
 
-// False: another run holds it, or has just released it and removed the folder.
+// Returns false if another run holds the lock, or has just released it and removed the folder.
 bool RunDirectory::try_lock() {
   std::error_code error;
   for (fs::path p = fs::absolute(draft()).lexically_normal(); !fs::exists(p, error) && !error;
@@ -211,7 +211,7 @@ std::set<std::string> RunDirectory::earlier() const {
 }
 
 void RunDirectory::reject_to_replace(const fs::path& file) const {
-  // Removes an earlier run's files too, unless this run replaces them.
+  // Files of an earlier run are removed too, unless this run replaces them.
   std::set<std::string> going = earlier();
   going.insert(names_.begin(), names_.end());
   std::error_code error;

@@ -7,9 +7,9 @@
 //   DIR/.deburr_run/claim.json     its locked owner; the kernel releases the lock of a dead one
 //   DIR/.deburr_run/manifest.json  written last: it completes the draft
 //
-// If a run is killed before that, the earlier results are unchanged and the next run discards the
-// draft; if it is killed after that, the next run completes the move. During the move the last file
-// (result.json) is missing, so that a mixture is never taken for a result.
+// If a run is killed before it writes manifest.json, the earlier results are unchanged, and the
+// next run discards the draft. If it is killed later, the next run completes the move. During the
+// move result.json is missing, so a mixture of old and new files is never taken for a result.
 #pragma once
 
 #include <filesystem>
@@ -28,19 +28,19 @@ enum class IfTaken { kReject, kWait };
 class RunDirectory {
  public:
   explicit RunDirectory(std::filesystem::path path) : path_(std::move(path)) {}
-  // Without publish(), removes the draft and every folder created for it.
+  // If publish() was not called, removes the draft and every folder created for it.
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   // Creates and locks the directory and checks that it is writable. `names` are the files that may
-  // be written besides manifest.json, `command` is shown to other processes. FileError if another
-  // run holds it (IfTaken::kReject) or it is not writable; ConfigError if one of the names is a
-  // file that no earlier run wrote; Interrupted by Ctrl-C while waiting.
+  // be written in addition to manifest.json; `command` is shown to other processes. FileError if
+  // the directory is not writable, or if another run holds it (IfTaken::kReject). ConfigError if
+  // one of the names is a file that no earlier run wrote. Interrupted after Ctrl-C while waiting.
   void claim(const std::string& command, std::vector<std::string> names, IfTaken if_taken);
-  // ConfigError if the input `file` would be replaced or removed. After claim().
+  // ConfigError if the input `file` would be replaced or removed. Call after claim().
   void reject_to_replace(const std::filesystem::path& file) const;
-  // Replaces the earlier results with everything in draft(); `manifest` lists it. `head` is the
+  // Replaces the earlier results with everything in draft(), as listed by `manifest`. `head` is the
   // file that makes a directory a result. After a FileError the earlier results are intact.
   void publish(nlohmann::ordered_json manifest, std::string_view head);
 

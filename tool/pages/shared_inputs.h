@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Inputs that several runs share and that take long to prepare: scenes, mip chains, references.
-// They are cached by key within a process, so that the children of a sweep's worker inherit them,
-// and, if they can be serialised, in a folder shared by all processes of a sweep.
+// Inputs that take long to prepare and that several runs share: scenes, mip chains, references.
+// They are cached by key within a process, so that the children of a sweep's worker inherit them.
+// Inputs that can be serialised are also cached in a folder that all processes of a sweep share.
 //
-// The key describes everything that the content depends on; the model version is added here. A file
-// in the folder starts with the hash of its content, so that a damaged one is detected and made
-// again. A process holds a lock while it makes one; others that need it wait.
+// The key describes everything on which the content depends; the model version is added here. A
+// file in the folder starts with the hash of its content, so that a damaged file is detected and
+// made again. A process holds a lock while it makes a file; other processes that need the file
+// wait.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +23,7 @@ namespace deburr::tool {
 
 class SharedInputs {
  public:
-  // Without a folder, the inputs are shared only between this process and its children.
+  // Without a folder, inputs are shared only by this process and its children.
   explicit SharedInputs(std::filesystem::path folder = {}) : folder_(std::move(folder)) {}
 
   template <class T>
@@ -47,7 +48,7 @@ class SharedInputs {
   // The bytes that `make` returns, or those cached in the folder. FileError if the folder is not
   // writable.
   std::string bytes(const std::string& key, const std::function<std::string()>& make) const;
-  // Files of the runs that share.
+  // Input files of the runs that share.
   InputFiles& files() { return files_; }
   // Releases objects that the next group of runs does not need.
   void forget() { kept_.clear(); }

@@ -9,13 +9,13 @@
 
 namespace deburr::tool {
 
-// The message without details that differ from run to run: numbers become N, paths PATH. Digits
-// within a name ("predictor_h0") are kept.
+// The message without details that differ from run to run: numbers become N, paths become PATH.
+// Digits within a name ("predictor_h0") are kept.
 std::string without_particulars(const std::string& message);
 
-// The cycle in which a run failed, by its result.json: for a deadlock the last cycle with activity,
-// else the first mismatch, else a cycle named in the reason. Without any (a counter checked at the
-// end), the run's last cycle.
+// The cycle in which a run failed, taken from its result.json: for a deadlock the last cycle with
+// activity; otherwise the cycle of the first mismatch; otherwise a cycle named in the reason. If
+// there is none (a counter checked at the end), the last cycle of the run.
 std::uint64_t failing_cycle(const nlohmann::json& result);
 
 struct WaveWindow {

@@ -59,7 +59,8 @@ class RegressionPlanner {
   }
 
  private:
-  // A configuration is named by its axes; if the engine rejects it, it is omitted for every seed.
+  // A configuration has the name of its axis values. If the engine rejects it, it is omitted for
+  // every seed.
   void expand(const Feature& feature, const Stimulus& stimulus) {
     const SweepDefinition& configurations = stimulus.configurations;
     const Plan samples = plan_without_points(configurations);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A testplan's points: each feature's configurations, each with its seeds.
+// The points of a testplan: the configurations of each feature, each with its seeds.
 //
 //   OUT/regressions/NAME-SEED/         plan.json and points.jsonl as for a sweep; junit.xml,
 //                                      regression.json and index.html
@@ -39,8 +39,8 @@ struct PointOrigin {
 };
 PointOrigin origin_of(const PlannedPoint& point);
 
-// Expands the testplan and stores the result at `place`, unless an identical plan is already there.
-// Throws ConfigError if a stimulus has no points or the engine rejects a point.
+// Expands the testplan and stores the plan at the place, unless an identical plan is already there.
+// ConfigError if a stimulus has no points or the engine rejects a point.
 Plan make_regression_plan(const Testplan& testplan, std::uint64_t base_seed,
                           const SweepPlace& place);
 

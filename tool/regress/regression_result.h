@@ -31,7 +31,7 @@ struct RegressionRun {
 struct CheckResult {
   RequiredCheck required;
   std::uint64_t comparisons = 0;
-  // no run has this scoreboard: where the plan names it, and the known names
+  // set if no run has this scoreboard: where the plan names it, and the known names
   std::string unknown{};
   bool met() const { return comparisons >= required.minimum; }
 };
@@ -42,8 +42,8 @@ struct UnmetBin {
   std::uint64_t hits = 0;
 };
 
-// The bins that a glob matches, with the hits of the feature's runs, or of all runs for a glob of
-// the whole plan.
+// The bins that a glob matches. Their hits are those of the feature's runs or, for a glob of the
+// whole plan, of all runs.
 struct CoverageResult {
   RequiredBins required;
   std::uint64_t bins = 0;
@@ -77,7 +77,8 @@ struct RegressionResult {
   std::vector<CoverageResult> merged;  // requirements on all runs together
   std::vector<UnmetBin> unmet;         // exempted bins
   std::uint64_t passed = 0, failed = 0, missing = 0;
-  // Every run passed, and every feature and the whole plan meet their checks and coverage.
+  // Whether every run passed, and the checks and coverage of every feature and of the whole plan
+  // are met.
   bool holds() const;
 };
 
@@ -91,8 +92,8 @@ void add_waves(RegressionResult& result, const std::vector<PlannedPoint>& runs,
                const SweepPlace& place);
 
 // Writes junit.xml, collected.json and index.html to the regression's directory and, if no runs are
-// missing, adds the night to its testplan's trend. All files are written, or FileError is thrown
-// and the old ones remain. Returns what is worse than the night before.
+// missing, adds the night to its testplan's trend. Either all files are written, or FileError is
+// thrown and the old files remain. Returns what is worse than in the night before.
 std::vector<std::string> write_regression(const Testplan& testplan, std::uint64_t base_seed,
                                           const Plan& plan, const SweepPlace& place,
                                           const RegressionResult& result);

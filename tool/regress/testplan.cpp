@@ -81,7 +81,8 @@ class Pages {
   std::vector<fs::path> found_;
 };
 
-// A coverage glob, checked once all files have named the engines of its feature or of the plan.
+// A coverage glob. It is checked after all files have named the engines of its feature, or of the
+// plan.
 struct PendingGlob {
   std::string feature;  // empty: the whole plan
   YAML::Node node;
@@ -314,7 +315,7 @@ class TestplanFile {
     return stimulus;
   }
 
-  // Only runs know scoreboards: an unknown one is reported as a failed check.
+  // Only runs know scoreboards, so an unknown scoreboard is reported as a failed check.
   void read_checks(const YAML::Node& node, Feature& feature) const {
     const YAML::Node checks = node["checks"];
     if (!checks) return;
@@ -367,8 +368,8 @@ std::uint64_t share_of(std::uint64_t number, std::uint64_t divisor) {
   return (number + divisor - 1) / divisor;
 }
 
-// Fraction of the mean number of comparisons that the average of `runs` random configurations is
-// sure to reach. The number varies between configurations by more than its mean.
+// The number of comparisons of random configurations varies by more than its mean. Returns the
+// fraction of the mean that `runs` random configurations surely reach.
 double sure_part(std::uint64_t runs) {
   constexpr double kSpread = 8;
   constexpr double kLeast = 0.5;  // comparisons of the fixed-size frames among them

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reads a testplan's YAML file (docs/reference/regression.md): features, the page headings that
-// each of them tests, their runs, and the checks and coverage that these runs must reach.
+// Reads a testplan's YAML file (docs/reference/regression.md). It lists features, the headings of
+// pages that each feature tests, the runs of each feature, and the checks and coverage that these
+// runs must reach.
 #pragma once
 
 #include <cstdint>
@@ -65,9 +66,9 @@ struct Testplan {
 // testplan's folder and its parents. Every file may have `coverage` and `unmet` of the whole plan.
 Testplan read_testplan(const std::filesystem::path& file);
 
-// A subset of the runs of the whole plan: of each configuration one seed in `divisor` (at least
-// one). Required comparisons shrink accordingly (for a feature with random configurations down to
-// half), and each glob needs only one bin. The name says so.
+// A subset of the runs of the whole plan: for each configuration one seed in `divisor`, but at
+// least one. Fewer comparisons are then required (for a feature with random configurations, down to
+// half), and each glob needs only one bin. The name of the plan says that it is a part.
 Testplan part_of(Testplan testplan, std::uint64_t divisor);
 
 }  // namespace deburr::tool

@@ -145,7 +145,7 @@ TrendLock::TrendLock(const fs::path& folder)
   }
 }
 
-// On a file system without locks, the file is written without one.
+// On a file system without locks, the file is written without a lock.
 TrendLock::~TrendLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// An engine's role in a composition, which draws a scene into a frame buffer and smooths it there.
-// An engine declares its role here, once; the composition is built from the roles and names no
-// engine (docs/howto/add_an_engine.md, "In a composition").
+// An engine's role in a composition. A composition draws a scene into a frame buffer and smooths it
+// there. Each engine declares its role once, with a class below; the composition is built from the
+// roles and names no engine (docs/howto/add_an_engine.md, "In a composition").
 //
 //   PictureDrawer   draws a picture: one colour per fragment, in any order
 //   MeshSmoother    smooths along the edges of the mesh: the frame buffer is its memory
 //   RowSmoother     smooths a finished picture: receives its rows, outputs its pixels
 //
-// A role has its engine's parameters and derives dependent values. For a run it builds a stage: the
-// engine with its environment, and its interfaces to the frame buffer and the adjacent engines.
+// A role holds the parameters of its engine and derives dependent values. For a run it builds a
+// stage: the engine, its environment, and the interfaces to the frame buffer and to adjacent
+// engines.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +51,7 @@ class Stage {
 
 // A colour as accepted by the frame buffer.
 struct DrawnColour {
-  bool inside = false;   // inside the frame; others are reported by the engine's own checks
+  bool inside = false;   // inside the frame; the engine's own checks report others
   bool visible = false;  // the nearest fragment of its pixel
   int x = 0, y = 0;
   tb::Rgba8 colour{};
@@ -61,20 +62,21 @@ class ColoursPort {
  public:
   virtual ~ColoursPort() = default;
   virtual bool can_pop(rtl::Cycle cycle) const = 0;
-  // Takes a beat and calls `each` for its colours. The engine's environment has checked them as
-  // well.
+  // Takes a beat and calls `each` for each of its colours. The engine's environment checks the
+  // colours too.
   virtual void take(rtl::Cycle cycle, const std::function<void(const DrawnColour&)>& each) = 0;
 };
 
 class DrawingStage : public Stage {
  public:
-  // Creates the bound port; called in the constructor of the frame buffer, which owns it.
+  // Creates and binds the port. Called in the constructor of the frame buffer, which owns the port.
   virtual std::unique_ptr<ColoursPort> colours_port(const char* name) = 0;
   // The golden model's picture of the scene.
   virtual tb::Image golden_picture() const = 0;
   // Lower bound in cycles.
   virtual std::uint64_t cycles_bound() const = 0;
-  // Adds figures to those of its environment, under its name, and their place in a report.
+  // Adds the stage's figures, under its name, to those of its environment, and their place in a
+  // report.
   virtual void collect(tb::Result& result) const = 0;
   virtual std::vector<tb::Figure> figures() const = 0;
 };
@@ -115,9 +117,9 @@ class RowsPort {
 
 class RowStage : public SmoothingStage {
  public:
-  // Sets the golden model's input if it is only known during the run.
+  // Sets the golden model's input, if the input is known only during the run.
   virtual void expect(tb::Image image) = 0;
-  // Delivered pixels of frame(), and of all frames.
+  // Number of delivered pixels: of frame(), and of all frames.
   virtual std::size_t delivered() const = 0;
   virtual std::uint64_t delivered_in_all() const = 0;
   // Adds pictures of the whole frame, and of the engine's intermediate results.
@@ -148,11 +150,13 @@ class CompositionRole {
   // Prefixes of these names.
   virtual std::vector<std::string> prefixes() const = 0;
   virtual void apply_preset(tb::ParameterSet& set) = 0;
-  // Called after every preset: rejects invalid settings and those without effect.
+  // Called after all presets have been applied. Rejects invalid settings and settings without
+  // effect.
   virtual void resolve(tb::ParameterSet& set) = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }
-  // Pictures in addition to those of the frame, and settings for a long run of a composition.
+  // Names of pictures in addition to those of the frame, and settings for a long run of a
+  // composition.
   virtual std::vector<std::string_view> pictures() const { return {}; }
   virtual LongRun long_run() const { return {}; }
   // ConfigError for a scene that the engine cannot process.
@@ -164,7 +168,7 @@ class CompositionRole {
   CompositionRole& operator=(const CompositionRole&) = default;
 };
 
-// Words for its cycles: "texturing".
+// Words that describe the cycles of a drawer: "texturing".
 struct DrawingWords {
   std::string_view doing, from;  // "texturing", from the first "quad"
   std::string_view label;        // of its cycles in a report, next to ...
@@ -187,8 +191,8 @@ class PictureDrawer : public CompositionRole {
   // The scene used for elaboration.
   virtual std::shared_ptr<const tb::DrawnScene> smallest() const = 0;
 
-  // The supersampled reference, made once for all runs of a scene, and the pictures that results
-  // are compared with (compare_with_scene()).
+  // The supersampled reference, made once for all runs of a scene, and the pictures with which
+  // results are compared (compare_with_scene()).
   virtual std::string reference_caption() const = 0;
   virtual void prepare_reference(const tb::DrawnScene& scene, const tb::RenderOptions& options,
                                  const RunContext& context) const = 0;
@@ -200,8 +204,9 @@ class PictureDrawer : public CompositionRole {
   virtual std::unique_ptr<DrawingStage> build(tb::Simulation& simulation,
                                               const tb::DrawnScene& scene) const = 0;
 
-  // For flicker over several frames: their number, the scene of each, and (without simulation) the
-  // golden picture and reference of each. Engines without sequences have one frame.
+  // For measuring flicker over several frames: their number and, for each frame, the scene, the
+  // golden picture (made without simulation) and the reference. Engines without sequences have one
+  // frame.
   virtual int frames() const { return 1; }
   virtual std::shared_ptr<const tb::DrawnScene> scene_of(int /*frame*/,
                                                          std::uint32_t /*seed*/) const {
@@ -216,12 +221,12 @@ class PictureDrawer : public CompositionRole {
 
 class PictureSmoother : public CompositionRole {
  public:
-  // The configuration for a title. After resolve().
+  // The configuration, as text for a title. Call after resolve().
   virtual std::string label() const = 0;
   // Whether it blends in linear light; coverage is then averaged in linear light too.
   virtual bool linear_light() const = 0;
-  // The golden model's picture of a scene, without simulation; empty: not available, and no flicker
-  // is measured.
+  // The golden model's picture of a scene, made without simulation. If it is empty, none is
+  // available and no flicker is measured.
   virtual tb::Image golden_picture(const tb::DrawnScene& /*scene*/,
                                    const tb::Image& /*frame*/) const {
     return {};
@@ -240,10 +245,10 @@ class MeshSmoother : public PictureSmoother {
 
 class RowSmoother : public PictureSmoother {
  public:
-  // Whether it reads Handed::kMarkedPixels if present.
+  // Whether the engine uses Handed::kMarkedPixels if they are present.
   virtual bool looks_at_marks() const { return false; }
-  // Called if the previous engine marks what it smooths: sets the preset if none is given, then
-  // settings that no preset has.
+  // Called if the previous engine marks the pixels that it smooths. Sets the preset, if none is
+  // given, and then settings that are in no preset.
   virtual void follow_preset(tb::ParameterSet&, std::string_view /*why*/) {}
   virtual void follow(tb::ParameterSet&, std::string_view /*why*/) {}
   // Creates the port; called in the constructor of the frame buffer, which owns it. build() binds

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The command's half of an engine's declaration: how it is run, the files that its runs write, and
-// how its random and long runs are made. The testbench half is tb/env/engine_testbench.h. An engine
-// is declared once; all other code reads the declaration and names no engine. To add one: implement
-// the halves in tb/engines/NAME and tool/engines/NAME, and add NAME to tb/engines/engines.txt
-// (docs/howto/add_an_engine.md).
+// The command's half of an engine's declaration: how the engine is run, which files its runs write,
+// and how its random and long runs are made. The testbench's half is tb/env/engine_testbench.h. An
+// engine is declared once; all other code reads the declaration and names no engine. To add one:
+// implement the halves in tb/engines/NAME and tool/engines/NAME, and add NAME to
+// tb/engines/engines.txt (docs/howto/add_an_engine.md).
 #pragma once
 
 #include <array>
@@ -116,17 +116,18 @@ void describe(RunParameters& p, Visitor& v) {
   v.boolean("images", p.images, "Write pictures, and show them in the report.");
 }
 
-// A command line option that sets one parameter, or two for a value AxB. Without a value it sets a
-// switch to `given`.
+// A command line option that sets one parameter, or two if its value has the form AxB. An option
+// without a value sets a switch to `given`.
 struct Shorthand {
   std::string option, parameter, help;
   std::string second_parameter{}, given = "true";
 };
 
-// Settings that make a random run long: many frames, or a large one.
+// Settings that make a random run long: many frames, or a large frame.
 struct LongRun {
   std::vector<std::pair<std::string, std::string>> settings;
-  // Suffixes of parameters that keep their defaults: build parameters for small pictures.
+  // Suffixes of parameters that keep their defaults: build parameters that suit only small
+  // pictures.
   std::vector<std::string_view> without{};
 };
 
@@ -137,8 +138,8 @@ class Engine : public virtual tb::EngineTestbench {
   virtual std::string_view summary() const = 0;
   // Its role in a composition, with its own parameters (tool/run/composition.h); null: none.
   virtual std::unique_ptr<CompositionRole> role() const;
-  // Names of the engines that it is composed of. It inherits their maps (prefixed "NAME_"), bins
-  // and draws.
+  // Names of the engines of which it is composed. It inherits their maps (prefixed "NAME_"),
+  // coverage bins and random draws.
   virtual std::vector<std::string_view> parts() const { return {}; }
   RunParameters run_parameters() const {
     RunParameters run;
@@ -146,7 +147,7 @@ class Engine : public virtual tb::EngineTestbench {
     return run;
   }
   virtual std::vector<Shorthand> shorthands() const = 0;
-  // Options of instructive runs for --help: at least one. Input files are called mesh.obj or
+  // Options of at least one instructive run, for --help. Input files are called mesh.obj or
   // frame.png.
   virtual std::vector<std::string_view> examples() const = 0;
   // Called after all settings: derives dependent values (presets) and rejects settings without
@@ -158,15 +159,16 @@ class Engine : public virtual tb::EngineTestbench {
   // Simulates and fills the context's images. Errors are thrown (spec/error.h); `result` then holds
   // what was measured so far.
   virtual void run(const RunParameters& run, RunContext& context, tb::Result& result) = 0;
-  // Prepares inputs that run() takes from context.shared(), for all runs that share it. It creates
-  // no SystemC objects, so that the process can fork a run() any number of times afterwards.
+  // Prepares the inputs that run() takes from context.shared(), for all runs that share them. It
+  // creates no SystemC objects, so that the process can fork any number of run() calls afterwards.
   virtual void prepare(const RunParameters&, RunContext&) {}
 
-  // ---- files that its runs may write, by name: NAME.png; map_NAME.png and map_NAME.pfm
+  // ---- names of files that its runs may write: NAME.png; map_NAME.png and map_NAME.pfm
   virtual std::vector<std::string_view> pictures() const = 0;
   virtual std::vector<std::string_view> maps() const { return {}; }
 
-  // A short description of its history of one pixel (run.pixel); empty: none is kept.
+  // A short description of the pixel history that the engine keeps (run.pixel); empty if it keeps
+  // none.
   virtual std::string_view pixel_history() const { return {}; }
 
   // ---- random runs
@@ -174,8 +176,8 @@ class Engine : public virtual tb::EngineTestbench {
   virtual LongRun long_run() const = 0;
 };
 
-// The engines of tb/engines/engines.txt, in order; the list that a program is linked with selects
-// them (cmake/Engines.cmake).
+// The engines of tb/engines/engines.txt, in order. They are selected by the list with which the
+// program is linked (cmake/Engines.cmake).
 std::vector<std::unique_ptr<Engine>> engines();
 
 // ConfigError with near matches for an unknown name.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Flicker of a run's frames, by the golden model, whose frames equal the hardware's: how much more
-// or less a pixel changes from frame to frame than its reference does, or than the input if the
-// reference is unknown.
+// Flicker of a run's frames: how much more or less a pixel changes from frame to frame than it does
+// in the reference, or in the input if there is no reference. The frames are those of the golden
+// model, which equal those of the hardware.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ namespace deburr::tool {
 // --frames, --motion.
 std::vector<Shorthand> sequence_shorthands();
 
-// The number of frames. ConfigError for a camera motion if a list defines the frames or there is
-// only one. Called in resolve().
+// The number of frames. ConfigError if a camera motion is given although a list defines the frames
+// or there is only one frame. Called in resolve().
 int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequence,
               const tb::FrameLists& lists);
 // The camera motion of a frame: none if lists define the frames.
@@ -35,8 +35,8 @@ struct SequencePicture {
   tb::Image reference;              // empty: unknown
   std::optional<tb::Mask> drawn{};  // measured pixels; nullopt: all
 };
-// Adds work and figures to the result. Throws ConfigError if frames differ in size. Ctrl-C cancels
-// the measurement and marks the result as interrupted.
+// Adds work and figures to the result. ConfigError if frames differ in size. Ctrl-C cancels the
+// measurement, and the result is marked.
 void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture);
 

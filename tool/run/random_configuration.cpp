@@ -118,7 +118,7 @@ bool has(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Number of runs in a thousand that change it.
+// In how many of a thousand runs the parameter is changed.
 std::uint32_t how_often(const RandomDraws& engine, std::string_view name) {
   constexpr std::string_view kRun = "run.";
   if (name.ends_with(".width") || name.ends_with(".height") || name == "scene.texture_size" ||
@@ -214,8 +214,8 @@ class DrawnConfiguration {
   BoundEngine bound_;
 };
 
-// The settings that are valid with the given ones and with each other: a setting that is rejected
-// at first may become valid after later ones.
+// The drawn settings that are valid with the given settings and with each other. A setting that is
+// rejected at first may become valid after later settings.
 Settings accepted(const std::string& engine, const RandomDraws& draws, const Settings& given,
                   Settings wanted) {
   Settings settings = given;
@@ -267,7 +267,7 @@ Settings random_configuration(const std::string& engine, std::uint64_t seed,
       return settings;
     }
   }
-  // Random draws alone always succeed, so the given settings are the cause.
+  // Random draws alone always find a valid configuration, so the given settings are the cause.
   throw spec::ConfigError(fmt::format(
       "none of {} random configurations of '{}' for seed {} is valid with the given values", kTries,
       engine, seed));

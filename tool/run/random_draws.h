@@ -22,7 +22,7 @@ namespace deburr::tool {
 
 using Draw = std::string (*)(tb::Random&);
 
-// In addition to the draws of run.*, scene.* and every memory. By parameter name.
+// Draws by parameter name, in addition to those of run.*, scene.* and every memory.
 struct RandomDraws {
   // Draws for parameters whose range alone would give slow, rejected or identical runs.
   std::map<std::string_view, Draw> draws{};
@@ -33,7 +33,7 @@ struct RandomDraws {
   std::vector<std::string_view> frequent{};
   // Settings of every random run.
   std::vector<std::pair<std::string, std::string>> given{};
-  // Each returns false for a configuration that would take minutes or exercise nothing.
+  // Each function returns false for a configuration that would take minutes or exercise nothing.
   std::vector<bool (*)(const tb::ParameterSet&)> wanted{};
 };
 

@@ -17,15 +17,16 @@ namespace deburr::tool {
 // GitHub's anchor for a heading, if no earlier heading has the same text.
 std::string anchor_of(std::string_view heading);
 std::string parameters_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// Elaborates every engine's model: at most once per process, and not in a process that simulates.
+// Elaborates the model of every engine. Call it at most once per process, and not in a process that
+// simulates.
 std::string statistics_page(const std::vector<std::unique_ptr<Engine>>& engines);
-// Registers of all engines that have any, by module name.
+// Registers of all engines that have registers, by module name.
 std::vector<rtl::RegisterSection> register_sections(
     const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // All engines' registers as macros, for software in C or C++.
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
-// The same as SystemRDL.
+// The same registers as SystemRDL.
 std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One run of an engine: its parameters bound and checked, and the run from claiming a directory to
-// the verdict. `deburr run` does it once per process, a sweep's worker once per child.
+// One run of an engine: binds and checks its parameters, and runs it, from claiming a directory to
+// the verdict. `deburr run` does this once per process, a sweep's worker once per child.
 #pragma once
 
 #include <functional>
@@ -38,9 +38,9 @@ struct RunEnd {
 };
 
 // Claims the context's directory, runs and checks; the caller finishes the context with the result.
-// Throws ConfigError and FileError if the run could not start; every other failure is in the result
-// and on the error stream. `claimed` is called once the directory is claimed; if it returns false,
-// the run is skipped.
+// Throws ConfigError or FileError if the run could not start. Every other failure is in the result
+// and on the error stream. `claimed` is called when the directory has been claimed; if it returns
+// false, the run is skipped.
 RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
                 const std::function<bool()>& claimed = nullptr);
 

@@ -8,7 +8,7 @@
 
 namespace deburr::tool {
 
-// Those of every engine and this one's own, which may redefine a common one.
+// The options of every engine, and the engine's own options, which may redefine a common one.
 std::vector<Shorthand> shorthands_of(const Engine& engine);
 
 std::vector<Shorthand> joined(std::vector<Shorthand> first, const std::vector<Shorthand>& second);

@@ -35,8 +35,8 @@ tb::SimulationOptions simulation_options(const RunParameters& run, const RunCont
   o.max_cycles = static_cast<rtl::Cycle>(run.max_cycles);
   o.patience = static_cast<rtl::Cycle>(run.watchdog_cycles);
   if (!run.fault.empty()) o.faults = {run.fault};
-  // Link checkers would detect an injected link fault first. They are disabled so that the checks
-  // after them show that they can fail too, unless the user asked for link checks.
+  // Link checkers would be the first to detect an injected link fault. Unless the user asked for
+  // link checks, they are disabled, so that the later checks show that they can fail too.
   if (!run.fault.empty() && !context.parameters().given("run.check_links")) o.check_links = false;
   o.trace_scope = run.trace;
   o.trace_file = context.trace_file().string();
@@ -71,8 +71,8 @@ void reject_empty_trace(tb::Simulation& simulation) {
                     o.trace_from, end));
 }
 
-// Adds the sampling intervals, however the run ended; totals are checked only if no cycle was
-// incomplete.
+// Adds the sampling intervals, however the run ended. Totals are checked only if every cycle was
+// complete.
 void leave_intervals(const tb::Simulation& simulation, RunContext& context,
                      const tb::Result& result, bool whole_cycles) {
   if (simulation.timeline())
@@ -114,7 +114,8 @@ std::unique_ptr<tb::traces::LineTrace> line_trace(const tb::Simulation& simulati
   return std::make_unique<tb::traces::LineTrace>(context.line_trace_file(), options);
 }
 
-// Copies are counted like all bits, but this many of a large memory are rarely intended.
+// Bits of copies are counted like all bits. But so many copies of a large memory are rarely
+// intended, so they are noted.
 void note_copies(RunContext& context) {
   constexpr std::uint32_t kMany = 8;
   constexpr std::uint64_t kLarge = 1'000'000;
@@ -145,7 +146,7 @@ void simulate(tb::Simulation& simulation, tb::Environment& environment, RunConte
   } catch (const spec::FileError&) {  // a waveform that could not be written: nothing is kept
     throw;
   } catch (...) {
-    // A failure to write partial output must not hide why the run failed.
+    // If partial output cannot be written, this must not hide why the run failed.
     const auto leave = [&context](auto&& part) {
       try {
         part();

@@ -38,7 +38,8 @@ std::string_view state_name(PointState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-// Names within a dotted key may contain dots: returns the first split that exists.
+// Names within a dotted key may contain dots. Returns the value for the first way to split the key
+// that exists.
 const nlohmann::json* find(const nlohmann::json& node, std::string_view key) {
   if (!node.is_object()) return nullptr;
   if (const auto whole = node.find(key); whole != node.end()) return &*whole;
@@ -58,7 +59,7 @@ const nlohmann::json* value_of(const nlohmann::json& result, const std::string& 
   }
 }
 
-// The first of its keys that the result lacks; empty: none.
+// The first key of the metric that the result lacks; empty: none.
 std::string missing_key(const nlohmann::json& result, const Metric& metric) {
   for (std::string& key : metric.keys())
     if (!value_of(result, key)) return std::move(key);
@@ -245,7 +246,7 @@ class Collector {
       }
       return better;
     };
-    // In this order no point is dominated by a later one, so fronts only grow.
+    // In this order no point is dominated by a later point, so fronts only grow.
     std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) {
       for (std::size_t g = 0; g < goals.size(); ++g)
         if (cost(*a, g) != cost(*b, g)) return cost(*a, g) < cost(*b, g);

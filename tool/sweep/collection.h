@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The evaluation of a sweep's points: a table, the Pareto front over the objectives (one for each
-// value of the axes in for_each), and the mean effect of each axis on each metric. Written as CSV,
-// as JSON and as one self-contained page.
+// The evaluation of a sweep's points: a table, the Pareto front over the objectives (one front for
+// each value of the axes in for_each), and the mean effect of each axis on each metric. It is
+// written as CSV, as JSON and as one self-contained page.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace deburr::tool {
 
-// A metric without a value, and the reason: "division by zero".
+// A metric that has no value, and the reason: "division by zero".
 struct NoValue {
   std::size_t metric = 0;
   std::string reason;
@@ -53,7 +53,7 @@ struct Collection {
   std::vector<CollectedPoint> points;
   std::vector<MainEffect> effects;
   std::uint64_t done = 0, failed = 0, missing = 0, front = 0;
-  std::uint64_t beyond = 0;                    // finished, and beyond a limit
+  std::uint64_t beyond = 0;                    // finished points beyond a limit
   std::map<NoValue, std::uint64_t> no_values;  // number of finished points affected
 };
 
@@ -64,7 +64,8 @@ Collection collect(const SweepDefinition& sweep, const SweepPlace& place);
 // in collect().
 std::vector<double> values_of(const SweepDefinition& sweep, const std::filesystem::path& directory);
 
-// The sum of the amounts by which such values exceed the sweep's limits; 0: within all limits.
+// The sum of the amounts by which the values of a point exceed the sweep's limits; 0: within all
+// limits.
 double beyond_limits(const SweepDefinition& sweep, const std::vector<double>& values);
 
 // Writes collected.csv, collected.json and index.html to the sweep's directory.

@@ -46,7 +46,7 @@ struct Axis {
   std::vector<std::string> parameters;  // just `name` if it is a single parameter
   std::vector<Choice> choices;          // empty for a span
   std::optional<Span> span;
-  std::optional<Constraint> when;  // the axis applies only if this holds for the point without it
+  std::optional<Constraint> when;  // the axis applies only if the point's other settings meet it
   std::string where;
 };
 inline constexpr const char* kNotGiven = "-";  // the label if it does not apply
@@ -57,7 +57,7 @@ struct Metric {
   std::optional<Expression> expression;  // if it is not a single key
   std::string where;
 
-  // The keys that it reads.
+  // The keys of result.json that the metric reads.
   std::vector<std::string> keys() const {
     return expression ? expression->names() : std::vector<std::string>{key};
   }
@@ -78,9 +78,9 @@ struct SweepDefinition {
   SweepSampling sampling = SweepSampling::kCartesian;
   std::uint64_t samples = 0, sample_seed = 1;  // for kRandom and kLatin
   std::vector<Constraint> constraints;
-  bool skip_rejected = false;  // points that the engine rejects are omitted instead of an error
+  bool skip_rejected = false;  // omit points that the engine rejects, instead of failing
   std::vector<Metric> metrics;
-  std::vector<Expression> limits;  // comparisons of metrics: points beyond one are on no front
+  std::vector<Expression> limits;  // comparisons of metrics; a point beyond a limit is on no front
   std::vector<Objective> objectives;
   std::vector<std::size_t> front_axes;  // only points that agree in these are compared
   bool reports = true;
@@ -91,8 +91,9 @@ struct SweepDefinition {
 // metrics, values out of range, empty axes, invalid constraints.
 SweepDefinition read_sweep(const std::filesystem::path& file);
 
-// The stimulus part of the definition: its keys, and a reader for other files that contain such
-// parts. Without axes and points it is a single point, the base. The caller checks the part's keys.
+// The keys of the stimulus part of a definition, and a reader for such a part in other files. A
+// part without axes and points has a single point, the base. The caller checks the keys of the
+// part.
 const std::vector<std::string>& stimulus_keys();
 SweepDefinition read_stimuli(const tb::YamlFile& file, const YAML::Node& part);
 

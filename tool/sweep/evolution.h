@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The interface between the program and pagmo, whose NSGA-II (Deb et al. 2002) breeds the points of
 // a search. Loading pagmo takes as long as starting the rest of the program, so it is in a module
-// (libdeburr_evolution.so, pagmo_evolution.cpp) that only a search opens. Only plain data and
-// virtual functions cross the interface; exceptions do not.
+// (libdeburr_evolution.so, pagmo_evolution.cpp) that only a search opens. Only plain data and calls
+// of virtual functions cross the interface; exceptions do not.
 #pragma once
 
 #include <cstddef>
@@ -24,18 +24,19 @@ struct Individual {
 
 class Evolution {
  public:
-  // NSGA-II needs a population that is a multiple of this, and at least two such groups.
+  // NSGA-II needs a population that is a multiple of kGroup and at least twice kGroup.
   static constexpr std::size_t kGroup = 4;
   static constexpr std::size_t kLeast = 2 * kGroup;
 
   virtual ~Evolution() = default;
-  // As many children as parents: tournaments by rank and crowding, crossover, mutation. `sizes` is
-  // the number of choices of each axis. Empty if pagmo rejects the input; error() gives the reason.
+  // Breeds as many children as there are parents, by tournaments (rank, then crowding), crossover
+  // and mutation. `sizes` is the number of choices of each axis. Empty if pagmo rejects the input;
+  // error() gives the reason.
   virtual std::vector<Genes> children(const std::vector<Individual>& parents,
                                       const std::vector<std::uint32_t>& sizes,
                                       std::uint32_t seed) = 0;
-  // Indices of the best individuals (all if there are fewer): by rank, within the last rank by
-  // crowding. Empty if pagmo rejects the input.
+  // Indices of the best individuals, or of all if there are fewer. They are chosen by rank, and
+  // within the last rank by crowding. Empty if pagmo rejects the input.
   virtual std::vector<std::size_t> best(const std::vector<Costs>& all, std::size_t number) = 0;
   virtual std::string error() const = 0;
 };

@@ -9,8 +9,8 @@
 //   compare  := sum (("==" | "!=" | "<" | "<=" | ">" | ">=") sum)?
 //   value    := number | name | word | "(" or ")"
 //
-// A word is a value of the choice that it is compared with. Numbers are doubles, written in decimal
-// or hexadecimal (0x100).
+// A word is one of the values of the choice with which it is compared. Numbers are doubles, written
+// in decimal or hexadecimal (0x100).
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ class DivisionByZero : public spec::ConfigError {
   using ConfigError::ConfigError;
 };
 
-// The names an expression may use, and terms for its errors.
+// The names that an expression may use, and the terms for its error messages.
 struct ExpressionNames {
   std::string expression;  // "constraint"
   std::string name;        // "a parameter"
@@ -50,11 +50,11 @@ class Expression {
   // Throws ConfigError that begins with `where` for an invalid expression over the names.
   Expression(std::string text, std::string where, const ExpressionNames& names);
 
-  // Throws DivisionByZero; ConfigError if it is not a number.
+  // Throws DivisionByZero; ConfigError if the result is not a number.
   double number(const Lookup& lookup) const;
   bool reference(const Lookup& lookup) const;
-  // The amount by which a comparison with < <= > >= is missed, relative to the absolute value of
-  // its right side; 0: it holds. Infinite if a side is undefined.
+  // The amount by which a comparison with < <= > >= fails to hold, relative to the absolute value
+  // of its right side; 0: it holds. Infinite if a side is undefined.
   double violation(const Lookup& lookup) const;
   // Whether violation() applies.
   bool is_comparison() const { return violation_ != nullptr; }

@@ -11,9 +11,9 @@ namespace deburr::tool {
 
 class KnownFaults {
  public:
-  // ConfigError for a name that no run of the engine accepts (run.fault; empty: none is injected).
-  // Links and preconditions of a fault are checked only by the run. The first name of an engine
-  // elaborates its model in its own process.
+  // ConfigError if no run of the engine accepts the name (run.fault; empty: no fault is injected).
+  // Only the run checks the links and the preconditions of a fault. For the first name of an
+  // engine, the engine's model is elaborated in a process of its own.
   void require(const std::string& engine, const std::string& fault);
 
  private:

@@ -33,7 +33,7 @@ using spec::FileError;
 constexpr std::uint64_t kMostInChunk = 64;
 constexpr std::uint64_t kChunksPerJob = 4;  // so that the last one does not take long
 
-// Escaped as a variable's value, since '|' cannot be written in a path.
+// Escapes text as the value of a variable, since '|' cannot be written in a path.
 std::string ninja_value(const std::string& value) {
   std::string text;
   for (const char c : value) {

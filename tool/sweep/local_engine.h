@@ -16,9 +16,9 @@ namespace deburr::tool {
 
 struct Pending {
   std::uint64_t done = 0, failed = 0;  // failed permanently
-  std::vector<PlannedPoint> points;    // points to run, those with the same input in sequence
+  std::vector<PlannedPoint> points;    // points to run; those with the same input are adjacent
 };
-// `retry`: failed points are run again whatever the reason.
+// With `retry`, failed points are run again, whatever the reason.
 Pending find_pending(const SweepPlace& place, bool retry);
 // The same for these points.
 Pending find_pending(const SweepPlace& place, const std::vector<PlannedPoint>& points, bool retry);

@@ -12,7 +12,7 @@
 namespace deburr::tool {
 
 // Keys of result.json, dotted; * stands for names that depend on the build or the run. Elaborates
-// the model in its own process.
+// the model in a process of its own.
 std::vector<std::string> result_keys(const std::string& engine);
 bool is_key_of(std::string_view key, std::string_view pattern);
 

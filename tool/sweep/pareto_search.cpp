@@ -36,7 +36,7 @@ class Search {
            all_.size() + generation.size() >= settings_.runs;
   }
 
-  // Accepts it if it is a valid and new point.
+  // Accepts the candidate if it is a valid and new point.
   bool take(std::vector<Candidate>& generation, Genes genes) {
     if (full(generation)) return false;
     std::optional<std::string> name = space_.name(genes);
@@ -64,7 +64,8 @@ class Search {
     return generation;
   }
 
-  // NSGA-II needs whole groups; if there are too few parents, the first ones are repeated.
+  // NSGA-II needs whole groups of parents. If there are too few parents, the first ones are
+  // repeated.
   std::vector<Genes> children_of(std::vector<Individual> parents) {
     for (std::size_t i = 0;
          parents.size() < Evolution::kLeast || parents.size() % Evolution::kGroup != 0; ++i)

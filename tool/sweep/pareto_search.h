@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Multi-objective search with a budget of evaluations: chooses the next points of a discrete space,
-// independently of their meaning. After a random first generation, NSGA-II breeds each generation
-// from the best of all points so far, repeatedly until enough of them are new, since a second
-// evaluation adds nothing.
+// independently of their meaning. The first generation is random. NSGA-II breeds each later
+// generation from the best of all points so far. It breeds until enough of the children are new,
+// since evaluating a point again adds nothing.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,8 @@ namespace deburr::tool {
 
 struct SearchSpace {
   std::vector<std::uint32_t> sizes;  // number of choices of each axis
-  // The name of a point; nullopt: not a point (a constraint). Points with one name are identical.
+  // The name of a point; nullopt: a constraint excludes it. Points with the same name are
+  // identical.
   std::function<std::optional<std::string>(const Genes&)> name;
 };
 
@@ -33,11 +34,11 @@ struct Candidate {
   Genes genes;
 };
 
-// Evaluates points that are all new and distinct; the costs are in their order.
+// Evaluates points, which are all new and distinct. Returns the costs in the order of the points.
 using Evaluate = std::function<std::vector<Costs>(const std::vector<Candidate>&)>;
 
-// Returns all evaluated points in order; fewer than `runs` if random draws find no new point.
-// Deterministic for the same costs and settings.
+// Returns all evaluated points in the order of their evaluation; fewer than `runs` if random draws
+// find no new point. Equal costs and settings give equal results.
 std::vector<Individual> search_pareto(const SearchSpace& space, const SearchSettings& settings,
                                       const Evaluate& evaluate);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A sweep's expanded and named points, as used by its workers, `status` and `collect`.
+// The plan of a sweep: its points, expanded and named. Workers, `status` and `collect` use it.
 //
 //   OUT/sweeps/NAME/plan.json      engine, base, axes, number of points, omitted points
 //   OUT/sweeps/NAME/points.jsonl   one line per point: its name, the numbers of its input and
 //                                  of its golden result, one text per axis
 //   OUT/points/, OUT/cache/        shared by all sweeps under OUT
 //
-// Points are not kept in memory: the file is written and read line by line.
+// Points are not kept in memory: points.jsonl is written and read line by line.
 #pragma once
 
 #include <cstdint>
@@ -48,10 +48,10 @@ struct PlanAxis {
 struct PlannedPoint {
   std::string name;
   std::uint64_t input = 0;   // points with the same number share their input
-  std::uint64_t golden = 0;  // and the same golden result
+  std::uint64_t golden = 0;  // points with the same number share their golden result
   Sample sample;
-  // For a point with its own engine instead of the plan's engine and axes (a run of a regression),
-  // whose sample is only its name.
+  // Set if the point has its own engine (a run of a regression) instead of the plan's engine and
+  // axes. Its sample is then only its name.
   std::string engine{};
   std::vector<Setting> settings{};
 };
@@ -68,7 +68,7 @@ struct Plan {
   bool reports = true;
   std::uint64_t chunk = 0;
 
-  // Settings of a sample: the base's, and its own.
+  // Settings of a sample: those of the base and its own.
   std::vector<Setting> settings_of(const Sample& sample) const;
   const std::string& engine_of(const PlannedPoint& point) const {
     return point.engine.empty() ? engine : point.engine;
@@ -78,22 +78,23 @@ struct Plan {
   }
 };
 
-// Expands the definition into the place, unless an identical plan is there. ConfigError for too
-// many points, for none, and for points that the engine rejects.
+// Expands the definition and stores the plan at `place`, unless an identical plan is already there.
+// ConfigError if there are too many points or none, or if the engine rejects a point.
 Plan make_plan(const SweepDefinition& sweep, const SweepPlace& place);
 // A plan of the definition without its points.
 Plan plan_without_points(const SweepDefinition& sweep);
 // Stores the points of a plan that was not expanded from a definition. FileError if they cannot be
 // written.
 void write_points(const std::vector<PlannedPoint>& points, const SweepPlace& place);
-// Records the inputs of `plan` and writes the plan to `place`, where its points are already stored.
+// Records the plan's inputs and stores the plan at `place`, where its points have already been
+// written.
 void write_plan(Plan& plan, const SweepPlace& place);
 // Describes what has changed since the plan was made: the file, the model, files that points read.
 // Empty if the plan is current.
 std::vector<std::string> changes_since(const Plan& plan, const std::filesystem::path& file);
-// The plan's inputs: its file with this `role`, and the files that the points read.
+// The plan's inputs: the sweep's file, with this `role`, and the files that the points read.
 nlohmann::ordered_json inputs_of(const Plan& plan, std::string_view role);
-// Results of another model are not counted.
+// Whether this program made the plan; results of another model are not counted.
 bool is_of_this_model(const Plan& plan);
 // FileError if it does not exist.
 Plan read_plan(const std::filesystem::path& directory);
@@ -105,7 +106,7 @@ class PointNamer {
  public:
   // Call after resolve().
   PlannedPoint name(const BoundEngine& bound, Sample sample);
-  // Adds to the plan: files read by the points so far, and the number of inputs.
+  // Adds to the plan the files read by the points so far and the number of inputs.
   void tell(Plan& plan) const;
 
  private:
@@ -113,15 +114,16 @@ class PointNamer {
   std::unordered_map<std::string, std::uint64_t> inputs_, goldens_;
 };
 
-// Decides which samples are points, names these, and counts the others.
+// Decides which samples become points, names the points, and counts the other samples.
 class PointChecker {
  public:
   // Both must outlive it.
   PointChecker(const SweepDefinition& sweep, const Plan& plan);
-  // nullopt for a sample that a constraint or the engine excludes. ConfigError if the engine
-  // rejects it and the sweep does not have `refused: skip`.
+  // nullopt if a constraint or the engine excludes the sample. ConfigError if the engine rejects it
+  // and the sweep does not set `refused: skip`.
   std::optional<PlannedPoint> check(const Sample& sample);
-  // Adds to the plan: files read by the points so far, the number of inputs, and excluded samples.
+  // Adds to the plan the files read by the points so far, the number of inputs and the excluded
+  // samples.
   void tell(Plan& plan) const;
   // Why no sample was a point.
   std::string reasons() const;
@@ -140,7 +142,7 @@ class PointChecker {
 
 std::filesystem::path points_file(const std::filesystem::path& directory);
 std::string line_of(const PlannedPoint& point);
-// A number of lines of such a file, from a byte offset.
+// A number of lines of points.jsonl, from a byte offset.
 struct PointLines {
   std::uint64_t offset = 0, count = ~std::uint64_t{0};
 };

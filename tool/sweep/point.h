@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A point of a sweep: a directory named by a hash of everything that its result depends on, so that
-// every sweep with the same point finds it.
+// A point of a sweep is a directory. Its name is a hash of everything on which the result depends,
+// so every sweep with the same point finds it.
 //
 //   OUT/points/3f/3f09.../   result.json, manifest.json, report.html: as written by every run
 //                            failure.json: why the result is missing or invalid
 //
-// A point is done if result.json and manifest.json are present, which a run moves into place when
-// they are complete; the scheduler's state is not used. A failed result without failure.json is
-// ignored: the point is run again.
+// A point is done if result.json and manifest.json are present; a run moves them into place when
+// they are complete. The scheduler's state is not used. A failed result without failure.json is
+// ignored, and the point is run again.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +36,10 @@ class PointEngine {
 // The directory's name: a hash of the resolved configuration, the contents of all files that the
 // run reads, and the model version. Call it after resolve().
 std::string point_name(const BoundEngine& bound, InputFiles& files);
-// Hash of what points share before simulation: points with the same hash are run in sequence.
+// Hash of the inputs that points can share before simulation. Points with the same hash are run one
+// after the other.
 std::string input_name(const BoundEngine& bound);
-// The same for the dependencies of their golden results.
+// The same for everything on which the golden result of a point depends.
 std::string golden_name(const BoundEngine& bound);
 
 std::filesystem::path point_directory(const std::filesystem::path& points, std::string_view name);
@@ -60,7 +61,7 @@ Failure read_failure(const std::filesystem::path& directory);
 void write_failure(const std::filesystem::path& directory, const Failure& failure);
 void remove_failure(const std::filesystem::path& directory);
 
-// `run ENGINE --set ...`, without --out: the arguments of `deburr` that run the point by itself.
+// `run ENGINE --set ...`, without --out: the arguments with which `deburr` runs only this point.
 std::string arguments_of(const std::string& engine, const std::vector<Setting>& settings);
 // The same preceded by the program's name.
 std::string command_of(const std::string& engine, const std::vector<Setting>& settings);

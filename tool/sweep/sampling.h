@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From axes to samples: every combination, listed ones, random ones, or a Latin hypercube, in which
-// each axis is divided into N strata for N samples and each stratum is hit once.
+// Makes samples from axes: every combination, listed combinations, random ones, or a Latin
+// hypercube. For N samples a Latin hypercube divides each axis into N strata and takes one sample
+// from each stratum.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ std::uint64_t sample_bound(const SweepDefinition& sweep);
 // "8 x 3 x 4"
 std::string sizes_of(const SweepDefinition& sweep);
 
-// Calls `take` for each sample; it returns whether the sample counts (it is new and meets the
-// constraints). Random samples are drawn until enough of them count, or hardly any does.
+// Calls `take` for each sample; `take` returns whether the sample counts (it is new and meets the
+// constraints). Random samples are drawn until enough of them count, or until hardly any does.
 void for_each_sample(const SweepDefinition& sweep, const std::function<bool(const Sample&)>& take);
 
 }  // namespace deburr::tool

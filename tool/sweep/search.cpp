@@ -27,8 +27,9 @@ using spec::ConfigError;
 using spec::FileError;
 
 constexpr double kWorst = 1e30;  // for a point that failed or lacks the metric
-// Cost of a point beyond the limits in each objective, growing with the distance: worse than all
-// points within, so that the search first finds its way there.
+// The cost, in each objective, of a point beyond the limits. It grows with the distance and is
+// worse than the cost of every point within the limits, so that the search first finds its way
+// there.
 constexpr double kBeyond = 1e20;
 
 void reject_what_cannot_be_searched(const SweepDefinition& sweep) {

@@ -5,8 +5,8 @@
 //   OUT/searches/NAME/   plan.json and points.jsonl as for a sweep, with the points in the order of
 //                        their selection
 //
-// The points are those of the sweep: existing results are read instead of run, and a repeated
-// search follows the same path.
+// The points are those of the sweep. If a point has a result, it is read and the point is not run,
+// and a repeated search follows the same path.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ namespace deburr::tool {
 
 SweepPlace search_place_of(const std::filesystem::path& out, const std::string& name);
 
-// Runs the points of a generation without a result, and waits: 0, or kInterruptedExit.
+// Runs those points of a generation that have no result, and waits for them. Returns 0 or
+// kInterruptedExit.
 using RunGeneration = std::function<int(const Plan&, const std::vector<PlannedPoint>&)>;
 // Receives the number of known points, for a progress bar.
 using WatchSearch = std::function<void(std::uint64_t)>;
@@ -30,7 +31,7 @@ using WatchSearch = std::function<void(std::uint64_t)>;
 struct SearchEnd {
   Plan plan;
   bool interrupted = false;
-  bool missing = false;  // it stopped at a point without a result, whose worker was killed
+  bool missing = false;  // stopped at a point that has no result since its worker was killed
 };
 
 // `settings.runs` is the total for all fronts of `for_each`. ConfigError for a sweep that cannot be

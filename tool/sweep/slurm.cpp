@@ -98,7 +98,7 @@ Answer ask(const std::vector<std::string>& words, const std::string& conf) {
   return answer;
 }
 
-// Clients hang for a minute if the configuration is wrong, so it is checked first.
+// If the configuration is wrong, clients hang for a minute, so it is checked first.
 void require_slurm(const std::string& conf) {
   std::string file = conf;
   const char* given = std::getenv("SLURM_CONF");

@@ -2,8 +2,8 @@
 // Runs a sweep on a cluster: one Slurm job array whose tasks each run Ninja on some of the chunks
 // (one task per point would be more than a scheduler starts in time).
 //
-// Slurm is only asked for the state of its tasks: a point is done when its result is present. Tasks
-// may be killed, requeued or run twice, and `run` again submits the missing points.
+// Slurm is asked only for the state of its tasks; a point is done when its result is present. Tasks
+// may be killed, requeued or run twice. `run` submits the missing points again.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace deburr::tool {
 
 // Settings for the user's cluster, from a YAML file.
 struct SlurmProfile {
-  std::string conf;  // slurm.conf; empty: by SLURM_CONF or the system's default
+  std::string conf;  // path of slurm.conf; empty: SLURM_CONF or the system's default
   std::string partition, time, memory;
   std::uint64_t cpus = 1;            // per task: the number of concurrent points
   std::uint64_t tasks = 100;         // maximum
@@ -35,7 +35,7 @@ struct SlurmJob {
 };
 // The most recently submitted job, if any.
 std::optional<SlurmJob> submitted_job(const SweepPlace& place);
-// Call when it is finished.
+// Call when the job is finished.
 void forget_job(const SweepPlace& place);
 
 // Writes task_NNNN.ninja and submit.sh under slurm/ and submits them. FileError if Slurm or its
@@ -49,8 +49,8 @@ struct SlurmStatus {
 };
 // FileError as in submit().
 SlurmStatus ask_slurm(const SlurmJob& job);
-// Prevents running queued points twice: FileError while the most recently submitted job has tasks;
-// a finished job is forgotten.
+// Prevents queued points from being run twice: FileError while the most recently submitted job has
+// tasks. A finished job is forgotten.
 void reject_while_submitted(const SweepPlace& place);
 // Returns when none of its tasks is queued or running, or kInterruptedExit.
 int wait_for(const SlurmJob& job);

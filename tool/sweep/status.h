@@ -22,10 +22,10 @@ struct Status {
   std::vector<FailedPoint> failures;  // the first ones
   std::string time_left;              // of a run in progress; empty: none
 };
-// `plan` is the plan of the place.
+// `plan` is the plan stored at `place`.
 Status look(const SweepPlace& place, const Plan& plan);
 
-// Records the start of a run of this many points, for the time left.
+// Records that a run of this many points starts; used to estimate the time left.
 void note_start(const SweepPlace& place, std::uint64_t points);
 
 }  // namespace deburr::tool

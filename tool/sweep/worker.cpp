@@ -113,7 +113,7 @@ class Worker {
     }
   }
 
-  // Runs in the child: its output is the reason of a failure.
+  // Runs in the child. If it fails, the output of the child is the reason.
   static std::pair<int, std::string> simulate(BoundEngine& bound, RunContext& context) {
     try {
       const fs::path& directory = context.directory();
@@ -147,7 +147,7 @@ class Worker {
     const pid_t child = ::fork();
     if (child < 0) fail("fork");
     if (child == 0) {
-      // A point ends with its worker; the next worker repeats it.
+      // If its worker dies, the point ends too; the next worker repeats it.
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (::getppid() != parent) ::_exit(tb::kInterruptedExit);
       ::close(ends[0]);

@@ -3,8 +3,8 @@
 // by Ninja.
 //
 // Scene, mip chain and reference are prepared once. For each point a child is forked before any
-// SystemC object is created; it inherits them, simulates and writes its results. Points therefore
-// share the cost of program start and input preparation.
+// SystemC object is created. The child inherits the prepared inputs, simulates and writes its
+// results. So points share the cost of program start and input preparation.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct WorkerOptions {
   PointLines lines;              // lines of that file
 };
 
-// Runs every point of the chunk without a result. A failed point writes failure.json and does
-// not stop the others. ConfigError if an input differs from the plan; FileError if results cannot
-// be written. Returns the exit code: 0, or kInterruptedExit.
+// Runs every point of the chunk that has no result. A failed point writes failure.json and does not
+// stop the others. ConfigError if an input differs from the plan; FileError if results cannot be
+// written. Returns the exit code: 0, or kInterruptedExit.
 int run_chunk(const WorkerOptions& options);
 
-// One byte per point started by any worker, and one for its outcome.
+// The file gets one byte for each point that a worker starts, and one for its outcome.
 std::filesystem::path progress_file(const std::filesystem::path& sweep);
 inline constexpr char kPointBegun = '>', kPointDone = '.', kPointFailed = 'x';
 struct PointCounts {

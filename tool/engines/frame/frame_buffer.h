@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The frame buffer of a composition: accepts the colours of a drawing engine, and outputs complete
-// rows to an engine that smooths a finished picture, either as they are completed or once the
-// engine between them is done.
+// The frame buffer of a composition. It accepts the colours of a drawing engine and outputs
+// complete rows to an engine that smooths a finished picture. It outputs a row when the row is
+// complete or, if there is a mesh engine in between, when that engine is done.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class FrameBuffer final : public rtl::Unit {
   bool done() const { return pixels_out_ ? y_ == image_.height : complete(); }
   // Every fragment has arrived.
   bool complete() const { return all_missing_ == 0; }
-  // Outputs the rows of this frame from the next cycle on, instead of the received one.
+  // Outputs the rows of this frame from the next cycle on, instead of those of the received frame.
   void release(tb::Image frame);
   // The received colours over the sky.
   const tb::Image& frame() const { return released_ ? before_ : image_; }

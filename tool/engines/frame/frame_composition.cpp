@@ -54,8 +54,8 @@ FrameComposition::FrameComposition(tb::Simulation& simulation, const tb::DrawnSc
   }
   buffer_ = std::make_unique<FrameBuffer>("frame_buffer", simulation.clock(), scene, ends);
 
-  // The expected input of the first engine after the buffer; without a golden model only its size
-  // matters. The second engine receives its input when the first is done.
+  // The expected input of the first engine after the frame buffer; without a golden model only its
+  // size matters. The second engine gets its input when the first is done.
   tb::Image first = golden() ? drawing_stage_->golden_picture() : tb::Image(width_, height_);
   for (tb::Rgba8& pixel : first.pixels) pixel = unmarked(pixel);
   for (const MeshSmoother* smoother : mesh)
@@ -113,7 +113,7 @@ bool FrameComposition::begin(std::size_t piece) {
   return true;
 }
 
-// Only the sky so far.
+// Writes the sky to the memory of the mesh engine; nothing else is drawn yet.
 void FrameComposition::put_sky() {
   const tb::Image& sky = buffer_->frame();
   for (int y = 0; y < height_; ++y)

@@ -8,14 +8,14 @@
 //                               ▼       │
 //                              MeshStage: its memory is the frame buffer then
 //
-// Only rows: both engines overlap; the frame buffer outputs a row as soon as every fragment of it
-// and of the rows above has arrived. Only mesh: the engine starts in the cycle in which the last
-// fragment arrives. Both: rows are output when the mesh engine is done. If the second engine reads
-// the marks of the first, the frame buffer sets bit 0 of every received alpha, so that only blended
-// pixels are marked.
+// With a row stage only, drawing and smoothing overlap: the frame buffer outputs a row as soon as
+// every fragment of this row and of the rows above has arrived. With a mesh stage only, its engine
+// starts in the cycle in which the last fragment arrives. With both, rows are output when the mesh
+// engine is done. If the second engine reads the marks of the first, the frame buffer sets bit 0 of
+// every received alpha, so that only blended pixels are marked.
 //
-// Each engine is checked against its golden model, whose input is the output of the previous golden
-// model.
+// Each engine is checked against its own golden model. The input of a golden model is the output of
+// the golden model before it.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class FrameComposition final : public tb::Environment {
   // The selected engines. Scene and roles must outlive it. ConfigError for wrong parameters.
   FrameComposition(tb::Simulation& simulation, const tb::DrawnScene& scene,
                    const FrameRoles& roles);
-  // Every smoothing engine, to describe the hardware of each; it is never run.
+  // A composition of every smoothing engine, used to describe their hardware. It is never run.
   static std::unique_ptr<FrameComposition> of_all(tb::Simulation& simulation,
                                                   const tb::DrawnScene& scene,
                                                   const FrameRoles& roles);
@@ -89,7 +89,7 @@ class FrameComposition final : public tb::Environment {
   Boards boards(Boards (tb::Environment::*of)() const) const;
   // Between cycles: starts each engine when its predecessor is done.
   void hand_on();
-  // As stored in the frame buffer: no pixel is marked until the first engine marks it.
+  // The colour as the frame buffer stores it: no pixel is marked until the first engine marks it.
   tb::Rgba8 unmarked(tb::Rgba8 colour) const;
   void put_sky();
   std::uint64_t pixels() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Figures of a whole frame: those of its engines and of the frame buffer, and each engine's cycles
-// against its lower bound.
+// Figures of a whole frame: those of its engines and of the frame buffer, and the cycles of each
+// engine compared with their lower bound.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace deburr::tool {
 
-// In processing order; null for an engine that does not smooth.
+// The parts of a composition in processing order. `mesh` and `rows` are null if there is no such
+// stage.
 struct FrameParts {
   const PictureDrawer& drawer;
   const DrawingStage& drawing;
@@ -23,7 +24,7 @@ struct FrameParts {
   const MeshStage* mesh;
   const RowStage* rows;
   std::string_view mesh_title, rows_title;
-  // These two; in a composition that is only described, every engine.
+  // `mesh` and `rows`; in a composition that is only described, every smoothing engine.
   std::vector<const SmoothingStage*> smoothing;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The engines of a composition, as they declare themselves (tool/run/composition.h), and their
-// valid combinations for smoothing: a single engine, or one along the mesh's edges followed by one
-// for the finished picture.
+// The engines of a composition, as they declare themselves (tool/run/composition.h), and the valid
+// combinations of smoothing engines: a single one, or one that smooths along the edges of the mesh,
+// followed by one that smooths the finished picture.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct Smoothing {
   std::string name;  // "NAME", "NAME-NAME"
   const MeshSmoother* mesh = nullptr;
   const RowSmoother* rows = nullptr;
-  // The second reads the marks of the first.
+  // Whether the second engine reads the marks of the first.
   bool follows() const;
 };
 
@@ -36,9 +36,9 @@ class FrameRoles {
 
   const std::vector<Smoothing>& smoothings() const { return smoothings_; }
   const Smoothing& chosen() const { return smoothings_[choice_]; }
-  // The selected ones, in processing order.
+  // The selected smoothing engines, in processing order.
   std::vector<const PictureSmoother*> chosen_smoothers() const;
-  // Every one, to be described.
+  // Every smoothing engine, for a description of all.
   std::vector<const MeshSmoother*> mesh_smoothers() const;
   std::vector<const RowSmoother*> row_smoothers() const;
 

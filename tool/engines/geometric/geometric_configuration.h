@@ -18,26 +18,26 @@ namespace deburr::tool {
 // Applies `values.preset` to every parameter "geometric.*" that was not given explicitly.
 void apply_preset(tb::ParameterSet& set, const spec::geometric::Parameters& values);
 
-// With preset deburr, the parameter of this name adds lines where faces intersect, unless it is
-// given.
+// With preset deburr, sets the parameter of this name, which adds lines where faces intersect,
+// unless it is given.
 void imply_crossings(tb::ParameterSet& set, std::string_view name,
                      const spec::geometric::Parameters& values);
 
 // "preset gpaa", or "preset gpaa, changed: combine".
 std::string preset_label(const tb::ParameterSet& set, const spec::geometric::Parameters& values);
 
-// ConfigError for a parameter that was given without effect. After apply_preset().
+// ConfigError for a parameter that was given but has no effect. Call after apply_preset().
 void reject_unused_configuration(const tb::ParameterSet& set,
                                  const spec::geometric::Parameters& values);
 
-// ConfigError for a mesh with more faces than the facing bits in this hardware, or in any.
+// ConfigError if the mesh has more faces than this hardware, or any hardware, has facing bits.
 void reject_too_many_faces(const tb::Scene& scene, const spec::geometric::Parameters& values);
 
 // Notes of the result on oversized hardware.
 std::vector<std::string> build_notes(const spec::geometric::Parameters& values);
 
-// A note of the result when a run drew no line: why each edge was dropped. Empty if it drew one, or
-// the mesh has no edges.
+// A note in the result if a run drew no line: why each edge was dropped. Empty if the run drew a
+// line or the mesh has no edges.
 std::vector<std::string> dropped_notes(const spec::geometric::Work& work);
 
 // For engines that draw edges: --preset, --layout, --walkers.

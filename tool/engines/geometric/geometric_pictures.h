@@ -13,7 +13,7 @@
 
 namespace deburr::tool {
 
-// Adds pictures of the weights, under this name, and of the classes.
+// Adds a picture of the weights, under this name, and a picture of the classes.
 void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
                        const spec::geometric::Parameters& parameters,
                        std::span<const spec::geometric::BlockRecord> blocks,
@@ -24,8 +24,9 @@ void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
 tb::Image weight_picture(int width, int height,
                          std::span<const spec::geometric::BlockRecord> blocks);
 
-// The lines drawn by this configuration over the frame in grey: boundaries yellow, silhouettes red,
-// creases cyan, unclassified edges white; dark where the depth test fails.
+// The lines that this configuration draws, over the frame in grey: boundaries are yellow,
+// silhouettes red, creases cyan, unclassified edges white. Lines are dark where the depth test
+// fails.
 tb::Image class_picture(const tb::geometric::Frame& frame,
                         const spec::geometric::Parameters& parameters);
 

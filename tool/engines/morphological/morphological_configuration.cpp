@@ -97,8 +97,8 @@ void reject_unused_configuration(const tb::ParameterSet& set,
 
 namespace {
 
-// Flags legal thresholds that are probably mistakes: the former units (fractions of full scale)
-// give values 1/255 as large, for alpha 1/256. Five digits keep the largest below 1.
+// Notes legal thresholds that are probably mistakes. In the former units (fractions of full scale)
+// a value is 1/255 as large, for alpha 1/256. Five digits keep the largest value below 1.
 std::vector<std::string> threshold_notes(const spec::morphological::Parameters& p) {
   std::vector<std::string> notes;
   const auto below_a_code = [&](std::string_view name, std::int32_t threshold) {

@@ -21,13 +21,13 @@ void apply_preset(tb::ParameterSet& set, const spec::morphological::Parameters& 
 std::string preset_label(const tb::ParameterSet& set,
                          const spec::morphological::Parameters& values);
 
-// ConfigError for a configuration parameter or a memory parameter ("<memory>.*") that was given and
-// has no effect. After apply_preset().
+// ConfigError for a configuration parameter or a memory parameter ("<memory>.*") that was given but
+// has no effect. Call after apply_preset().
 void reject_unused_configuration(const tb::ParameterSet& set,
                                  const spec::morphological::Parameters& values,
                                  std::string_view memory);
 
-// Notes of the result: build parameters that can be simulated but miss timing at 250 MHz, and legal
+// Notes in the result: build parameters that can be simulated but miss timing at 250 MHz, and legal
 // thresholds below one code.
 std::vector<std::string> build_notes(const spec::morphological::Parameters& values);
 

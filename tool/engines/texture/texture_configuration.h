@@ -22,9 +22,9 @@ std::string preset_label(const tb::ParameterSet& set, const spec::texture::Param
 // ConfigError for a scene that draws nothing, and for levels outside the range.
 void reject_nothing_drawn(const tb::TextureScene& scene);
 void reject_empty_lod_range(const tb::SamplerParameters& sampler);
-// ConfigError for lookups without a trace that could contain them.
+// ConfigError if lookups are requested without a trace that could contain them.
 void reject_unused_lookups(const tb::ParameterSet& set);
-// ConfigError for parameters of drawing a scene, given with a fragment file.
+// ConfigError if parameters for drawing a scene are given with a fragment file.
 void reject_unused_scene(const tb::ParameterSet& set);
 
 // For engines that texture a scene: --scene, --in, --texture, --size, --mode, --aniso.

@@ -13,8 +13,8 @@ RandomDraws texture_draws() {
                {"texture.cache.ways", power_of_two<0, 3>},
                {"texture.cache.fifo_depth", magnitude<2, 300>},
                {"texture.axis_cycles", power_of_two<0, 2>}};
-  // A file; and sequences, which only the golden model processes. Units in SystemVerilog, which
-  // most builds lack.
+  // Fixed are a file, sequences, which only the golden model processes, and units in SystemVerilog,
+  // which most builds lack.
   all.fixed = {"scene.fragments", "sequence.frames", "sequence.motion", "run.hdl"};
   return all;
 }

@@ -13,8 +13,8 @@
 
 namespace deburr::tool {
 
-// Computes the scene's reference, 16 x 16 samples per pixel, and adds the quality to the result.
-// Ctrl-C cancels it: the result is marked, the picture is empty, and earlier measurements remain.
+// Computes the reference of the scene, with 16 x 16 samples per pixel, and adds the quality to the
+// result. After Ctrl-C the result is marked, the picture is empty, and earlier measurements remain.
 inline constexpr int kReferenceSamples = 16;
 std::string reference_caption();
 // Shared by runs of the same scene (RunContext::shared). Throws Interrupted.
