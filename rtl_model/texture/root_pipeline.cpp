@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/root_pipeline.h"
 
-#include <algorithm>
-#include <cmath>
+#include <bit>
 
 namespace deburr::rtl::texture {
 
@@ -27,14 +26,12 @@ void RootPipeline::two_digits(Root& r) {
 }
 
 std::uint32_t RootPipeline::root(std::uint64_t radicand) {
-  // The digits are those of the exact root; the approximation is off by one at most.
-  auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(radicand)));
-  root = std::min(root, std::uint64_t{0xFFFF'FFFF});
-  if (root * root > radicand)
-    --root;
-  else if (radicand - root * root > 2 * root)
-    ++root;
-  return static_cast<std::uint32_t>(root);
+  if (radicand == 0) return 0;
+  // Leading zero bits give zero digits, so the model skips those stages.
+  const int first = std::countl_zero(radicand) / 4;
+  Root r = {radicand << 4 * first, 0, 0};
+  for (int stage = first; stage < kDigitStages; ++stage) two_digits(r);
+  return r.root;
 }
 
 bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
