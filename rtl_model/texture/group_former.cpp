@@ -25,7 +25,7 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
                                    .write_ports = width_,
                                    .latency = 0,
                                    .content = "requests that wait for a group"}),
-      buffer_(2 * width_),
+      buffer_(std::size_t{2} * width_),
       banks_(bank_mask_ + 1) {
   for (std::uint32_t i = 0; i < width_; ++i) {
     oldest_.emplace_back(memory_, "oldest_" + std::to_string(i));

@@ -27,6 +27,7 @@ template <class Port, std::size_t... i>
 std::array<Port, sizeof...(i)> ports_of(Memory<void>& memory, std::int32_t built,
                                         std::index_sequence<i...> /*all*/) {
   std::vector<Port> claimed;
+  claimed.reserve(static_cast<std::size_t>(built));
   for (std::int32_t port = 0; port < built; ++port)
     claimed.emplace_back(memory, "line_" + std::to_string(port));
   return {claimed[std::min(i, claimed.size() - 1)]...};

@@ -94,13 +94,14 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 Group hits(const std::vector<std::pair<std::uint16_t, std::uint8_t>>& words) {
   Group group;
-  for (std::uint8_t i = 0; i < words.size(); ++i)
-    group.line(words[i].first).read(i, words[i].second);
+  std::uint8_t i = 0;
+  for (const auto& [slot, word] : words) group.line(slot).read(i++, word);
   return group;
 }
 Group misses(const std::vector<std::uint16_t>& slots) {
   Group group;
-  for (std::uint8_t i = 0; i < slots.size(); ++i) group.line(slots[i], true).read(i, 0);
+  std::uint8_t i = 0;
+  for (const std::uint16_t slot : slots) group.line(slot, true).read(i++, 0);
   return group;
 }
 // Slots 0, 4, 8, ... are in line bank 0.
