@@ -93,7 +93,8 @@ inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
     {{"cache.line_banks", "cache.bytes", "cache.line_bytes", "cache.ways"},
      "must be at most the number of sets, since the low bits of the set select the bank",
      [](const Parameters& p) {
-       return p.cache_line_banks * p.cache_line_bytes * p.cache_ways <= p.cache_bytes;
+       return p.cache_line_banks == 1 ||
+              p.cache_line_banks * p.cache_line_bytes * p.cache_ways <= p.cache_bytes;
      }},
     {{"cache.line_banks", "cache.bytes", "cache.line_bytes"},
      "must leave 16 lines per bank, or at most 64 banks of words: more and smaller ones of SRAM "
@@ -113,7 +114,7 @@ inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
     {{"cache.outstanding", "cache.lookups"},
      "must hold the lines of one group",
      [](const Parameters& p) {
-       return p.cache_outstanding == 0 || p.cache_outstanding >= p.cache_lookups;
+       return p.width == 1 || p.cache_outstanding == 0 || p.cache_outstanding >= p.cache_lookups;
      },
      [](const Parameters& p) { return "make it at least " + std::to_string(p.cache_lookups); }},
 }};
