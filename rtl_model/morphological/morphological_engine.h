@@ -38,7 +38,8 @@
 // Latency   A beat popped in cycle c is pushed in cycle c + (R + 5) x BPR + kPipelineLatency if
 //           nothing stalls.
 // Interval  1 beat (1, 2 or 4 pixels) per cycle; one slot per cycle.
-// Stalls    `records` (RunExtractor), `upstream` (SlotSequencer), `memory` and `rows` (PixelStore),
+// Stalls    `descriptors` (RunExtractor), `upstream` (SlotSequencer), `memory` and `rows`
+// (PixelStore),
 //           `downstream`.
 // Source    Reshetov 2009; paper 000.
 #pragma once
