@@ -39,8 +39,7 @@
 //           nothing stalls.
 // Interval  1 beat (1, 2 or 4 pixels) per cycle; one slot per cycle.
 // Stalls    `descriptors` (RunExtractor), `upstream` (SlotSequencer), `memory` and `rows`
-// (PixelStore),
-//           `downstream`.
+//           (PixelStore), `downstream`.
 // Source    Reshetov 2009; paper 000.
 #pragma once
 

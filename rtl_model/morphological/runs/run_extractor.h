@@ -18,7 +18,7 @@
 //           border      clamp: edges outside the frame repeat those of the nearest pixel. A run
 //                       that meets the border ends there with the code of its last pixel's corner,
 //                       or is endless if that code is 0.
-// Stalls    descriptors  A descriptor FIFO is full, or the interlock holds slot row s until every
+// Stalls    descriptors A descriptor FIFO is full, or the interlock holds slot row s until every
 //                       run found in slot row s - 2 is finished.
 //           diagonals   A row with fewer beats than a diagonal needs waits for the beats of the
 //                       previous row.
