@@ -12,11 +12,51 @@ namespace {
 
 constexpr int kUsualMegahertz = 250;
 
+std::string listed(std::span<const Operator> operators) {
+  std::string text;
+  for (const Operator& one : operators) text += (text.empty() ? "" : ", ") + counted(one);
+  return text;
+}
+
+// "per lane: 2 multiplies 23 x 23, 28 adds 38, 310 flip-flops; once: an add 14."
+std::string hardware_text(std::span<const Operator> operators, std::uint64_t registers) {
+  std::string text = listed(summed(operators));
+  if (registers > 0) text += fmt::format("{}{} flip-flops", text.empty() ? "" : ", ", registers);
+  return text;
+}
+
+void append_stages(const Datasheet& sheet, std::vector<Operator>& operators) {
+  for (const Stage& stage : sheet.stages)
+    for (const Operator& one : stage.operators) operators.push_back(stage.clocks() * one);
+}
+
+std::uint64_t stage_registers(const Datasheet& sheet) {
+  std::uint64_t bits = 0;
+  for (const Stage& stage : sheet.stages) bits += std::uint64_t{stage.clocks()} * stage.registers;
+  return bits;
+}
+
+std::string cost_text(const Datasheet& sheet) {
+  std::vector<Operator> operators;
+  append_stages(sheet, operators);
+  std::string text = hardware_text(operators, stage_registers(sheet));
+  if (!text.empty() && !sheet.per.empty()) text = "per " + sheet.per + ": " + text;
+  if (const std::string once = hardware_text(sheet.shared, sheet.shared_registers); !once.empty())
+    text += (text.empty() ? "" : "; once: ") + once;
+  if (text.empty()) return sheet.cost;
+  return text + (sheet.cost.empty() ? "." : "; " + sheet.cost);
+}
+
+std::string path_text(const Stage& stage) {
+  std::string text = listed(stage.longest);
+  return stage.path + (text.empty() || stage.path.empty() ? "" : ": ") + text;
+}
+
 // Equal except for the cycle counts of this build, where a text replaces them.
 bool say_the_same(const Datasheet& a, const Datasheet& b) {
   return a.does == b.does && a.latency.shown() == b.latency.shown() &&
          a.interval.shown() == b.interval.shown() && a.stages == b.stages &&
-         a.formats == b.formats && a.cost == b.cost && a.megahertz == b.megahertz;
+         a.formats == b.formats && cost_text(a) == cost_text(b) && a.megahertz == b.megahertz;
 }
 
 // Text shared with the unit's next variant is printed after that variant.
@@ -31,16 +71,35 @@ std::string section(const Datasheet& sheet, bool first, const Datasheet* next) {
   if (!sheet.stages.empty()) {
     text += "\n| stage | work | longest path |\n|---|---|---|\n";
     for (const Stage& stage : sheet.stages)
-      text += fmt::format("| {} | {} | {} |\n", stage.clock, stage.work, stage.path);
+      text += fmt::format("| {} | {} | {} |\n", stage.clock, stage.work, path_text(stage));
   }
   if (!sheet.formats.empty() && !(next && next->formats == sheet.formats))
     text += fmt::format("\nFormats: {}\n", sheet.formats);
-  if (!sheet.cost.empty() && !(next && next->cost == sheet.cost))
-    text += fmt::format("\nCost: {}\n", sheet.cost);
+  const std::string cost = cost_text(sheet);
+  if (!cost.empty() && !(next && cost_text(*next) == cost)) text += "\nCost: " + cost + "\n";
   return text;
 }
 
 }  // namespace
+
+std::uint32_t Stage::clocks() const {
+  const std::size_t dash = clock.find('-');
+  if (dash == std::string::npos)  // "3, 4"
+    return static_cast<std::uint32_t>(1 + std::count(clock.begin(), clock.end(), ','));
+  return static_cast<std::uint32_t>(std::stoul(clock.substr(dash + 1)) - std::stoul(clock) + 1);
+}
+
+std::vector<Operator> operators_of(const Datasheet& sheet) {
+  std::vector<Operator> operators;
+  append_stages(sheet, operators);
+  for (Operator& one : operators) one.count *= sheet.copies;
+  operators.insert(operators.end(), sheet.shared.begin(), sheet.shared.end());
+  return summed(operators);
+}
+
+std::uint64_t registers_of(const Datasheet& sheet) {
+  return sheet.copies * stage_registers(sheet) + sheet.shared_registers;
+}
 
 std::string title(const Datasheet& sheet) {
   return sheet.variant.empty() ? sheet.unit : sheet.unit + ", " + sheet.variant;

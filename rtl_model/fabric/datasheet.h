@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/fabric/operators.h"
+
 namespace deburr::rtl {
 
 // A number of cycles. `text` says what it depends on and is printed instead of it; the number is
@@ -30,7 +32,14 @@ struct Cycles {
 struct Stage {
   std::string clock;  // "1", "5-17"
   std::string work;
-  std::string path{};  // longest path, estimated from the operators; empty: not critical
+  std::string path{};  // text instead of `longest`; empty: not critical
+  // Operators of each clock of the stage, in each copy of the unit; the ones in series on the
+  // longest path; bits of flip-flops, with an enable, that end each clock.
+  std::vector<Operator> operators{}, longest{};
+  std::uint32_t registers = 0;
+  // The counter of the unit that says in how many cycles the stage works; empty: busy.
+  std::string on{};
+  std::uint32_t clocks() const;  // "5-17": 13
   friend bool operator==(const Stage&, const Stage&) = default;
 };
 
@@ -42,9 +51,21 @@ struct Datasheet {
   // its result. interval: between consecutive tokens.
   Cycles latency{}, interval{1};
   std::vector<Stage> stages{};
-  std::string formats{}, cost{};
-  int megahertz = 250;  // target clock frequency
+  std::string formats{};
+  // The operators and registers of the stages exist `copies` times, one per `per` ("lane"); those
+  // of `shared` once. Functions of the build's parameters. Memories and links are not among them:
+  // their shapes are declared where they are built.
+  std::uint32_t copies = 1;
+  std::string per{};
+  std::vector<Operator> shared{};
+  std::uint32_t shared_registers = 0;  // bits
+  std::string cost{};                  // what the operators do not say
+  int megahertz = 250;                 // target clock frequency
 };
+
+// The operators of all clocks and copies; the bits of flip-flops likewise.
+std::vector<Operator> operators_of(const Datasheet& sheet);
+std::uint64_t registers_of(const Datasheet& sheet);
 
 // "FootprintUnit, `footprint = exact`".
 std::string title(const Datasheet& sheet);

@@ -2,6 +2,7 @@
 // Datasheets: how builds are merged into a list, and the text of the generated pages.
 #include "rtl_model/fabric/datasheet.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <span>
@@ -117,6 +118,32 @@ TEST(Datasheets, EachUnitShowsItsOwnEntries) {
 TEST(Datasheets, MemoryPortMatchesContract) {
   EXPECT_EQ(rtl::MemoryPort::datasheet().latency.cycles, 2u);
   EXPECT_EQ(rtl::MemoryPort::datasheet().interval.cycles, 1u);
+}
+
+// Stages of several clocks and copies multiply; equal operators are one entry.
+TEST(Datasheets, CostSentenceCountsOperatorsOfClocksAndCopies) {
+  const Datasheet adder = {
+      .unit = "Adder",
+      .stages = {{.clock = "1", .work = "sum", .operators = {2 * rtl::op::add(8)}, .registers = 9},
+                 {.clock = "2-4",
+                  .work = "sum and choice",
+                  .operators = {rtl::op::add(8), rtl::op::mux(8, 4)},
+                  .longest = {rtl::op::add(8), rtl::op::mux(8, 4)},
+                  .registers = 8},
+                 {.clock = "5, 6", .work = "product", .operators = {rtl::op::multiply(8, 9)}}},
+      .copies = 2,
+      .per = "lane",
+      .shared = {rtl::op::compare(5)},
+      .shared_registers = 3,
+      .cost = "a FIFO."};
+  EXPECT_THAT(rtl::datasheets_markdown(std::vector{adder}),
+              testing::HasSubstr("| 2-4 | sum and choice | add 8, mux 4 : 1 x 8 |"));
+  EXPECT_THAT(rtl::datasheets_markdown(std::vector{adder}),
+              testing::HasSubstr("Cost: per lane: 5 adds 8, 3 muxes 4 : 1 x 8, 2 multiplies 8 x 9, "
+                                 "33 flip-flops; once: comparator 5, 3 flip-flops; a FIFO.\n"));
+  EXPECT_EQ(operators_of(adder), (std::vector{10 * rtl::op::add(8), 6 * rtl::op::mux(8, 4),
+                                              4 * rtl::op::multiply(8, 9), rtl::op::compare(5)}));
+  EXPECT_EQ(registers_of(adder), 69u);
 }
 
 }  // namespace
