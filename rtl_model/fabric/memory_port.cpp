@@ -440,20 +440,34 @@ unsigned MemoryPort::debug_write(std::uint64_t address, const void* data, unsign
   return memory->transport_dbg(payload);
 }
 
-Datasheet MemoryPort::datasheet() {
-  return {.unit = "MemoryPort",
-          .does = "Sends an engine's requests to a TLM-2.0 target and returns the responses.",
-          .latency = {2, "2 plus the latency of memory"},
-          .interval = {1, "one request and one response beat per cycle"},
-          .stages = {{"1", "a request popped in c leaves in c"},
-                     {"2",
-                      "a response that arrives before edge d > c is pushed in d, and can be popped "
-                      "in d + 1",
-                      "choice of 1 in 256 tags, nothing after it"}},
-          .cost =
-              "response_buffer, an entry for every outstanding line, written on arrival "
-              "and read into the link's slot; with write bursts gather_buffer, the lines of "
-              "one; a tag table, one multiplexer."};
+Datasheet MemoryPort::datasheet(const MemoryPortParameters& p, std::uint32_t tag_bits) {
+  const std::uint32_t n = p.outstanding;
+  const auto number = static_cast<std::uint32_t>(std::bit_width(n - 1));
+  Datasheet sheet = {
+      .unit = "MemoryPort",
+      .variant = fmt::format("{} outstanding requests, tags of {} bits", n, tag_bits),
+      .does = "Sends an engine's requests to a TLM-2.0 target and returns the responses.",
+      .latency = {2, "2 plus the latency of memory"},
+      .interval = {1, "one request and one response beat per cycle"},
+      // A table of tags; and the order of arrival, or with `in_order` who has arrived.
+      .stages = {{.clock = "1",
+                  .work = "a request popped in c leaves in c",
+                  .operators = {2 * op::add(number + 1), op::compare(number + 1), op::logic(2 * n)},
+                  .longest = {op::compare(number + 1)},
+                  .registers = n * tag_bits + 2 * number + 1},
+                 {.clock = "2",
+                  .work = "a response that arrives before edge d > c is pushed in d, and can be "
+                          "popped in d + 1",
+                  .operators = {2 * op::add(number), op::mux(tag_bits, n)},
+                  .longest = {op::mux(p.in_order ? 1 : number, n), op::mux(tag_bits, n)},
+                  .registers = (p.in_order ? n : n * number) + 2 * number}}};
+  Stage& response = sheet.stages[1];
+  response.operators.push_back(op::mux(p.in_order ? 1 : number, n));
+  if (p.max_burst_lines > 1) {
+    response.operators.push_back(op::add(6));
+    response.registers += 6;
+  }
+  return sheet;
 }
 
 }  // namespace deburr::rtl

@@ -142,7 +142,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   Counter max_outstanding{"max_outstanding", "transactions", "largest number in flight"};
   Histogram latency{"latency", "clk", "from sending a request to receiving its response"};
 
-  static Datasheet datasheet();
+  // `tag_bits`: of the tags that the unit uses.
+  static Datasheet datasheet(const MemoryPortParameters& parameters = {},
+                             std::uint32_t tag_bits = 4);
 
  private:
   SC_HAS_PROCESS(MemoryPort);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "rtl_model/texture/datasheets.h"
 #include "rtl_model/texture/footprint_unit.h"
 #include "rtl_model/texture/root_pipeline.h"
 
@@ -135,56 +136,131 @@ std::uint64_t AxisUnitOf<Width>::area(const DerivativeToken& in) {
 
 template <class Width>
 Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
-  const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
+  using spec::texture::Axes, spec::texture::FootprintRule;
+  const bool exact = p.footprint == FootprintRule::kExact, eight = p.axes == Axes::kEight;
   const auto cycles = static_cast<std::uint64_t>(p.axis_cycles);
+  const Sizes z(p);
+  const std::uint32_t n = z.candidates, all = n * z.axis_cycles;
+  // Candidates per cycle that are neither the row nor the column.
+  const std::uint32_t rotated = (all - 2 + z.axis_cycles - 1) / z.axis_cycles;
+  const std::uint32_t multiples = eight ? 3 : 1;  // 90; 49 and 118
+  const auto multiplied = [&](std::uint32_t bits) {
+    std::vector<Operator> operators = {4 * op::multiply_constant(bits, 3)};
+    if (eight) operators.push_back(8 * op::multiply_constant(bits, 2));
+    return operators;
+  };
+  // Without the sizes, and with valid: ticket, position, differences; and the area.
+  constexpr std::uint32_t kToken = kPayloadBits<DerivativeToken> - 4 * 31 + 1, kArea = 47;
+  constexpr std::uint32_t kDifferences = 4 * 33;
+  const std::uint32_t direction = eight ? 3 : 2, group = z.axis_cycles > 1 ? 2 : 0;
+  const std::uint32_t length = exact ? 63 : 32, kept = kToken + kArea + group;
+  const std::uint32_t winners = n == 8 ? 2 : 1;  // of stage 5
+  const bool again = n == 8 || z.axis_cycles > 1;
   Datasheet sheet = {
       .unit = "AxisUnit",
-      .variant = exact ? "`footprint = exact`" : "other `footprint`",
+      .variant = chosen("axes", spec::texture::kAxesNames, p.axes) + ", " +
+                 chosen("footprint", spec::texture::kFootprintNames, p.footprint),
       .does =
           "Finds the major axis among four or eight directions, and the area of the footprint "
           "(`axes = four`, `eight`; instead of the FootprintUnit).",
       .latency = exact ? Cycles{22 + cycles - 1, "22 + `axis_cycles` - 1"}
                        : Cycles{8 + cycles - 1, "8 + `axis_cycles` - 1"},
       .interval = {cycles, "`axis_cycles`"},
-      .stages = {{"1",
-                  "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two products "
-                  "of the area",
-                  "38-bit addition of four operands; 23 x 23 multiply"},
-                 {"2", "magnitudes of the candidates; difference of the area's products",
-                  "two 40-bit additions"}}};
-  if (exact) {
-    sheet.stages.insert(
-        sheet.stages.end(),
-        {{"3", "squares of each candidate",
-          "31-bit squarer: 1.29 x the 24 x 24 multiply, as in FootprintUnit"},
-         {"4", "sums", "62-bit addition"},
-         {"5", "longest of four", "two 63-bit comparisons with muxes"},
-         {"6", "longest of this and the previous cycles", "two 63-bit comparisons with muxes"},
-         {"7-22",
-          "two root bits each; in parallel with 7 the same multiples of the coordinate differences "
-          "for the direction found, with 8 their sum, rounded",
-          "two 34-bit subtractors in series; in 8 two 41-bit additions and rounding: "
-          "1.48 x the 24 x 24 multiply"}});
-  } else {
-    sheet.stages.insert(
-        sheet.stages.end(),
-        {{"3", "measure of each candidate", "31-bit comparison with mux, 32-bit addition"},
-         {"4", "longer line of `two_segment`", "32-bit comparison with mux"},
-         {"5", "longest of four", "two 32-bit comparisons with muxes"},
-         {"6", "longest of this and the previous cycles", "two 32-bit comparisons with muxes"},
-         {"7", "the same multiples of the coordinate differences, for the direction found"},
-         {"8", "sum, rounded", "two 41-bit additions and rounding: 1.46 x the 24 x 24 multiply"}});
+      .formats =
+          "in: U15.16 and the signs of the differences; out: U16.16, U31.16 and S9.24; candidates "
+          "truncated, axis rounded.",
+      .copies = z.fragments,
+      .per = "fragment"};
+  auto& stages = sheet.stages;
+  stages = {{.clock = "1",
+             .work = "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two "
+                     "products of the area",
+             .operators = multiplied(31),
+             .longest = {op::multiply(23, 23)},
+             .registers = kToken + group + 4 * 31 + multiples * 4 * 38 + 2 * 46},
+            {.clock = "2",
+             .work = "magnitudes of the candidates; difference of the area's products",
+             .operators = {2 * rotated * op::subtract(40), 2 * rotated * op::magnitude(40),
+                           op::logic(2 * rotated * 33), op::subtract(47), op::magnitude(46)},
+             .longest = {op::subtract(47), op::magnitude(46)},
+             .registers = kept + n * 2 * 31}};
+  stages[0].operators.push_back(2 * op::multiply(23, 23));
+  if (z.axis_cycles > 1) {
+    stages[1].operators.push_back(n * 4 * op::mux(38, z.axis_cycles));
+    stages[1].longest.insert(stages[1].longest.begin(), op::mux(38, z.axis_cycles));
   }
-  sheet.formats =
-      "in: U15.16 and the signs of the differences; out: U16.16, U31.16 and S9.24; candidates "
-      "truncated, axis rounded.";
-  sheet.cost =
-      "two 23 x 23 multipliers, a 47-bit subtractor and a negation; 28 38-bit adders for the "
-      "multiples of the derivatives (`four`: 12) and the same number of 40-bit adders for those of "
-      "the differences; two 41-bit adders and two roundings; per candidate and cycle two 40-bit "
-      "adders with negations (none for the row and the column), the measure as in FootprintUnit "
-      "(`exact`: two 31-bit squarers, a 62-bit adder) and a comparator; `exact`: 16 x two 34-bit "
-      "subtractors; registers for nine fragments (`exact`: 22); `fragments` = F: F copies.";
+  if (exact) {
+    stages.push_back({.clock = "3",
+                      .work = "squares of each candidate",
+                      .operators = {2 * n * op::square(31)},
+                      .longest = {op::square(31)},
+                      .registers = kept + n * 2 * 62});
+    stages.push_back({.clock = "4",
+                      .work = "sums",
+                      .operators = {n * op::add(62)},
+                      .longest = {op::add(62)},
+                      .registers = kept + n * length});
+  } else {
+    const SideHardware side = side_hardware(p.footprint, n);
+    const bool two_lines = p.footprint == FootprintRule::kTwoSegment;
+    stages.push_back({.clock = "3",
+                      .work = "measure of each candidate",
+                      .operators = side.operators,
+                      .longest = side.longest,
+                      .registers = kept + side.bits});
+    stages.push_back({.clock = "4",
+                      .work = "longer line of `two_segment`",
+                      .operators = {},
+                      .longest = {},
+                      .registers = kept + n * length});
+    if (two_lines) stages.back().operators = {n * op::maximum(length)};
+    if (two_lines) stages.back().longest = {op::maximum(length)};
+  }
+  const std::uint32_t compared = n - winners, in_series = n > 2 ? 2 : 1;
+  stages.push_back({.clock = "5",
+                    .work = n > 2 ? "longest of four" : "longest of two",
+                    .operators = {compared * op::maximum(length), compared * op::mux(direction, 2)},
+                    .longest = {in_series * op::maximum(length)},
+                    .registers = kept + winners * (length + direction)});
+  stages.push_back({.clock = "6",
+                    .work = "longest of this and the previous cycles",
+                    .operators = {},
+                    .longest = {},
+                    .registers = kept - group + length + direction});
+  if (again) stages.back().operators = {op::maximum(length), op::mux(direction, 2)};
+  if (again) stages.back().longest = {op::maximum(length)};
+  // Stages 7 and 8 compute the axis, with `exact` in parallel with the first bits of the root.
+  const Operator digits = op::root_stage(RootPipeline::kMeanRest);
+  const std::uint32_t root = exact ? RootPipeline::kMeanRegisters : length;
+  const std::uint32_t without_differences = kToken + kArea - kDifferences;
+  stages.push_back({.clock = "7",
+                    .work = "the same multiples of the coordinate differences, for the direction "
+                            "found",
+                    .operators = multiplied(33),
+                    .longest = {op::multiply_constant(33, 3), op::mux(40, multiples + 2)},
+                    .registers = without_differences + 4 * 41 + root});
+  stages.back().operators.push_back(4 * op::mux(40, multiples + 2));
+  stages.back().operators.push_back(op::logic(2 * 41));
+  stages.push_back({.clock = "8",
+                    .work = "sum, rounded",
+                    .operators = {4 * op::add(41)},
+                    .longest = {2 * op::add(41)}});
+  if (!exact) return sheet;
+  const std::uint32_t registers = without_differences + 2 * 34 + root;
+  for (std::size_t i : {stages.size() - 2, stages.size() - 1}) {
+    stages[i].work += "; two root bits";
+    stages[i].operators.push_back(digits);
+  }
+  stages.back().registers = registers;
+  stages.push_back({.clock = "9-21",
+                    .work = "two root bits each",
+                    .operators = {digits},
+                    .longest = {op::root_stage(RootPipeline::kRest)},
+                    .registers = registers});
+  stages.push_back({.clock = "22",
+                    .work = "two root bits",
+                    .operators = {digits},
+                    .longest = {op::root_stage(RootPipeline::kRest)}});
   return sheet;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
@@ -166,21 +168,33 @@ void DataStage::reset() {
   issued_ = nullptr;
 }
 
-Datasheet DataStage::datasheet() {
+Datasheet DataStage::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const std::uint32_t n = z.words, place = z.slot + z.offset;
   return {.unit = "DataStage",
+          .variant = std::to_string(n) + " banks of " + std::to_string(1U << z.slot) + " words",
           .does = "Reads the texels of a request from the banks and writes its fills.",
           .latency = {2, "2, from the last cycle of a request"},
           .interval = {1, "max(1, bank passes) + max(1, lines to write) - 1 cycles per request"},
-          .stages = {{"1",
-                      "waits for the request's fills and takes each in order; addresses the texels "
-                      "that hit before it writes its fills",
-                      "14-bit comparison, the pass of each texel (three 2-bit steps), 4 : 1 mux of "
-                      "addresses"},
-                     {"2", "words, texels; missed texels from the fill buffer",
-                      "SRAM read, 16 : 1 mux of words (32 : 1 at most) and a byte mux"}},
-          .cost =
-              "banks of lines x 32 bits, SRAM 1R1W, four texel registers, four word muxes, six "
-              "comparators."};
+          .stages =
+              // Bank and word of each pair; the address of each bank; the fill's words of texels
+              // that missed, its turned halves, and its place.
+          {{.clock = "1",
+            .work = "waits for the request's fills and takes each in order; addresses the texels "
+                    "that hit before it writes its fills",
+            .operators = {6 * op::equal(place - 2), 6 * op::maximum(2), n * op::mux(z.slot, 4),
+                          op::logic(12 * n + 60), 4 * op::mux(32, n), op::mux(32 * n, 2),
+                          op::mux(z.slot + 1, 4)},
+            .longest = {op::equal(place - 2), 3 * op::maximum(2), op::mux(z.slot, 4)},
+            // Ticket and control; texels that missed, and of the others bank and byte; passes and
+            // fills done.
+            .registers = kPayloadBits<TexelQuadToken> + 4 * (z.offset + 1) + 2 * 3 + 2},
+           {.clock = "2",
+            .work = "words, texels; missed texels from the fill buffer",
+            .path = "SRAM read",
+            .operators = {4 * op::mux(32, n), 4 * op::mux(32, 2), 4 * op::mux(8, 4),
+                          4 * op::mux(8, 2), op::logic(4 * 32)},
+            .longest = {op::mux(32, n), op::mux(32, 2), op::mux(8, 4)}}}};
 }
 
 }  // namespace deburr::rtl::texture

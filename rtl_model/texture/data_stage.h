@@ -48,7 +48,7 @@ class DataStage final : public DataUnit {
   }
   void reset() override;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   // When and through which port each texel that hits is read.

@@ -2,12 +2,49 @@
 // Datasheets of the texture unit's parts.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
+
+// Counts of a build and widths in bits, of which its operators follow.
+struct Sizes {
+  explicit Sizes(const spec::texture::Parameters& parameters);
+  std::uint32_t fragments, width, axis_cycles;
+  std::uint32_t candidates;    // directions of the major axis that are measured per cycle
+  std::uint32_t axis, minor;   // component of the axis; d_min, or the area
+  std::uint32_t step;          // axis x spread, without the zeros below it
+  std::uint32_t walking;       // groups of fragments in the walking registers
+  std::uint32_t texels;        // of a group
+  std::uint32_t line, offset;  // number of a line; byte in it
+  std::uint32_t set, slot;     // number of a set; of a line in the data banks
+  std::uint32_t tag, set_word;
+  std::uint32_t sets, ways, lookups, allocations, outstanding;
+  std::uint32_t words, line_banks, bank_reads, fill_writes;  // words: of a line
+};
+
+// Text of a variant: "`log2 = segments`"; "`axes = two`", or of the others.
+template <class Names, class Value>
+std::string chosen(const char* parameter, const Names& names, Value value) {
+  return "`" + std::string(parameter) + " = " +
+         std::string(names[static_cast<std::size_t>(value)]) + "`";
+}
+std::string chosen_axes(const spec::texture::Parameters& parameters);
+std::string sets_text(const spec::texture::Parameters& parameters);  // "128 sets of 2 ways, ..."
+
+// Of `sides` lengths by every rule but `exact`: the first stage, and the bits that it passes on.
+struct SideHardware {
+  std::vector<Operator> operators, longest;
+  std::uint32_t bits;
+};
+SideHardware side_hardware(spec::texture::FootprintRule rule, std::uint32_t sides);
+// Digits of a constant that are not zero, with digits of -1, 0 and 1.
+std::uint32_t signed_digits(std::uint32_t constant);
 
 // Parts built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::texture::Parameters& parameters);

@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
@@ -111,8 +113,10 @@ void DerivativeUnitOf<Width>::reset() {
 }
 
 template <class Width>
-Datasheet DerivativeUnitOf<Width>::datasheet() {
-  return {
+Datasheet DerivativeUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
+  constexpr std::uint32_t kQuad = kPayloadBits<spec::texture::Quad> - 2 * 16,  // without x and y
+      kKept = kPayloadBits<DerivativeToken> - 4 * 31 + 1;  // without the sizes; and valid
+  Datasheet sheet = {
       .unit = "DerivativeUnit",
       .does =
           "Splits a quad into its covered fragments, with coordinate differences along their "
@@ -122,15 +126,31 @@ Datasheet DerivativeUnitOf<Width>::datasheet() {
           {1,
            "one cycle per covered lane, or per group of at most `fragments` lanes (a quad without "
            "covered lanes: 1)"},
-      .stages = {{"1", "next covered lane, its four differences, descriptor selected"},
-                 {"2", "products of the four differences with the width or height of level 0",
-                  "33 x 13 multiply"},
-                 {"3", "magnitude, rounding and saturation of each"}},
+      .stages = {{.clock = "1",
+                  .work = "next covered lane, its four differences, descriptor selected",
+                  .operators = {op::priority(4), 2 * op::mux(32, 4), 4 * op::subtract(33)},
+                  .longest = {op::mux(32, 2), op::subtract(33)},
+                  .registers = kKept},
+                 {.clock = "2",
+                  .work = "products of the four differences with the width or height of level 0",
+                  .operators = {4 * op::multiply(33, 13)},
+                  .longest = {op::multiply(33, 13)},
+                  .registers = kKept + 4 * 46},
+                 {.clock = "3",
+                  .work = "magnitude, rounding and saturation of each",
+                  .operators = {4 * op::magnitude(46), op::logic(4 * 38)},
+                  .longest = {op::magnitude(46)}}},
       .formats = "S7.24 in; S8.24 and U15.16 out, rounded to nearest, saturated at 2^31 - 1.",
-      .cost =
-          "four 33-bit subtractors, four 33 x 13 multipliers, four 46-bit adders, registers "
-          "for a quad and two fragments; `fragments` = F: F copies, but one quad and one "
-          "descriptor (`derivatives = coarse`: one copy, also of the units up to LevelUnit)."};
+      .copies = Sizes(p).fragments,
+      .per = "fragment",
+      .shared = {op::mux(kQuad, 2)},
+      .shared_registers = kQuad + 2 * 13};
+  if (p.derivatives == spec::texture::Derivatives::kFine) {  // row and column of the lane
+    Stage& first = sheet.stages[0];
+    first.operators.push_back(8 * op::mux(32, 2));
+    first.longest = {op::mux(32, 2), op::priority(4), op::mux(32, 2), op::subtract(33)};
+  }
+  return sheet;
 }
 
 template class DerivativeUnitOf<Narrow>;

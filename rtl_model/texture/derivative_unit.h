@@ -53,7 +53,7 @@ class DerivativeUnitOf : public DerivativeUnitBase {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   static constexpr int kStages = 3;

@@ -127,8 +127,11 @@ Datasheet Descriptors::datasheet() {
   return {.unit = "Descriptors",
           .does = "Stores 16 texture descriptors as in the registers.",
           .latency = {0, "0: flip-flops without output register"},
-          .stages = {{"-", "descriptor selected", "16 : 1 mux"}},
-          .cost = "16 x 432 flip-flops, a 16 : 1 mux per reader."};
+          .stages = {
+              {.clock = "-",
+               .work = "descriptor selected; of one that is written, is it valid?",
+               .operators = {op::maximum(13), op::leading_one(13), op::compare(4), op::logic(60)},
+               .longest = {op::mux(kWordBits, spec::texture::kMaxTextures)}}}};
 }
 
 }  // namespace deburr::rtl::texture

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/fill_buffer.h"
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 
 void FillBuffer::reject(std::uint32_t entry, std::uint32_t offset, std::size_t bytes) const {
@@ -11,18 +13,23 @@ void FillBuffer::reject(std::uint32_t entry, std::uint32_t offset, std::size_t b
                    " does not fit a line of bytes: " + std::to_string(line_bytes_));
 }
 
-Datasheet FillBuffer::datasheet() {
-  return {
-      .unit = "FillBuffer",
-      .does = "Lines in flight from memory, filled in any order, used in the order of fills.",
-      .latency = {2, "2, from the last beat of a line to the line on the output register"},
-      .interval = {1, "1: one reservation, one beat and `fill_writes` releases per cycle"},
-      .stages = {{"1", "the oldest line is read when it has arrived",
-                  "256 : 1 mux of arrival bits (64 by default), then the memory's read enable"},
-                 {"2", "its word"}},
-      .cost =
-          "outstanding x line bits, 1R1W in `fill_writes` banks, flip-flops up to 16 kbit, else "
-          "SRAM; an arrival bit per line."};
+Datasheet FillBuffer::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const auto entry = static_cast<std::uint32_t>(std::bit_width(z.outstanding - 1));
+  return {.unit = "FillBuffer",
+          .variant = std::to_string(z.outstanding) +
+                     " entries, `cache.fill_writes = " + std::to_string(z.fill_writes) + "`",
+          .does = "Lines in flight from memory, filled in any order, used in the order of fills.",
+          .latency = {2, "2, from the last beat of a line to the line on the output register"},
+          .interval = {1, "1: one reservation, one beat and `fill_writes` releases per cycle"},
+          .stages = {{.clock = "1",
+                      .work = "the oldest line is read when it has arrived",
+                      .path = "SRAM read enable",
+                      .operators = {(z.fill_writes + 1) * op::add(entry), op::add(entry + 1),
+                                    op::logic(10 * z.fill_writes + 20)},
+                      .longest = {op::mux(1, z.outstanding)},
+                      .registers = z.fill_writes * (entry + 1) + 2 * entry + 1},
+                     {.clock = "2", .work = "its word", .path = "SRAM read"}}};
 }
 
 }  // namespace deburr::rtl::texture

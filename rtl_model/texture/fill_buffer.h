@@ -19,6 +19,7 @@
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "spec/error.h"
+#include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
@@ -113,7 +114,7 @@ class FillBuffer {
     std::fill(arrived_.begin(), arrived_.end(), kNever);
   }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   // The oldest unused line of a bank.

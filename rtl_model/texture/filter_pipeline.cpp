@@ -4,6 +4,7 @@
 #include <bit>
 #include <string>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/tables.h"
@@ -361,42 +362,88 @@ void FilterPipelineOf<Width>::reset() {
 
 template <class Width>
 Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p) {
+  using spec::texture::Blend, spec::texture::SrgbOutput;
+  const std::uint32_t w = Sizes(p).width;
+  const bool by_level = p.blend == Blend::kLevel, encoded = p.srgb_output == SrgbOutput::kEncoded;
+  const bool rom =
+      p.count == spec::texture::CountRule::kAny || p.kernel != spec::texture::Kernel::kBox;
+  // Tag, lane, last and valid; for the codes also the descriptor's valid bit and the format.
+  const std::uint32_t ticket = 32 + 2 + 1 + 1 + (encoded ? 1 + 3 : 0);
+  constexpr std::uint32_t kFraction = 8, kWeight = 9, kFlags = 2;
+  // Of each channel in stage 7.
+  const std::uint32_t value = by_level ? 28 : 20, sum = value + 8;
   Datasheet sheet = {
       .unit = "FilterPipeline",
-      .variant = "`srgb_output = linear`",
+      .variant = chosen("srgb_output", spec::texture::kSrgbOutputNames, p.srgb_output) +
+                 (rom ? ", ROM `weights`" : ", no ROM `weights`") +
+                 (by_level ? ", `blend = level`" : "") +
+                 (w > 1 ? ", `width = " + std::to_string(w) + "`" : ""),
       .does = "Filters four texels per cycle to the colour of a fragment.",
-      .latency = {8},
-      .stages =
-          {{"1", "fields"},
-           {"2", "unpack (sRGB: ROM), weight (ROM)", "ROM read"},
-           {"3", "horizontal products", "12 x 9 multiply"},
-           {"4", "horizontal sums"},
-           {"5", "vertical lerp",
-            "two 20 x 9 multiplies and their sum (18 rows of partial products; 24 x 24 has "
-            "24), including rounding"},
-           {"6", "level lerp (`blend = level`: sum over the samples of a level)",
-            "20 x 9 multiply and 28-bit addition"},
-           {"7",
-            "round the level lerp, multiply by the weight, accumulate (`blend = level`: level "
-            "lerp)",
-            "28-bit addition, then a 20 x 9 multiply and a 28-bit addition (`blend = level`: "
-            "28 x 9 multiply and 36-bit addition)"},
-           {"8", "round, pack"}},
+      .latency = {encoded ? 9U : 8U},
+      .stages = {{.clock = "1",
+                  .work = "fields",
+                  .operators = {},
+                  .longest = {},
+                  .registers = (encoded ? ticket : ticket + 1 + 3) + 2 * kFraction + kWeight +
+                               kFlags + (rom ? 0 : 4) + 4 * 32},
+                 {.clock = "2",
+                  .work = "unpack (sRGB: ROM), weight (ROM)",
+                  .operators = {16 * op::mux(8, 4), 12 * op::mux(12, 2), op::logic(20)},
+                  .longest = {op::rom_read(12, 256), op::mux(12, 2)},
+                  .registers = ticket + 2 * kFraction + 2 * kWeight + kFlags + 16 * 12},
+                 {.clock = "3",
+                  .work = "horizontal products",
+                  .operators = {16 * op::multiply(12, 9), op::subtract(9)},
+                  .longest = {op::subtract(9), op::multiply(12, 9)},
+                  .registers = ticket + kFraction + 2 * kWeight + kFlags + 16 * 20},
+                 {.clock = "4",
+                  .work = "horizontal sums",
+                  .operators = {8 * op::add(20)},
+                  .longest = {op::add(20)},
+                  .registers = ticket + kFraction + 2 * kWeight + kFlags + 8 * 20},
+                 {.clock = "5",
+                  .work = "vertical lerp",
+                  .operators = {8 * op::multiply(20, 9), 4 * op::add(28), op::subtract(9)},
+                  .longest = {op::subtract(9), op::multiply(20, 9), op::add(28)},
+                  .registers = ticket + 2 * kWeight + kFlags + 4 * 20},
+                 {.clock = "6",
+                  .work = "level lerp (`blend = level`: sum over the samples of a level)",
+                  .operators = {4 * op::multiply(20, 9), 4 * op::add(28)},
+                  .longest = {op::multiply(20, 9), w * op::add(28)},
+                  .registers = ticket + kWeight + 1 + 4 * 28},
+                 {.clock = "7",
+                  .work =
+                      "round the level lerp, multiply by the weight, accumulate (`blend = level`: "
+                      "level lerp)",
+                  .operators = {4 * op::multiply(value, 9), 4 * op::add(sum),
+                                op::logic(4 * (28 + sum))},
+                  .longest = {op::multiply(value, 9), w * op::add(sum)},
+                  .registers = ticket + 4 * sum},
+                 {.clock = "8",
+                  .work = "round, pack",
+                  .operators = {4 * op::add(8)},
+                  .longest = {op::add(encoded ? 12 : 8)},
+                  .registers = encoded ? ticket + 4 * 8 : 0}},
       .formats =
           "U8.4 after stage 2, U8.12 after 4 and 5, U8.20 in 6 and 7, U8.0 out (`encoded`: U8.4 "
           "after 8); rounded in 5, 7 and 8; `blend = level`: U8.28 in 7, rounded in 5 and 8.",
-      .cost =
-          "four channels: 16 + 8 + 4 + 4 multipliers (12 x 9, the others 20 x 9; `blend = level`: "
-          "the last four 28 x 9), 24 adders, the ROM `srgb`, 256 x 12 bits, 12R, one read per sRGB "
-          "channel; ROM `weights`, 256 x 9 bits, "
-          "1R; `encoded`: ROM `codes`, 4096 x 8 bits, 3R, three adders; `width` = W: W copies "
-          "(stage 6 and 7 add W values in order), the ROMs 12 W R, "
-          "W R and 3 W R."};
-  if (p.srgb_output == spec::texture::SrgbOutput::kEncoded) {
-    sheet.variant = "`srgb_output = encoded`";
-    sheet.latency = {9};
-    sheet.stages.push_back({"9", "codes (ROM)", "ROM read"});
+      .copies = w,
+      .per = "request"};
+  auto& stages = sheet.stages;
+  if (!by_level) {
+    stages[6].operators.insert(stages[6].operators.begin(), 4 * op::add(20));
+    stages[6].longest.insert(stages[6].longest.begin(), op::add(20));
   }
+  if (encoded) {
+    stages[7].operators.push_back(3 * op::add(12));
+    stages.push_back({.clock = "9",
+                      .work = "codes (ROM)",
+                      .operators = {3 * op::mux(8, 2)},
+                      .longest = {op::rom_read(8, 4096), op::mux(8, 2)}});
+  }
+  // The colours of a beat, in order.
+  for (std::uint32_t lane = 1; lane < w; ++lane)
+    sheet.shared.push_back(op::mux(kPayloadBits<spec::texture::Colour>, lane + 1));
   return sheet;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 
 template <class Width>
@@ -81,39 +83,66 @@ void FootprintUnitOf<Width>::reset() {
 
 template <class Width>
 Datasheet FootprintUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
+  constexpr std::uint32_t kKept = kPayloadBits<DerivativeToken> - 4 * 31 + 1;
   Datasheet sheet = {.unit = "FootprintUnit",
+                     .variant = chosen("footprint", spec::texture::kFootprintNames, p.footprint),
                      .does =
                          "Lengths of both sides of a footprint, and the coordinate difference "
-                         "along the longer side (`axes = two`)."};
+                         "along the longer side (`axes = two`).",
+                     .copies = Sizes(p).fragments,
+                     .per = "fragment"};
+  const std::vector<Operator> choice = {2 * op::mux(32, 2), 2 * op::mux(33, 2)};
   if (p.footprint == spec::texture::FootprintRule::kExact) {
-    sheet.variant = "`footprint = exact`";
+    const Operator digits = 2 * op::root_stage(RootPipeline::kMeanRest);
+    const std::uint32_t registers = kKept + 2 * RootPipeline::kMeanRegisters;
     sheet.latency = {19};
-    sheet.stages = {
-        {"1", "squares",
-         "31-bit squarer: 1.29 x the 24 x 24 multiply, since the equal halves of a 31 x 31 "
-         "multiply are not shared"},
-        {"2", "sums", "62-bit addition"},
-        {"3-18", "two root bits each, for both sides; in parallel with 3: which sum is larger",
-         "two 34-bit subtractors in series"},
-        {"19", "d_max, d_min, major axis"}};
+    sheet.stages = {{.clock = "1",
+                     .work = "squares",
+                     .operators = {4 * op::square(31)},
+                     .longest = {op::square(31)},
+                     .registers = kKept + 4 * 62},
+                    {.clock = "2",
+                     .work = "sums",
+                     .operators = {2 * op::add(62)},
+                     .longest = {op::add(62)},
+                     .registers = kKept + 2 * 63},
+                    {.clock = "3",
+                     .work = "two root bits of both sides; which sum is larger",
+                     .operators = {digits, op::compare(63)},
+                     .longest = {op::compare(63)},
+                     .registers = registers + 1},
+                    {.clock = "4-18",
+                     .work = "two root bits each, of both sides",
+                     .operators = {digits},
+                     .longest = {op::root_stage(RootPipeline::kRest)},
+                     .registers = registers + 1},
+                    {.clock = "19",
+                     .work = "d_max, d_min, major axis",
+                     .operators = choice,
+                     .longest = {op::mux(32, 2)}}};
     sheet.formats = "U15.16 in; squares and sums exact, U31.32; root U16.16, truncated.";
-    sheet.cost =
-        "four 31-bit squarers, two 62-bit adders, 2 x 16 x two 34-bit subtractors, a 63-bit "
-        "comparator; `fragments` = F: F copies.";
     return sheet;
   }
-  sheet.variant = "other `footprint`";
+  const SideHardware side = side_hardware(p.footprint, 2);
   sheet.latency = {2};
   sheet.stages = {
-      {"1", "per side the longer of its two sizes, and the sum by rule (`two_segment`: both lines)",
-       "31-bit comparison with mux, then a 32-bit addition (`two_segment`: three operands)"},
-      {"2", "per side the longer line of `two_segment`; which side is longer, its axis",
-       "two comparisons with muxes"}};
+      {.clock = "1",
+       .work = "per side the longer of its two sizes, and the sum by rule (`two_segment`: both "
+               "lines)",
+       .operators = side.operators,
+       .longest = side.longest,
+       .registers = kKept + side.bits},
+      {.clock = "2",
+       .work = "per side the longer line of `two_segment`; which side is longer, its axis",
+       .operators = {op::compare(32)},
+       .longest = {op::compare(32), op::mux(32, 2)}}};
+  auto& last = sheet.stages.back();
+  last.operators.insert(last.operators.end(), choice.begin(), choice.end());
+  if (p.footprint == spec::texture::FootprintRule::kTwoSegment) {
+    last.operators.push_back(2 * op::maximum(32));
+    last.longest.insert(last.longest.begin(), op::maximum(32));
+  }
   sheet.formats = "U15.16 in, U16.16 out.";
-  sheet.cost =
-      "`half` and `quarter`: two comparators and two adders; `two_segment`: four comparators and "
-      "six adders; one more comparator to order the sides; registers for a fragment; "
-      "`fragments` = F: F copies.";
   return sheet;
 }
 

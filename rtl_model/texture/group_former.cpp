@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 
 GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -243,21 +245,34 @@ void GroupFormer::reset() {
   stopped_since_.fill(0);
 }
 
-Datasheet GroupFormer::datasheet() {
+Datasheet GroupFormer::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const std::uint32_t n = z.texels, pairs = n * (n - 1) / 2, mean = n / 2;
+  // A word of a bank: of two texels of one line, the word in the line; the bank by both.
+  const std::uint32_t word = z.offset - 2,
+                      bank = word + static_cast<std::uint32_t>(std::bit_width(z.line_banks - 1));
   return {.unit = "GroupFormer",
+          .variant = "`width = " + std::to_string(z.width) +
+                     "`, `cache.lookups = " + std::to_string(z.lookups) + "`",
           .does = "Forms groups of requests that the ports of the cache serve in one pass.",
           .latency = {2, "2, from a request in the buffer that leaves at once"},
-          .stages = {{"1", "requests into the buffer", "W : 1 mux per entry"},
-                     {"2",
-                      "distinct lines, words per bank and lines per set of the oldest W requests; "
-                      "those within the limits leave",
-                      "line comparison, number of the line (16 inputs), prefix of the requests "
-                      "within the limits, mux of lines: about 1.3 x the 24 x 24 multiply by "
-                      "estimate, two stages if that is too long"}},
-          .cost =
-              "2 W requests of flip-flops, W read and W write ports; by estimate for W = 4: 120 "
-              "comparators of line numbers (27 bits) and 120 of words (30 bits) between 16 texels, "
-              "a counter of distinct words per bank."};
+          .stages = {{.clock = "1",
+                      .work = "requests into the buffer",
+                      .operators = {2 * op::add(4), op::compare(4)},
+                      .longest = {op::add(4), op::mux(kPayloadBits<TexelToken> + 1, z.width)},
+                      .registers = 2 * 4},
+                     // Of each texel: is its line (its word) the first, how many of its kind come
+                     // before it (lines, lines of its set, words of its bank), is that in limits?
+                     {.clock = "2",
+                      .work = "distinct lines, words per bank and lines per set of the oldest W "
+                              "requests; those within the limits leave",
+                      .operators = {pairs * op::equal(z.line), pairs * op::equal(word),
+                                    pairs * op::equal(bank), 3 * n * op::count_ones(mean),
+                                    3 * n * op::compare(4), n * op::mux(3, mean),
+                                    z.lookups * op::mux(z.line + 1, n), op::add(4),
+                                    op::logic(4 * pairs + 8 * z.width)},
+                      .longest = {op::equal(z.line), op::count_ones(n - 1), op::compare(4),
+                                  op::priority(z.width), op::mux(z.line + 1, n)}}}};
 }
 
 }  // namespace deburr::rtl::texture

@@ -52,7 +52,7 @@ class GroupFormer final : public Unit {
   Counter bank_pass{"bank_pass", "slots", "empty: the DataStage read a group in passes"};
   Counter output{"output", "slots", "empty: the texels were not taken"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   // A request in the buffer. Its distinct lines in the order of first use are found when it enters.

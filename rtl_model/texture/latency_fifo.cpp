@@ -4,13 +4,14 @@
 namespace deburr::rtl::texture {
 
 Datasheet LatencyFifo::datasheet() {
-  return {
-      .unit = "LatencyFifo",
-      .does = "Holds requests between tag check and data read while lines come from memory.",
-      .latency = {1, "at least 1"},
-      .stages = {{"-", "requests; as deep as the memory latency in cycles",
-                  "SRAM read into an output register"}},
-      .cost = "depth x request bits, flip-flops up to 32 requests and 16 kbit, else SRAM 1R1W."};
+  return {.unit = "LatencyFifo",
+          .does = "Holds requests between tag check and data read while lines come from memory.",
+          .latency = {1, "at least 1"},
+          .stages = {{"-", "requests; as deep as the memory latency in cycles",
+                      "SRAM read into an output register"}},
+          .cost =
+              "the FIFO: depth x request bits, flip-flops up to 32 requests and 16 kbit, else "
+              "SRAM 1R1W."};
 }
 
 Datasheet WideLatencyFifo::datasheet() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
@@ -123,25 +124,57 @@ void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in
 }
 
 template <class Width>
-Datasheet LevelUnitOf<Width>::datasheet() {
-  return {
-      .unit = "LevelUnit",
-      .does = "Number of samples, mip level, level fraction and filter of a fragment.",
-      .latency = {3},
-      .stages = {{"1",
-                  "difference of the logarithms (area: twice that of the axis minus that of the "
-                  "area), the part taken as samples (E); descriptor selected"},
-                 {"2",
-                  "level of detail with bias, clamped to its range; number of samples (`any`: 15 "
-                  "parallel comparisons, whose ones are counted)",
-                  "20-bit addition of three operands, two 20-bit comparisons with muxes, then a "
-                  "comparison with 0"},
-                 {"3", "level and fraction by mode, filter, magnification"}},
-      .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
-      .cost =
-          "nine 20-bit adders or comparators and a few muxes; `any`: 15 comparators of 15 bits "
-          "with a constant and a counter of their ones, no adder to round L; no multiplier and no "
-          "divider; registers for two fragments; `fragments` = F: F copies, but one descriptor."};
+Datasheet LevelUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
+  using spec::texture::CountCap, spec::texture::CountRule;
+  const bool any = p.count == CountRule::kAny;
+  // Ticket, position, axis and valid; lb d_max; E.
+  const std::uint32_t kept = Payload::of<LevelToken>(axis_shape(p)).bits() - 4 - 4 - 8 - 1 + 1;
+  const std::uint32_t taken = any ? 15 : 3;
+  Datasheet sheet =
+      {.unit = "LevelUnit",
+       .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p),
+       .does = "Number of samples, mip level, level fraction and filter of a fragment.",
+       .latency = {3},
+       .stages =
+           {{.clock = "1",
+             .work = "difference of the logarithms (area: twice that of the axis minus that of the "
+                     "area), the part taken as samples (E); descriptor selected",
+             .operators = {op::subtract(19), op::maximum(taken + 3)},
+             .longest = {op::subtract(19), op::maximum(taken + 3)},
+             .registers = kept + 18 + taken},
+            {.clock = "2",
+             .work =
+                 "level of detail with bias, clamped to its range; number of samples (`any`: 15 "
+                 "parallel comparisons, whose ones are counted)",
+             .operators = {op::subtract(19), op::add(20), 2 * op::maximum(20), op::compare(20)},
+             .longest = {op::subtract(19), op::add(20), 2 * op::maximum(20), op::compare(20)},
+             .registers = kept + 20 + 4 + 1},
+            {.clock = "3",
+             .work = "level and fraction by mode, filter, magnification",
+             .operators = {op::add(20), op::add(17), 2 * op::compare(8), op::mux(4, 4),
+                           op::logic(80)},
+             .longest = {op::add(17), op::compare(8), op::mux(4, 4)}}},
+       .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
+       .copies = Sizes(p).fragments,
+       .per = "fragment",
+       // Bias, limits, filters and levels of the descriptor; the last two once more.
+       .shared_registers = 3 * 16 + 2 * (4 + 4)};
+  auto& first = sheet.stages[0];
+  const bool rounded = p.count == CountRule::kCeil, capped = p.count_cap == CountCap::kTexel;
+  if (rounded) {
+    first.operators.push_back(op::add(18));
+    first.longest.insert(first.longest.begin() + 1, op::add(18));
+  }
+  if (capped) {
+    first.operators.push_back(op::maximum(taken + 3));
+    first.longest.push_back(op::maximum(taken + 3));
+  }
+  if (capped && !any) first.operators.push_back(op::add(18));
+  if (any) {
+    sheet.stages[1].operators.push_back(15 * op::compare(15));
+    sheet.stages[1].operators.push_back(op::count_ones(15));
+  }
+  return sheet;
 }
 
 template class LevelUnitOf<Narrow>;

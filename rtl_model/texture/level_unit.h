@@ -45,7 +45,7 @@ class LevelUnitOf : public LevelUnitBase {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   static constexpr int kStages = 3;

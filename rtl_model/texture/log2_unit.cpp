@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/parameters.h"
 #include "spec/texture/tables.h"
 
@@ -172,30 +173,52 @@ Log2Token Log2UnitOf<Width>::correct_both(const Entry& entry) const {
 
 template <class Width>
 Datasheet Log2UnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
-  const Stage leading_one = {"1", "leading one, shift",
-                             "32-bit leading-one detector (area: 47-bit), then a shifter of five "
-                             "levels (six)"};
+  using spec::texture::Log2Rule;
+  const Sizes z(p);
+  // Mean width of a shifter of which 12 bits are kept.
+  const std::uint32_t shifted = z.minor > 32 ? 22 : 18;
   Datasheet sheet = {
       .unit = "Log2Unit",
+      .variant = chosen("log2", spec::texture::kLog2Names, p.log2) + ", " + chosen_axes(p),
       .does =
           "Binary logarithms of both sides of the footprint, or of the longer side and the area.",
+      .latency = {p.log2 == Log2Rule::kMitchell ? 1U : 3U},
+      .stages = {{.clock = "1",
+                  .work = "leading one, shift",
+                  .operators = {op::leading_one(32), op::shift(18, 32), op::leading_one(z.minor),
+                                op::shift(shifted, z.minor)},
+                  .longest = {op::leading_one(z.minor), op::shift(shifted, z.minor)}}},
       .formats = "U16.16 and U31.16 in, S5.12 out.",
-      .cost =
-          "per side: a 32-bit leading-one detector and a shifter (`mitchell`: only these, n and y "
-          "are concatenated); `corrected`: an 8 : 1 mux of constants and a 13-bit adder; "
-          "`segments`: three adders; `exact`: a 7 x 6 multiplier and two adders, and for both "
-          "sides the ROM `table`, 65 x 13 bits, 4R; `fragments` = F: F copies, the ROM 4F R."};
-  if (p.log2 == spec::texture::Log2Rule::kMitchell) {
-    sheet.variant = "`log2 = mitchell`";
-    sheet.latency = {1};
-    sheet.stages = {leading_one};
-  } else {
-    sheet.variant = "other `log2`";
-    sheet.latency = {3};
-    sheet.stages = {leading_one,
-                    {"2", "table", "ROM read"},
-                    {"3", "correction", "`exact`: 7 x 6 multiply, then two 13-bit additions"}};
+      .copies = z.fragments,
+      .per = "fragment"};
+  if (p.log2 == Log2Rule::kMitchell) return sheet;
+  // Ticket, position, axis and valid; of both sides n and y.
+  const std::uint32_t kept = Payload::of<Log2Token>(axis_shape(p)).bits() - 2 * 18 + 1;
+  sheet.stages[0].registers = kept + 2 * (6 + 12);
+  Stage table = {.clock = "2", .work = "table", .registers = kept + 2 * (6 + 12)};
+  Stage correction = {.clock = "3", .work = "correction"};
+  switch (p.log2) {
+    case Log2Rule::kMitchell:
+      break;
+    case Log2Rule::kCorrected:
+      correction.operators = {2 * op::rom_read(9, 8), 2 * op::add(18)};
+      correction.longest = {op::rom_read(9, 8), op::add(18)};
+      break;
+    case Log2Rule::kSegments:
+      correction.operators = {2 * op::rom_read(9, 4), 2 * op::mux(8, 4), 2 * op::mux(5, 4),
+                              4 * op::add(11), 2 * op::add(18)};
+      correction.longest = {op::mux(8, 4), 2 * op::add(11), op::add(18)};
+      break;
+    case Log2Rule::kExact:
+      table.longest = {op::rom_read(13, 65)};
+      table.registers = kept + 2 * (6 + 6 + 2 * 13);  // the low half of y; two words
+      correction.operators = {2 * op::subtract(7), 2 * op::multiply(7, 6), 2 * op::add(13),
+                              2 * op::add(18)};
+      correction.longest = {op::subtract(7), op::multiply(7, 6), op::add(13), op::add(18)};
+      break;
   }
+  sheet.stages.push_back(table);
+  sheet.stages.push_back(correction);
   return sheet;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/registers.h"
 
 namespace deburr::rtl::texture {
@@ -106,17 +107,22 @@ void MissQueue::reset() {
   failed_.clear();
 }
 
-Datasheet MissQueue::datasheet() {
-  return {
-      .unit = "MissQueue",
-      .does = "Sends missed lines to memory and collects them in the fill buffer.",
-      .latency = {0, "-"},
-      .interval = {1, "one line per cycle in each direction"},
-      .stages = {{"-", "line to send; its entry is held from issue until the line is used",
-                  "free entries including this cycle's, then write up to four lines: a 4 : 1 mux "
-                  "per entry (`lookups` : 1 above `width = 1`); 256 : 1 mux of lines (64 by "
-                  "default)"}},
-      .cost = "flip-flops of outstanding x line number, 1R4W (1R, `lookups` W); the FillBuffer."};
+Datasheet MissQueue::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const auto entry = static_cast<std::uint32_t>(std::bit_width(z.outstanding - 1));
+  return {.unit = "MissQueue",
+          .variant = std::to_string(z.outstanding) +
+                     " entries, `cache.lookups = " + std::to_string(z.lookups) + "`",
+          .does = "Sends missed lines to memory and collects them in the fill buffer.",
+          .latency = {0, "-"},
+          .interval = {1, "one line per cycle in each direction"},
+          .stages = {
+              {.clock = "-",
+               .work = "line to send; its entry is held from issue until the line is used",
+               .operators = {(z.lookups + 2) * op::add(entry), op::add(entry + 1),
+                             op::compare(entry + 1), op::logic(40)},
+               .longest = {op::add(entry + 1), op::compare(entry + 1), op::mux(z.line, z.lookups)},
+               .registers = entry + entry + 1}}};
 }
 
 }  // namespace deburr::rtl::texture

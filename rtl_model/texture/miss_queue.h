@@ -58,7 +58,7 @@ class MissQueue final : public Unit {
     return std::clamp(entries, kLeast, spec::texture::kMostOutstanding);
   }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   [[gnu::noinline]] Activity work(Cycle cycle);

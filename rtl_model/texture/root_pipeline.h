@@ -18,6 +18,9 @@ class RootPipeline {
  public:
   static constexpr int kDigitStages = 16;
   static constexpr int kStages = 2 + kDigitStages + 1;
+  // Bits of the rest, and of it, the root and what is left of the radicand: the rest grows by four
+  // bits per stage, so the means over the stages are less.
+  static constexpr std::uint32_t kRest = 34, kMeanRest = 26, kMeanRegisters = 71;
 
   bool empty() const { return pipe_.empty(); }
   // True if a token leaves with the next step().

@@ -5,6 +5,7 @@
 #include <bit>
 #include <span>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/tables.h"
 
 namespace deburr::rtl::texture {
@@ -183,40 +184,82 @@ void SampleWalkerOf<Width>::advance_by_level(Walk& walk, bool last_sample) {
 
 template <class Width>
 Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
-  const Stage request = {"", "one bilinear request per cycle",
-                         "57-bit rounding addition, then a 34-bit addition"};
+  const Sizes z(p);
+  const bool any = p.count == spec::texture::CountRule::kAny, wide = z.width > 1;
+  const bool by_level = p.blend == spec::texture::Blend::kLevel;
+  const std::uint32_t f = z.fragments, w = z.width, walks = z.walking * f;
+  // Ticket, position, count, level and filter of a fragment, and valid.
+  constexpr std::uint32_t kFragment = kPayloadBits<LevelToken> - 2 * 34 + 1;
+  // Significant bits of spread x axis, of a step and of a position on the axis: with N a power of
+  // two, the 12 lowest of 16 fraction bits are zero.
+  const std::uint32_t step = z.step + (any ? 16 : 4), walk = step + 4;
+  const std::uint32_t digits = signed_digits(static_cast<std::uint32_t>(p.spread));
+  const std::uint32_t walking = kFragment + 2 * step + 2 * walk + 4 + 1;
   Datasheet sheet = {
       .unit = "SampleWalker",
+      .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p) +
+                 (wide ? ", `width = " + std::to_string(w) + "`" : ""),
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
+      .latency = any ? Cycles{4, "4 to the first request"} : Cycles{3, "3 to the first request"},
       .interval = {1,
                    "one request per cycle: N x (1 or 2) cycles per fragment (1 for an invalid "
                    "descriptor); `width` = W: W requests, of at most two groups of fragments"},
+      .stages = {{.clock = "1",
+                  .work = any ? "spread times axis, 1/N from ROM" : "spread times axis",
+                  .operators = {},
+                  .longest = {},
+                  .registers = f * (kFragment + 2 * z.step)}},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",
-      .cost =
-          "two 34 x 8 multipliers, two shifters and two subtractors (`any`: two 41 x 17 and two "
-          "57 x 4 multipliers, and ROM `reciprocal`, 16 x 17 bits), two 61-bit accumulators, four "
-          "adders, registers for three fragments (`any`: four); `width` = W, `fragments` = F: "
-          "registers for four groups of F fragments (`any`: five), F copies of multipliers, "
-          "shifters, subtractors and accumulators, the ROM F R, W copies of the adders of a "
-          "request, and adders of up to 2 W multiples of a step."};
-  if (p.count == spec::texture::CountRule::kAny) {
-    sheet.variant = "`count = any`";
-    sheet.latency = {4, "4 to the first request"};
-    sheet.stages = {
-        {"1", "spread times axis, 1/N from ROM", "34 x 8 multiply"},
-        {"2", "times 1/N", "41 x 17 multiply (17 rows of partial products; 24 x 24 has 24)"},
-        {"3", "offset of the first sample", "57 x 4 multiply: 1.18 x the 24 x 24 multiply"},
-        {"4", request.work, request.path}};
-  } else {
-    sheet.variant = "other `count`";
-    sheet.latency = {3, "3 to the first request"};
-    sheet.stages = {{"1", "spread times axis", "34 x 8 multiply"},
-                    {"2", "shift by lb N, offset of the first sample",
-                     "5 : 1 mux of shifts, then a 57-bit subtraction"},
-                    {"3", request.work, request.path}};
+      .cost = "`spread` is a constant."};
+  auto& stages = sheet.stages;
+  if (digits > 1) {
+    stages[0].operators = {2 * f * op::multiply_constant(z.axis, digits - 1)};
+    stages[0].longest = {op::multiply_constant(z.axis, digits - 1)};
   }
+  if (any) {
+    stages.push_back({.clock = "2",
+                      .work = "times 1/N",
+                      .operators = {2 * f * op::multiply(z.step, 17)},
+                      .longest = {op::multiply(z.step, 17)},
+                      .registers = f * (kFragment + 2 * step)});
+    stages.push_back({.clock = "3",
+                      .work = "offset of the first sample",
+                      .operators = {2 * f * op::multiply(step, 4)},
+                      .longest = {op::multiply(step, 4)},
+                      .registers = walks * walking});
+  } else {
+    stages.push_back({.clock = "2",
+                      .work = "shift by lb N, offset of the first sample",
+                      .operators = {2 * f * op::mux(step, 5), 2 * f * op::subtract(walk)},
+                      .longest = {op::mux(step, 5), op::subtract(walk)},
+                      .registers = walks * walking});
+  }
+  // A request rounds its position and adds it. Its walk moves on, or the next fragment comes.
+  Stage request = {.clock = any ? "4" : "3",
+                   .work = wide ? std::to_string(w) + " bilinear requests per cycle"
+                                : "one bilinear request per cycle",
+                   .operators = {4 * w * op::add(34), 2 * w * op::add(4), w * op::equal(4),
+                                 w * op::subtract(9), w * op::mux(9, 2)},
+                   .longest = {2 * op::add(34)}};
+  // Of N requests, each after the previous one; the last one is where the walk goes on.
+  auto& operators = request.operators;
+  if (wide) {
+    // The requests left of each fragment, their sums in order; the fragment of each request.
+    operators.insert(
+        operators.end(),
+        {walks * op::add(6), walks * op::add(3), w * walks * op::compare(3),
+         w * op::mux(kFragment + 4 + 1, walks), 2 * w * op::mux(step, walks),
+         2 * (w + 1) * op::mux(walk, walks), 2 * (w - 1) * op::add(step), 2 * w * op::mux(step, w),
+         2 * w * op::add(walk), 2 * walks * op::mux(walk, 2)});
+    request.longest = {op::add(6),           op::add(3),    op::compare(3),
+                       op::mux(walk, walks), op::add(walk), 2 * op::add(34)};
+  } else {
+    operators.insert(operators.end(), {2 * op::add(walk), 2 * op::mux(walk, 2)});
+  }
+  if (by_level) operators.push_back(op::logic(2 * 2 * walks * walk));  // negated
+  stages.push_back(request);
   return sheet;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -139,20 +141,38 @@ void TagStage::reset() {
   occupied_ = false;
 }
 
-Datasheet TagStage::datasheet() {
-  return {
-      .unit = "TagStage",
-      .does = "Looks up the lines of a request, allocates those that miss and requests them.",
-      .latency = {2},
-      .stages =
-          {{"1", "distinct lines, read their sets", "512 : 1 mux of sets"},
-           {"2", "up to four lookups, allocation, misses to the queue",
-            "tag comparison, then four way muxes and, for a set that is read in the same "
-            "cycle, a 5 : 1 mux: 1.09 x the 24 x 24 multiply with 128 sets of two ways (`lru`), "
-            "1.24 with 16 of four (`random`), 1.14 with one of eight (`fifo`)"}},
-      .cost =
-          "tags and order of use: sets x ways x (tag + 2) bits and ways x (ways - 1) / 2 bits per "
-          "set, 4 x ways comparators; six line comparators, registers for a request."};
+Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  constexpr std::uint32_t kLines = 4;
+  const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
+  const Operator way = op::mux(z.tag + 2, std::max(z.ways, 2U));
+  return {.unit = "TagStage",
+          .variant = sets_text(p),
+          .does = "Looks up the lines of a request, allocates those that miss and requests them.",
+          .latency = {2},
+          .stages =
+              {{.clock = "1",
+                .work = "distinct lines, read their sets",
+                .operators = {6 * op::equal(z.line), op::logic(30)},
+                .longest = {op::mux(z.set_word, z.sets)},
+                // The sets; the first texel in each one's line, and valid.
+                .registers = kPayloadBits<TexelToken> + kLines * z.set_word + 1 + 2 + 2 + 1},
+               // A set as the lookups before it left it, of this request; hit, way and order of
+               // use; then the place of each texel and the lines that missed, in order. A set that
+               // is read in this cycle is one of those, or of the tags.
+               {.clock = "2",
+                .work = "up to four lookups, allocation, misses to the queue",
+                .operators = {6 * op::equal(z.set), op::mux(z.set_word, 2), op::mux(z.set_word, 3),
+                              op::mux(z.set_word, 4), kLines * z.ways * op::equal(z.tag + 1),
+                              kLines * z.ways * op::mux(z.tag + 2, 2),
+                              op::logic(kLines * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
+                              op::mux(z.slot + 4, 2), op::mux(z.slot + 4, 3),
+                              op::mux(z.slot + 4, 4), op::mux(z.line + z.slot + 1, 2),
+                              op::mux(z.line + z.slot + 1, 3), op::mux(z.line + z.slot + 1, 4),
+                              op::count_ones(kLines), kLines * kLines * op::equal(z.set),
+                              kLines * op::mux(z.set_word, kLines + 1)},
+                .longest = {op::equal(z.tag + 1), kLines * way, op::mux(z.set_word, kLines + 1)}}},
+          .shared_registers = random ? 16U : 0U};
 }
 
 }  // namespace deburr::rtl::texture

@@ -37,7 +37,7 @@ class TagStage final : public TagUnit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   // A request after stage 1.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/packets.h"
 
 namespace deburr::rtl::texture {
@@ -173,29 +174,58 @@ inline void TexelAddresserOf<Width>::address(const TextureState& texture,
 }
 
 template <class Width>
-Datasheet TexelAddresserOf<Width>::datasheet() {
-  return {
+Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p) {
+  const bool wide = p.width > 1;
+  // Ticket, weight, index and count, flags and format of a request, and valid.
+  constexpr std::uint32_t kKept = 40 + 9 + 2 * 4 + 2 + 3 + 1;
+  // Size, layout, wrap modes and bases of the levels of a descriptor.
+  constexpr std::uint32_t kDescriptor = 26 + 1 + 4 + spec::texture::kMaxLevels * 26;
+  Datasheet sheet = {
       .unit = "TexelAddresser",
+      .variant = wide ? "`width` above 1" : "`width = 1`",
       .does = "Computes the addresses of a sample's four texels and its bilinear fractions.",
       .latency = {5},
-      .stages =
-          {{"1", "descriptor selected", "16 : 1 mux"},
-           {"2", "level selected, both coordinates wrapped"},
-           {"3", "products with the level's width and height", "34 x 13 multiply"},
-           {"4",
-            "subtract half a texel, round, split into texel and fraction, bring both texels of "
-            "each axis into range"},
-           {"5", "two column parts, two row parts, four sums",
-            "`tiled`: 13-bit subtraction, bits of both sides in tiles, count of 10 of them, two "
-            "shifters of four levels, then a 32-bit addition: 1.03 x the 24 x 24 multiply; "
-            "`linear`: 12 x 9 multiply, then a three-operand addition"}},
+      .stages = {{.clock = "1",
+                  .work = "descriptor selected",
+                  .operators = {},
+                  .longest = {op::mux(26, spec::texture::kMaxTextures)},
+                  .registers = kKept + 2 * 34 + 4 + 1},
+                 {.clock = "2",
+                  .work = "level selected, both coordinates wrapped",
+                  .operators = {op::mux(26, spec::texture::kMaxLevels), 2 * op::shift(13, 13),
+                                op::logic(200)},
+                  .longest = {op::mux(26, spec::texture::kMaxLevels)},
+                  .registers = kKept + 2 * 34 + 2 * 13 + 26 + 4 + 1 + 1},
+                 {.clock = "3",
+                  .work = "products with the level's width and height",
+                  .operators = {2 * op::multiply(34, 13)},
+                  .longest = {op::multiply(34, 13)},
+                  .registers = kKept + 2 * 32 + 2 * 13 + 26 + 4 + 1 + 1},
+                 {.clock = "4",
+                  .work = "subtract half a texel, round, split into texel and fraction, bring both "
+                          "texels of each axis into range",
+                  .operators = {2 * op::add(32), 2 * op::mux(20, 2), 2 * op::add(14),
+                                2 * op::subtract(13), 4 * op::compare(14), 4 * op::mux(12, 3)},
+                  .longest = {op::add(32), op::mux(20, 2), op::add(14), op::compare(14),
+                              op::mux(12, 3)},
+                  .registers = kKept + 2 * 8 + 4 * 12 + 2 * 13 + 26 + 1},
+                 // `linear`: a multiple of 64 as the pitch. `tiled`: tiles and places in them of
+                 // two columns and two rows, of which the common bits are interleaved.
+                 {.clock = "5",
+                  .work = "two column parts, two row parts, four sums",
+                  .operators = {op::mux(10, 3), op::add(10), 2 * op::multiply(12, 9),
+                                2 * op::mux(14, 3), 2 * op::subtract(13), op::count_ones(10),
+                                4 * op::mux(12, 2), 8 * op::shift(12, 16), 4 * op::mux(6, 3),
+                                4 * op::mux(28, 2),
+                                2 * op::add(26), 4 * op::add(32), op::logic(150)},
+                  .longest = {op::subtract(13), op::count_ones(10), 2 * op::shift(12, 16),
+                              op::mux(28, 2), op::add(32)}}},
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
-      .cost =
-          "16 : 1 mux of descriptors and 13 : 1 mux of levels, two 34 x 13 multipliers, two 12 x 9 "
-          "multipliers for `linear` pitch; `tiled`: two subtractors, and per address a count of 10 "
-          "bits and two shifters; registers for four requests, the first with 13 level bases; "
-          "`width` = W: W copies, but two "
-          "descriptors."};
+      .copies = Sizes(p).width,
+      .per = "request",
+      .shared_registers = kDescriptor * (wide ? 2U : 1U)};
+  if (wide) sheet.stages[1].operators.push_back(op::mux(kDescriptor, 2));
+  return sheet;
 }
 
 template class TexelAddresserOf<Narrow>;

@@ -45,7 +45,7 @@ class TexelAddresserOf : public TexelAddresserBase {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   static constexpr int kStages = 5;

@@ -92,6 +92,12 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
   miss_queue.responses_in(memory_responses_);
 }
 
+Datasheet TextureCache::memory_port_datasheet(const spec::texture::Parameters& parameters) {
+  spec::texture::Parameters p = parameters;
+  p.cache_outstanding = MissQueue::entries(p, {});
+  return MemoryPort::datasheet(port_parameters(p), tag_bits(p));
+}
+
 Datasheet TextureCache::datasheet(const spec::texture::Build& build) {
   if (build.width > 1) {
     Datasheet sheet = {

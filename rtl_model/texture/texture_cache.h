@@ -78,6 +78,7 @@ class TextureCache final : public sc_core::sc_module {
   DataUnit& data_stage;
   MemoryPort memory_port;
 
+  static Datasheet memory_port_datasheet(const spec::texture::Parameters& parameters);
   static Datasheet datasheet(const spec::texture::Build& build = {});
 
  private:

@@ -5,6 +5,8 @@
 #include <bit>
 #include <string>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
@@ -258,27 +260,48 @@ void WideDataStage::reset() {
   issued_ = nullptr;
 }
 
-Datasheet WideDataStage::datasheet() {
-  return {
-      .unit = "WideDataStage",
-      .does = "Reads the texels of a group from the banks and writes its fills.",
-      .latency = {2, "2, from the last cycle of a group"},
-      .interval = {1,
-                   "max(1, bank passes) cycles per group; the writes of its fills begin in the "
-                   "last of them"},
-      .stages =
-          {{"1",
-            "waits for the group's fills and takes up to `fill_writes` of them; addresses the "
-            "texels that hit before it writes fills",
-            "14-bit comparison, number of the word in its bank (16 inputs), 16 : 1 mux of "
-            "addresses per port of a bank: about 1.0 x the 24 x 24 multiply by estimate"},
-           {"2", "words, texels; missed texels from the fill buffer",
-            "SRAM read, mux of words (`bank_reads` x `line_banks` x words of a line : 1) and a "
-            "byte mux"}},
-      .cost =
-          "`bank_reads` copies of `line_banks` x words of a line banks of 32 bits, SRAM 1R1W; by "
-          "estimate for `width = 4`: 16 texel registers and word muxes, 120 comparators of places, "
-          "`fill_writes` line muxes."};
+Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const std::uint32_t n = z.texels, pairs = n * (n - 1) / 2, line = 32 * z.words;
+  const std::uint32_t banks = z.line_banks * z.words, ports = z.bank_reads * banks;
+  const auto log2 = [](std::uint32_t count) {
+    return static_cast<std::uint32_t>(std::bit_width(count - 1));
+  };
+  const std::uint32_t place = z.slot + z.offset, row = z.slot - log2(z.line_banks);
+  return {.unit = "WideDataStage",
+          .variant = "`width = " + std::to_string(z.width) + "`, " + std::to_string(banks) +
+                     " banks, `cache.bank_reads = " + std::to_string(z.bank_reads) +
+                     "`, `cache.fill_writes = " + std::to_string(z.fill_writes) + "`",
+          .does = "Reads the texels of a group from the banks and writes its fills.",
+          .latency = {2, "2, from the last cycle of a group"},
+          .interval = {1,
+                       "max(1, bank passes) cycles per group; the writes of its fills begin in the "
+                       "last of them"},
+          .stages =
+              // The place of each texel by its line; pairs of one word and of one bank; the pass of
+              // each texel; the address of each bank. The lines that are written: their number,
+              // line bank, turned halves, and their words of texels that missed.
+          {{.clock = "1",
+            .work = "waits for the group's fills and takes up to `fill_writes` of them; addresses "
+                    "the texels that hit before it writes fills",
+            .operators = {n * op::mux(z.slot + 2, z.lookups), pairs * op::equal(place - 2),
+                          n * op::count_ones(n / 2), n * op::compare(4), ports * op::mux(row, n),
+                          op::logic(ports * n + 4 * pairs), z.fill_writes * op::priority(z.lookups),
+                          z.fill_writes * op::mux(z.slot + 1, z.lookups),
+                          z.fill_writes * op::mux(line, 2),
+                          z.line_banks * op::mux(line + row, z.fill_writes),
+                          n * op::mux(32, z.words * z.fill_writes)},
+            .longest = {op::mux(z.slot + 2, z.lookups), op::equal(place - 2), op::count_ones(n - 1),
+                        op::compare(4), op::mux(row, n)},
+            // As in the DataStage; lines to write.
+            .registers = Payload::of<TexelQuadGroup>(links_of_groups(p.width)).bits() +
+                         n * (log2(ports) + 2 + 1) + z.lookups + 4 + 2},
+           {.clock = "2",
+            .work = "words, texels; missed texels from the fill buffer",
+            .path = "SRAM read",
+            .operators = {n * op::mux(32, ports), n * op::mux(32, 2), n * op::mux(8, 4),
+                          n * op::mux(8, 2), op::logic(n * 32)},
+            .longest = {op::mux(32, ports), op::mux(32, 2), op::mux(8, 4)}}}};
 }
 
 }  // namespace deburr::rtl::texture

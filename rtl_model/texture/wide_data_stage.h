@@ -42,7 +42,7 @@ class WideDataStage final : public DataUnit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   static constexpr std::size_t kMostTexels = 4 * kMostInGroup;

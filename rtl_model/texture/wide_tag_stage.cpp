@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 
 WideTagStage::WideTagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -158,21 +160,42 @@ void WideTagStage::reset() {
   left_ = 0;
 }
 
-Datasheet WideTagStage::datasheet() {
-  return {.unit = "WideTagStage",
-          .does = "Looks up the lines of a group, allocates those that miss and requests them.",
-          .latency = {2},
-          .interval = {1, "max(1, misses / `allocations`) cycles per group"},
-          .stages =
-              {{"1", "read the sets of the distinct lines", "512 : 1 mux of sets"},
-               {"2", "up to `lookups` lookups, allocation, misses to the queue",
-                "tag comparison, then at most min(`allocations`, ways) choices of a way in series, "
-                "since a group has at most `ways` lines of a set: about 1.3 x the 24 x 24 multiply "
-                "by estimate"}},
-          .cost =
-              "tags and order of use as in the TagStage with `lookups` read and write ports, "
-              "`lookups` x ways comparators of tags; order of up to 16 uses; registers for a "
-              "group."};
+Datasheet WideTagStage::datasheet(const spec::texture::Parameters& p) {
+  const Sizes z(p);
+  const std::uint32_t lines = z.lookups, pairs = lines * (lines - 1) / 2;
+  const std::uint32_t in_series = std::min(z.allocations, z.ways);
+  const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
+  return {
+      .unit = "WideTagStage",
+      .variant = sets_text(p) + ", `cache.lookups = " + std::to_string(lines) +
+                 "`, `cache.allocations = " + std::to_string(z.allocations) + "`",
+      .does = "Looks up the lines of a group, allocates those that miss and requests them.",
+      .latency = {2},
+      .interval = {1, "max(1, misses / `allocations`) cycles per group"},
+      .stages = {{.clock = "1",
+                  .work = "read the sets of the distinct lines",
+                  .operators = {pairs * op::equal(z.set)},
+                  .longest = {op::mux(z.set_word, z.sets)},
+                  .registers = Payload::of<LineGroup>(line_group_shape(p)).bits() +
+                               lines * z.set_word + pairs + 1},
+                 // As in the TagStage. Order of use: the last use of each line, of up to four
+                 // texels per request. Lines allocated in an earlier cycle of the group stay.
+                 {.clock = "2",
+                  .work = "up to `lookups` lookups, allocation, misses to the queue",
+                  .operators = {lines * z.ways * op::equal(z.tag + 1),
+                                lines * op::priority(z.texels), pairs * op::compare(4),
+                                lines * op::mux(z.set_word, in_series + 1),
+                                lines * z.ways * op::mux(z.tag + 2, 2),
+                                z.allocations * op::mux(z.line + 1, lines),
+                                op::logic(lines * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
+                                lines * op::mux(z.line, lines / 2),
+                                lines * op::count_ones(lines / 2), lines * lines * op::equal(z.set),
+                                lines * op::mux(z.set_word, lines + 1)},
+                  .longest = {op::equal(z.tag + 1), op::priority(lines),
+                              in_series * op::mux(z.tag + 2, std::max(z.ways, 2U)),
+                              op::mux(z.set_word, lines + 1)},
+                  .registers = lines * (z.slot + 1) + 3}},
+      .shared_registers = random ? 16U : 0U};
 }
 
 }  // namespace deburr::rtl::texture

@@ -42,7 +42,7 @@ class WideTagStage final : public TagUnit {
   Activity tick(Cycle cycle) override;
   void reset() override;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
  private:
   Activity work(Cycle cycle, SlotStall& stall);
