@@ -27,6 +27,12 @@ struct Ranged {
   double low = 0, value = 0, high = 0;
 };
 
+// By the sum of operators alone. Ratios of two builds hold better between such figures.
+struct Estimate {
+  double gates = 0, ns = 0;
+  std::uint64_t flip_flops = 0;
+};
+
 struct UnitCost {
   std::string name;
   std::string basis;  // "estimate", or "mapped": the row of these very parameters
@@ -34,6 +40,7 @@ struct UnitCost {
   std::uint64_t flip_flops = 0, memory_bits = 0;
   Ranged ns;  // longest path; 0: none is critical
   std::string stage;
+  Estimate estimate;
 };
 
 // All SRAM of the run in one technology; never converted to another.
@@ -49,6 +56,7 @@ struct Cost {
   Ranged ns, clock_mhz;
   double yardstick_ratio = 0;  // ns over those of a 24 x 24 multiply
   std::string limited_by;      // "axis_unit stage 8"
+  Estimate estimate;
   std::vector<SramArea> sram;
   std::vector<UnitCost> units;
 };

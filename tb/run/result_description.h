@@ -126,6 +126,16 @@ void describe(std::string_view name, const Ranged& figure, std::string_view unit
 }
 
 template <class Visitor>
+void describe(const Estimate& estimate, Visitor& v) {
+  v.group("estimate", [&] {
+    v.value("gates", estimate.gates, "gate",
+            "By the sum of operators, also where a row is mapped.");
+    v.value("flip_flops", estimate.flip_flops, "bit", "Likewise.");
+    v.value("ns", estimate.ns, "ns", "Likewise.");
+  });
+}
+
+template <class Visitor>
 void describe(const Cost& cost, Visitor& v) {
   v.value("technology", cost.technology, "", "Standard cells of gates and nanoseconds.");
   describe("gates", cost.gates, "gate",
@@ -139,6 +149,7 @@ void describe(const Cost& cost, Visitor& v) {
   v.value("yardstick_ratio", cost.yardstick_ratio, "",
           "Longest path relative to a 24 x 24 multiply of the same technology.");
   v.value("limited_by", cost.limited_by, "", "Unit and stage with the longest path.");
+  describe(cost.estimate, v);
   v.each("sram", cost.sram, &SramArea::technology, [&](const SramArea& sram) {
     v.value("mm2", sram.mm2, "mm2", "Area of all SRAM in this technology, fitted.");
   });
@@ -150,6 +161,7 @@ void describe(const Cost& cost, Visitor& v) {
     v.value("memory_bits", unit.memory_bits, "bit", "Bits of its SRAM and ROM, as built.");
     describe("ns", unit.ns, "ns", "Longest path of the unit; 0: none is critical.", v);
     v.value("stage", unit.stage, "", "Stage with the longest path.");
+    describe(unit.estimate, v);
   });
 }
 

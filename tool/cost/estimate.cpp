@@ -106,6 +106,7 @@ tb::UnitCost estimated(const Part& part, const Primitives& p) {
     (memory->kind == "flops" ? cost.flip_flops : cost.memory_bits) += memory->physical_bits;
   }
   cost.gates = within(gates, kUnitRange);
+  cost.estimate = {gates, cost.ns.value, cost.flip_flops};
   return cost;
 }
 
@@ -119,6 +120,7 @@ tb::UnitCost links_of(const tb::Result& result, const Primitives& p) {
     cost.flip_flops += link.bits * link.depth;
   }
   cost.gates = within(gates, kUnitRange);
+  cost.estimate = {gates, 0, cost.flip_flops};
   return cost;
 }
 
@@ -205,6 +207,9 @@ tb::Cost estimate(const tb::Result& result, const ParameterValue& value, const P
     cost.gates = cost.gates + (mapped ? unit.gates : within(unit.gates.value, kSumRange));
     cost.flip_flops += unit.flip_flops;
     cost.memory_bits += unit.memory_bits;
+    cost.estimate.gates += unit.estimate.gates;
+    cost.estimate.flip_flops += unit.estimate.flip_flops;
+    cost.estimate.ns = std::max(cost.estimate.ns, unit.estimate.ns);
     if (unit.ns.value <= cost.ns.value) continue;
     cost.ns = unit.ns;
     cost.limited_by = unit.stage.empty() ? unit.name : unit.name + " stage " + unit.stage;
