@@ -175,7 +175,7 @@ std::vector<tb::SramArea> sram_areas(const tb::Result& result) {
   std::vector<tb::SramArea> areas;
   for (const auto& [name, technology] :
        Json::parse(embedded::sram_json()).at("technologies").items()) {
-    const Json& area = technology.at("area_um2");
+    const Json& area = technology.at("um2");
     const Fit fit(area.at("form").get<std::string>(),
                   area.at("coefficients").get<std::vector<double>>());
     double um2 = 0;
