@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "spec/error.h"
 
@@ -86,7 +88,8 @@ std::uint32_t Stage::clocks() const {
   const std::size_t dash = clock.find('-');
   if (dash == std::string::npos)  // "3, 4"
     return static_cast<std::uint32_t>(1 + std::count(clock.begin(), clock.end(), ','));
-  return static_cast<std::uint32_t>(std::stoul(clock.substr(dash + 1)) - std::stoul(clock) + 1);
+  return static_cast<std::uint32_t>(std::atoi(clock.c_str() + dash + 1) - std::atoi(clock.c_str()) +
+                                    1);
 }
 
 std::vector<Operator> operators_of(const Datasheet& sheet) {
@@ -99,6 +102,16 @@ std::vector<Operator> operators_of(const Datasheet& sheet) {
 
 std::uint64_t registers_of(const Datasheet& sheet) {
   return sheet.copies * stage_registers(sheet) + sheet.shared_registers;
+}
+
+std::string instance_name(const Datasheet& sheet) {
+  constexpr std::string_view kWide = "Wide";
+  std::string name;
+  for (const char c : sheet.unit.substr(sheet.unit.starts_with(kWide) ? kWide.size() : 0)) {
+    if (std::isupper(static_cast<unsigned char>(c)) && !name.empty()) name += '_';
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
 }
 
 std::string title(const Datasheet& sheet) {

@@ -67,6 +67,9 @@ struct Datasheet {
 std::vector<Operator> operators_of(const Datasheet& sheet);
 std::uint64_t registers_of(const Datasheet& sheet);
 
+// Of the class, in units and results: "TagStage", "WideTagStage" -> "tag_stage".
+std::string instance_name(const Datasheet& sheet);
+
 // "FootprintUnit, `footprint = exact`".
 std::string title(const Datasheet& sheet);
 

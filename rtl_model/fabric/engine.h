@@ -26,6 +26,7 @@
 
 #include "rtl_model/fabric/clock_domain.h"
 #include "rtl_model/fabric/control_registers.h"
+#include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/histogram.h"
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory.h"
@@ -58,6 +59,8 @@ class Engine : public sc_core::sc_module {
 
   // True if no work is inside or waiting at an input. Call between edges.
   virtual bool idle() const = 0;
+  // Of the units that this build has.
+  virtual std::vector<Datasheet> datasheets() const { return {}; }
   void clear_counters();
 
   // For reports: all units or counters below this module, in declaration order. Of a replaced unit,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rtl_model/geometric/common/sizing.h"
+#include "rtl_model/geometric/datasheets.h"
 #include "spec/geometric/check_build.h"
 
 namespace deburr::rtl::geometric {
@@ -227,6 +228,10 @@ spec::geometric::Work GeometricEngine::work() const {
   work.blocks = resolver.blocks.value();
   work.blended_pixels = resolver.blended_pixels.value();
   return work;
+}
+
+std::vector<Datasheet> GeometricEngine::datasheets() const {
+  return geometric::datasheets(parameters_);
 }
 
 }  // namespace deburr::rtl::geometric

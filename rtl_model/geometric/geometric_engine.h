@@ -115,6 +115,7 @@ class GeometricEngine final : public Engine {
 
   // True if no frame is in progress. Call between edges.
   bool idle() const override { return !parameter_store.starting() && frame_sequencer.idle(); }
+  std::vector<Datasheet> datasheets() const override;
   // Counts since the counters were cleared.
   spec::geometric::Work work() const;
 

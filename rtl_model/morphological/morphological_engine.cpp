@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rtl_model/morphological/datasheets.h"
 #include "spec/morphological/check_build.h"
 
 namespace deburr::rtl::morphological {
@@ -158,6 +159,10 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
 
 bool MorphologicalEngine::idle() const {
   return sequencer.idle() && sequencer.pixels_in.link().empty();
+}
+
+std::vector<Datasheet> MorphologicalEngine::datasheets() const {
+  return morphological::datasheets(parameters_);
 }
 
 spec::morphological::Work MorphologicalEngine::work() const {

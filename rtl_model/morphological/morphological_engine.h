@@ -108,6 +108,7 @@ class MorphologicalEngine final : public Engine {
 
   // No frame is inside and no beat waits at the input. Call between clock edges.
   bool idle() const override;
+  std::vector<Datasheet> datasheets() const override;
   // Counts since the last reset or clear command: those of one frame if only one was processed.
   spec::morphological::Work work() const;
   // Cycles from popping a beat to pushing it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/texture_unit.h"
 
+#include "rtl_model/texture/datasheets.h"
 #include "spec/texture/check_build.h"
 
 namespace deburr::rtl::texture {
@@ -84,6 +85,8 @@ TextureUnit::~TextureUnit() = default;
 bool TextureUnit::idle() const {
   return probe_.inside() == 0 && address.derivative.quads_in.link().empty();
 }
+
+std::vector<Datasheet> TextureUnit::datasheets() const { return texture::datasheets(parameters_); }
 
 Datasheet TextureUnit::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {

@@ -75,6 +75,7 @@ class TextureUnit final : public Engine {
   const Histogram& fragment_latency = filter.fragment_latency;
 
   bool idle() const override;
+  std::vector<Datasheet> datasheets() const override;
   // As built, with the actual depth of the FIFO.
   const spec::texture::Parameters& parameters() const { return parameters_; }
 

@@ -26,6 +26,10 @@ endmodule
 """
 # A buffer drives each input, and each output drives one XOR2X1 (fF).
 CONSTRAINTS = "set_driving_cell BUFX4\nset_load 32 [all_outputs]\n"
+# The default script of yosys for a library without its `dc2`, which turns the prefix adders of `techmap` into ripple
+# adders: 62 bits take 1.94 ns instead of 7.28 with 598 gates instead of 501.
+ABC = ("strash;&get,-n;&fraig,-x;&put;scorr;dretime;strash;&get,-n;&dch,-f;&nf;&put;"
+       "buffer;upsize;dnsize;stime,-p")
 
 KEEP = "select -set kept t:$mem_v2 a:deburr_memory=1 %i"
 FLOWS = {
@@ -39,7 +43,7 @@ opt -fast
 dfflibmap -liberty LIBERTY
 opt_clean
 write_json OUT.before
-abc -liberty LIBERTY -constr CONSTRAINTS
+abc -liberty LIBERTY -constr CONSTRAINTS -script +{ABC}
 opt_clean
 tee -q -o OUT.stat stat -liberty LIBERTY
 """,

@@ -70,7 +70,8 @@ def paragraphs(cost):
            "Nothing is placed or routed.")
     yield [
         "**osu018**: standard cells of 180 nm, typical corner, 1.8 V, 25 degrees (`abc -liberty`, `stime`, without "
-        f"wires). A gate is a NAND2X1, {number(cost['gate']['area'])} of the library's units of area. *ns* is the longest "
+        "wires). Adders are parallel prefix adders: the script of abc omits `dc2`, which makes ripple adders of them. "
+        f"A gate is a NAND2X1, {number(cost['gate']['area'])} of the library's units of area. *ns* is the longest "
         "path through logic, from a register or an input to a register or an output, without clock-to-output, setup and "
         "memory access. *Ends in* is the register or port at the end of that path.",
         f"**ratio**: ns divided by those of a {yard['what']} mapped in the same way, {number(yard['ns'], 2)} ns (osu018). "

@@ -18,6 +18,15 @@ bool only_waits(const rtl::Unit& unit, std::string_view cause) {
          (cause == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
 }
 
+// The unit that holds the memory, or a port of it.
+const sc_core::sc_object& owner_of(const rtl::MemoryBase& memory) {
+  const sc_core::sc_object& parent = *memory.get_parent_object();
+  if (dynamic_cast<const rtl::Unit*>(&parent) != nullptr) return parent;
+  for (const sc_core::sc_object* holder : memory.port_holders())
+    if (dynamic_cast<const rtl::Unit*>(holder) != nullptr) return *holder;
+  return parent;
+}
+
 }  // namespace
 
 std::string sentence(std::string text) {
@@ -67,6 +76,13 @@ MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, in
   if (width > 0) f.logical_bits_at_frame_width = memory.bits_at(static_cast<std::uint64_t>(width));
   f.physical_bits = memory.physical_bits();
   f.register_bits = memory.register_bits();
+  f.owner = owner_of(memory).basename();
+  f.read_ports = memory.shape().read_ports + memory.shape().shared_ports;
+  f.write_ports = memory.shape().write_ports + memory.shape().shared_ports;
+  if (const auto* ported = dynamic_cast<const rtl::PortedMemory*>(&memory)) {
+    f.reads = ported->reads();
+    f.writes = ported->writes();
+  }
   f.high_water = memory.high_water();
   f.not_implementable = memory.not_implementable();
   return f;

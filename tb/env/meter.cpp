@@ -29,6 +29,7 @@ void Meter::add(Result& result, std::string_view name, const rtl::Unit& unit) co
 void Meter::add(Result& result, std::string_view name, const rtl::MemoryBase& memory,
                 int width) const {
   result.memories.push_back(memory_figures(figure(name), memory, width));
+  result.memories.back().owner = figure(result.memories.back().owner);
 }
 
 namespace {
@@ -51,7 +52,13 @@ void Meter::add_parts(Result& result, const rtl::Engine& engine, int width) cons
     if (&fifo_or_link(engine, *link) != link) continue;
     ++result.link_bits.links;
     result.link_bits.bits += std::uint64_t{link->depth()} * link->payload_bits();
+    const std::string& consumer = link->consumer();
+    result.link_shapes.push_back({figure(name_within(engine, *link)),
+                                  figure(consumer.substr(consumer.rfind('.') + 1)),
+                                  link->payload_bits(), link->depth()});
   }
+  for (rtl::Datasheet& sheet : engine.datasheets())
+    result.sheets.push_back({figure(instance_name(sheet)), std::move(sheet)});
 }
 
 void Meter::add_counters(Result& result, const rtl::Engine& engine) const {

@@ -150,7 +150,7 @@ class Synthesise(unittest.TestCase):
 
     def test_check_passes_recorded_figures(self):
         done = self.call("--check")
-        self.assertEqual((done.returncode, done.stdout), (0, "cost.md and cost.json are current\n"), done.stderr)
+        self.assertEqual((done.returncode, done.stdout), (0, "cost.md, cost.json and osu018.json are current\n"), done.stderr)
 
     def test_check_needs_no_tool(self):
         self.assertEqual(self.call("--check", env={"PATH": self.shell_alone()}).returncode, 0)

@@ -20,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "tb/run/cost.h"
 #include "tb/run/pixel_history.h"
 
 namespace deburr::tb {
@@ -109,6 +110,10 @@ struct MemoryFigures {
   std::uint64_t register_bits = 0;  // flip-flops in addition to its words
   // Logical bits at the frame width of this run, if the size depends on the width.
   std::uint64_t logical_bits_at_frame_width = 0;
+  // Accesses since reset; the unit that holds it; accesses per cycle.
+  std::uint64_t reads = 0, writes = 0;
+  std::string owner;
+  std::uint64_t read_ports = 0, write_ports = 0;
   std::optional<std::uint64_t> high_water;  // highest occupancy of a FIFO, in words
   std::string not_implementable;            // why no technology offers it; empty: implementable
 };
@@ -187,6 +192,9 @@ struct Result {
   std::optional<Bottleneck> bottleneck;
   std::vector<MemoryFigures> memories;
   LinkBits link_bits;
+  std::vector<UnitSheet> sheets;       // of the units built
+  std::vector<LinkShape> link_shapes;  // of all links
+  std::optional<Cost> cost;
   std::vector<LinkFigures> links;                                // of a run with sampling intervals
   std::vector<MapFigures> maps;                                  // of a run with maps
   std::optional<std::map<std::string, std::uint64_t>> coverage;  // hits by bin; run.coverage

@@ -103,6 +103,8 @@ void describe(const MemoryFigures& m, Visitor& v) {
           "Bits as built, with copies and the unused words of the last bank.");
   v.value("logical_bits_at_frame_width", m.logical_bits_at_frame_width, "bit",
           "logical_bits if built for the width of this frame.");
+  v.value("reads", m.reads, "word", "Words read, since the last reset.");
+  v.value("writes", m.writes, "word", "Words written, since the last reset.");
   if (v.has(m.register_bits != 0))
     v.value("register_bits", m.register_bits, "bit",
             "Additional flip-flops: output registers of a FIFO, arrived bits, and the bypass of an "
@@ -111,6 +113,56 @@ void describe(const MemoryFigures& m, Visitor& v) {
     v.value("high_water", m.high_water.value_or(0), "word",
             "For a FIFO: largest number of entries in a cycle, including the entry read in that "
             "cycle.");
+}
+
+template <class Visitor>
+void describe(std::string_view name, const Ranged& figure, std::string_view unit,
+              std::string_view meaning, Visitor& v) {
+  v.group(name, [&] {
+    v.value("low", figure.low, unit, "Lower end of its range.");
+    v.value("value", figure.value, unit, meaning);
+    v.value("high", figure.high, unit, "Upper end of its range.");
+  });
+}
+
+template <class Visitor>
+void describe(const Estimate& estimate, Visitor& v) {
+  v.group("estimate", [&] {
+    v.value("gates", estimate.gates, "gate",
+            "By the sum of operators, also where a row is mapped.");
+    v.value("flip_flops", estimate.flip_flops, "bit", "Likewise.");
+    v.value("ns", estimate.ns, "ns", "Likewise.");
+  });
+}
+
+template <class Visitor>
+void describe(const Cost& cost, Visitor& v) {
+  v.value("technology", cost.technology, "", "Standard cells of gates and nanoseconds.");
+  describe("gates", cost.gates, "gate",
+           "NAND gates of all units and links, without SRAM and ROM: mapped rows and estimates "
+           "(docs/explanation/cost.md).",
+           v);
+  v.value("flip_flops", cost.flip_flops, "bit", "Flip-flops of all units and links.");
+  v.value("memory_bits", cost.memory_bits, "bit", "Bits of SRAM and ROM, as built.");
+  describe("ns", cost.ns, "ns", "Longest path of all units.", v);
+  describe("clock_mhz", cost.clock_mhz, "MHz", "Clock that the longest path allows.", v);
+  v.value("yardstick_ratio", cost.yardstick_ratio, "",
+          "Longest path relative to a 24 x 24 multiply of the same technology.");
+  v.value("limited_by", cost.limited_by, "", "Unit and stage with the longest path.");
+  describe(cost.estimate, v);
+  v.each("sram", cost.sram, &SramArea::technology, [&](const SramArea& sram) {
+    v.value("mm2", sram.mm2, "mm2", "Area of all SRAM in this technology, fitted.");
+  });
+  v.each("units", cost.units, &UnitCost::name, [&](const UnitCost& unit) {
+    v.value("basis", unit.basis, "",
+            "mapped: the row of these parameters in docs/measurements/cost.json; else estimate.");
+    describe("gates", unit.gates, "gate", "NAND gates of the unit, without SRAM and ROM.", v);
+    v.value("flip_flops", unit.flip_flops, "bit", "Flip-flops of the unit.");
+    v.value("memory_bits", unit.memory_bits, "bit", "Bits of its SRAM and ROM, as built.");
+    describe("ns", unit.ns, "ns", "Longest path of the unit; 0: none is critical.", v);
+    v.value("stage", unit.stage, "", "Stage with the longest path.");
+    describe(unit.estimate, v);
+  });
 }
 
 template <class Visitor>
@@ -284,6 +336,7 @@ void describe(const Result& r, Visitor& v) {
     v.value("logical_at_frame_width", bits.logical_at_frame_width, "bit",
             "Their logical bits for the width of this frame.");
   });
+  if (v.has(r.cost.has_value())) v.group("cost", [&] { describe(r.cost.value_or(Cost{}), v); });
   std::vector<MemoryFigures> not_implementable = r.memories;
   std::erase_if(not_implementable,
                 [](const MemoryFigures& m) { return m.not_implementable.empty(); });

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,10 +14,12 @@
 #include "tb/base/json_text.h"
 #include "tb/base/near_matches.h"
 #include "tb/base/terminal.h"
+#include "tb/run/amount.h"
 #include "tb/run/parameter_set.h"
 #include "tool/command/commands.h"
 #include "tool/run/engine.h"
 #include "tool/run/reference_pages.h"
+#include "tool/run/run_once.h"
 #include "tool/run/shorthands.h"
 
 namespace deburr::tool {
@@ -31,8 +34,67 @@ constexpr std::size_t kLeastMeaning = 24;  // columns; narrower texts get their 
 
 struct ParamsCommand {
   std::string unit, markdown;
-  bool c_header = false, systemrdl = false;
+  bool c_header = false, systemrdl = false, cost = false;
+  std::vector<std::string> sets;
 };
+
+std::string ranged(const tb::Ranged& figure, int decimals) {
+  if (figure.value == 0) return "-";
+  const auto text = [&](double value) {
+    return decimals > 0 ? fmt::format("{:.{}f}", value, decimals)
+                        : tb::grouped(static_cast<std::uint64_t>(value + 0.5));
+  };
+  if (figure.low == figure.high) return text(figure.value);
+  return fmt::format("{} ({} to {})", text(figure.value), text(figure.low), text(figure.high));
+}
+
+std::string cost_table(const tb::Cost& cost) {
+  std::vector<std::array<std::string, 7>> rows = {
+      {"unit", "basis", "gates", "flip-flops", "memory bits", "ns", "stage"}};
+  const auto add = [&](const std::string& name, const std::string& basis, const auto& of,
+                       const std::string& stage) {
+    rows.push_back({name, basis, ranged(of.gates, 0), tb::grouped(of.flip_flops),
+                    tb::grouped(of.memory_bits), ranged(of.ns, 2), stage});
+  };
+  for (const tb::UnitCost& unit : cost.units) add(unit.name, unit.basis, unit, unit.stage);
+  add("total", "", cost, cost.limited_by);
+  std::array<std::size_t, 7> widths{};
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += i >= 2 && i <= 5 ? fmt::format("{:>{}}  ", row[i], widths[i])
+                               : fmt::format("{:{}}  ", row[i], widths[i]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  text += fmt::format("\nclock: {} MHz, {:.2f} x a 24 x 24 multiply ({})\n",
+                      ranged(cost.clock_mhz, 0), cost.yardstick_ratio, cost.technology);
+  for (const tb::SramArea& sram : cost.sram)
+    text += fmt::format("SRAM: {:.3f} mm2 ({})\n", sram.mm2, sram.technology);
+  return text;
+}
+
+// The cost of a build, without a run.
+Outcome print_cost(const ParamsCommand& command, bool json) {
+  if (command.unit.empty())
+    throw spec::ConfigError("--cost needs an engine: deburr params texture --cost");
+  const std::unique_ptr<Engine> engine = engine_named(command.unit);
+  BoundEngine bound(*engine);
+  for (const std::string& text : command.sets) bound.set.set_assignment(text, "--set");
+  bound.resolve();
+  tb::Result result;
+  engine->describe_statistics(result);
+  result.cost = cost_of(result, bound.set);
+  Outcome outcome{
+      0, fmt::format("PASS params: {} gates of {}", ranged(result.cost->gates, 0), command.unit)};
+  if (json)
+    outcome.details = tb::json_text(Json{{"cost", to_json(result).at("cost")}});
+  else
+    fmt::print("{}", cost_table(*result.cost));
+  return outcome;
+}
 
 Json to_json(const Engine& engine, const Parameter& p) {
   Json json = {{"engine", engine.name()}, {"name", p.name},   {"kind", kind_name(p)},
@@ -59,6 +121,7 @@ void list_options(const Engine& engine, const tb::ParameterSet& set, Json& liste
 }
 
 Outcome print_params(const ParamsCommand& command, bool json) {
+  if (command.cost) return print_cost(command, json);
   const auto all = engines();
   if (command.c_header) {
     fmt::print("{}", registers_header(all));
@@ -163,7 +226,7 @@ void add_params(CLI::App& app, CommandLine& line) {
   CLI::App* command =
       app.add_subcommand("params", "List every parameter: kind, default, range, unit, meaning");
   show_examples(*command, {"deburr params memory", "deburr params --markdown registers",
-                           "deburr params --c-header"});
+                           "deburr params --c-header", "deburr params texture --cost"});
   const auto options = std::make_shared<ParamsCommand>();
   command->add_option("UNIT", options->unit,
                       "Only parameters of this group: run, scene, sampler, texture, memory, ...");
@@ -185,6 +248,21 @@ void add_params(CLI::App& app, CommandLine& line) {
                      "Print the registers of every engine as SystemRDL instead")
           ->excludes(markdown)
           ->excludes(c_header);
+  CLI::Option* const cost =
+      command
+          ->add_flag("--cost", options->cost,
+                     "Print gates, flip-flops, memory and longest path of the engine UNIT instead, "
+                     "without a run")
+          ->excludes(markdown)
+          ->excludes(c_header)
+          ->excludes(systemrdl);
+  command
+      ->add_option("--set", options->sets,
+                   "With --cost: any parameter of the engine; may be repeated")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME=VALUE")
+      ->needs(cost);
   command
       ->add_flag("--json", line.json,
                  "Print one JSON object: exit code, outcome, parameters, limits")

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
 #include "tb/scene/reference.h"
+#include "tool/cost/estimate.h"
 #include "tool/run/simulate.h"
 
 namespace deburr::tool {
@@ -31,6 +33,13 @@ void reject_no_history(const Engine& engine) {
 }
 
 }  // namespace
+
+tb::Cost cost_of(const tb::Result& result, const tb::ParameterSet& set) {
+  return estimate(result, [&set](std::string_view name) {
+    const tb::Parameter* const parameter = set.find(name);
+    return parameter ? parameter->json() : nlohmann::ordered_json();
+  });
+}
 
 BoundEngine::BoundEngine(Engine& bound) : engine(bound), run(bound.run_parameters()) {
   set.add("run", tb::ParameterKind::kRun, run);
@@ -85,6 +94,7 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
       return end;
     }
     bound.engine.run(bound.run, context, result);
+    result.cost = cost_of(result, bound.set);
     if (result.mismatches + result.traffic_mismatches > 0) {
       end.code = static_cast<int>(ExitCode::kMismatch);
       end.kind = "mismatch";

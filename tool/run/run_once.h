@@ -30,6 +30,9 @@ class BoundEngine {
   tb::ParameterSet set;
 };
 
+// Of the hardware in the result (tool/cost/estimate.h).
+tb::Cost cost_of(const tb::Result& result, const tb::ParameterSet& set);
+
 struct RunEnd {
   int code = 0;
   std::string kind;   // of the failure: "mismatch"

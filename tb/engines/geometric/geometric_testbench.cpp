@@ -27,7 +27,7 @@ void GeometricTestbench::describe_statistics(Result& result) {
   smallest.depths.assign(4, 0);
   const std::vector<geometric::Frame> frames = {smallest};
   Simulation simulation({});
-  GeometricEnvironment environment(simulation, frames, {});
+  GeometricEnvironment environment(simulation, frames, {parameters_, memory_});
   describe(simulation, environment, result);
   add_flicker(result, {}, {});
 }

@@ -24,7 +24,7 @@ std::vector<std::filesystem::path> MorphologicalTestbench::input_files(MeshFiles
 void MorphologicalTestbench::describe_statistics(Result& result) {
   const std::vector<MorphologicalInput> frames = {{Image(2, 2), {}}};
   Simulation simulation({});
-  MorphologicalEnvironment environment(simulation, frames, {});
+  MorphologicalEnvironment environment(simulation, frames, {parameters_, memory_});
   describe(simulation, environment, result);
   add_flicker(result, {}, {});
 }

@@ -39,7 +39,7 @@ std::vector<std::string_view> TextureTestbench::built_for_golden() const {
 void TextureTestbench::describe_statistics(Result& result) {
   const TextureScene scene = smallest(scene_, sampler_);
   Simulation simulation({});
-  TextureEnvironment environment(simulation, scene, {});
+  TextureEnvironment environment(simulation, scene, {texture_, memory_});
   describe(simulation, environment, result);
   add_flicker(result, {}, {});
 }

@@ -32,12 +32,12 @@ PLATFORM_MAY_INCLUDE = {"platform", "fabric"}
 # Folders of a layer from bottom to top: a folder may include itself and those before it. Tests and benchmarks may
 # include all.
 ROOMS = {"tb": ["base", "scene", "stimuli", "harness", "run", "traces", "env", "engines"],
-         "tool": ["pages", "run", "engines", "sweep", "regress", "command", "soak"],
+         "tool": ["cost", "pages", "run", "engines", "sweep", "regress", "command", "soak"],
          "studies": ["training", "papers", "quality"]}
 # Folders outside the simulation: they must not include SystemC, directly or indirectly, since it takes longer to
 # compile than all of them. Their headers include json_fwd.hpp, not json.hpp.
-WITHOUT_SYSTEMC = {"tb/base", "tb/scene", "tb/stimuli", "tb/run", "tool/pages", "tool/sweep", "tool/regress", "tool/command",
-                   "tool/soak", "studies/training"}
+WITHOUT_SYSTEMC = {"tb/base", "tb/scene", "tb/stimuli", "tb/run", "tool/cost", "tool/pages", "tool/sweep", "tool/regress",
+                   "tool/command", "tool/soak", "studies/training"}
 SYSTEMC = {"systemc", "tlm", "tlm_utils"}
 JSON = "nlohmann/json.hpp"
 SOURCE = {".h", ".cpp", ".cmake", ".py", ".txt"}
