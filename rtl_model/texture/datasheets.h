@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -31,8 +32,11 @@ struct Sizes {
 // Text of a variant: "`log2 = segments`"; "`axes = two`", or of the others.
 template <class Names, class Value>
 std::string chosen(const char* parameter, const Names& names, Value value) {
-  return "`" + std::string(parameter) + " = " +
-         std::string(names[static_cast<std::size_t>(value)]) + "`";
+  std::string text = "`";
+  for (const std::string_view part : {std::string_view(parameter), std::string_view(" = "),
+                                      std::string_view(names[static_cast<std::size_t>(value)])})
+    text += part;
+  return text += "`";
 }
 std::string chosen_axes(const spec::texture::Parameters& parameters);
 std::string sets_text(const spec::texture::Parameters& parameters);  // "128 sets of 2 ways, ..."

@@ -38,8 +38,8 @@ struct UnitCost {
   std::string basis;  // "estimate", or "mapped": the row of these very parameters
   Ranged gates;       // NAND2 of two inputs
   std::uint64_t flip_flops = 0, memory_bits = 0;
-  Ranged ns;  // longest path; 0: none is critical
-  std::string stage;
+  Ranged ns;          // longest path; 0: none is critical
+  std::string stage;  // with it; of a mapped row, "to" the register or port at its end
   Estimate estimate;
 };
 
@@ -55,7 +55,7 @@ struct Cost {
   std::uint64_t flip_flops = 0, memory_bits = 0;
   Ranged ns, clock_mhz;
   double yardstick_ratio = 0;  // ns over those of a 24 x 24 multiply
-  std::string limited_by;      // "axis_unit stage 8"
+  std::string limited_by;      // "axis_unit stage 8", "axis_unit to out_data"
   Estimate estimate;
   std::vector<SramArea> sram;
   std::vector<UnitCost> units;

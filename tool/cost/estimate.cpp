@@ -168,6 +168,7 @@ void take_mapped(tb::UnitCost& cost, const Json& row) {
   cost.memory_bits = row["memory_bits"].get<std::uint64_t>();
   if (!row["ns"].is_number()) return;
   cost.ns = within(row["ns"].get<double>(), 0);
+  cost.stage = "to " + row["to"].get<std::string>();
 }
 
 // Area of the SRAM of each technology of sram.json.
@@ -198,7 +199,10 @@ tb::Cost estimate(const tb::Result& result, const ParameterValue& value, const P
   for (const Part& part : parts_of(result)) {
     tb::UnitCost unit = estimated(part, p);
     if (value)
-      if (const Json* row = MappedRows::embedded().of(part, result, value)) take_mapped(unit, *row);
+      // The RTL keeps small memories apart, which the unit has in flip-flops.
+      if (const Json* row = MappedRows::embedded().of(part, result, value);
+          row && (unit.memory_bits > 0 || (*row)["memory_bits"] == 0))
+        take_mapped(unit, *row);
     if (unit.gates.value > 0 || unit.memory_bits > 0) cost.units.push_back(std::move(unit));
   }
   cost.units.push_back(links_of(result, p));
@@ -212,7 +216,10 @@ tb::Cost estimate(const tb::Result& result, const ParameterValue& value, const P
     cost.estimate.ns = std::max(cost.estimate.ns, unit.estimate.ns);
     if (unit.ns.value <= cost.ns.value) continue;
     cost.ns = unit.ns;
-    cost.limited_by = unit.stage.empty() ? unit.name : unit.name + " stage " + unit.stage;
+    cost.limited_by =
+        unit.stage.empty()
+            ? unit.name
+            : fmt::format("{} {}{}", unit.name, unit.basis == "mapped" ? "" : "stage ", unit.stage);
   }
   const auto mhz = [](double ns) { return ns > 0 ? 1000 / ns : 0; };
   cost.clock_mhz = {mhz(cost.ns.high), mhz(cost.ns.value), mhz(cost.ns.low)};
