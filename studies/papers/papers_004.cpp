@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "golden/ideal/box.h"
 #include "golden/ideal/ewa.h"
@@ -16,6 +18,7 @@
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
+#include "spec/error.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
@@ -24,6 +27,7 @@
 #include "tb/run/progress.h"
 #include "tb/scene/compose.h"
 #include "tb/scene/quality.h"
+#include "tool/cost/embedded_cost.h"
 
 namespace deburr::studies::paper_004 {
 
@@ -204,44 +208,102 @@ PaperTable figure_1() {
 
 // ---- section 3: synthesis results ---------------------------------------------------------------
 
-// Our synthesis result, once available.
+// Our RTL of preset `paper` on the same family (xc7): the whole unit, and without its descriptors,
+// links and cache.
 struct Synthesis {
-  std::optional<double> flip_flops, look_up_tables, pins, clock_buffers, fpga_mhz, asic_mhz,
-      milliwatts, square_micrometres;
+  double flip_flops = 0, look_up_tables = 0;
+};
+struct MappedUnit {
+  Synthesis whole, core;
 };
 
-PaperTable synthesis(const Synthesis& ours) {
-  PaperTable table{"Tables 3 and 4: synthesis, and the clock on the board",
-                   "Zynq ZC706, and Design Compiler for 0.13 μm of SMIC. Our times are quoted for "
-                   "the paper's 166.67 MHz; it is not shown that our unit reaches this frequency.",
-                   {"item", "paper", "ours", "why", "verdict"},
-                   {}};
-  const auto row = [&](const char* item, const char* paper, std::optional<double> value,
-                       const char* why) {
-    table.rows.push_back({item, paper, value ? decimals(*value, 2) : kNotPrinted,
-                          value ? kNotPrinted : why, verdict(paper, value, "other")});
+MappedUnit mapped_unit() {
+  using Json = nlohmann::json;
+  const Json cost = Json::parse(tool::embedded::mapped_json());
+  const auto of = [&](const char* configuration) {
+    Synthesis sum;
+    for (const Json& unit : cost.at("units")) {
+      const Json& names = unit.at("configurations");
+      if (std::find(names.begin(), names.end(), configuration) == names.end()) continue;
+      const std::string name = unit.at("unit");
+      constexpr std::array<std::string_view, 7> kCore = {
+          "derivative_unit", "footprint_unit",  "log2_unit",      "level_unit",
+          "sample_walker",   "texel_addresser", "filter_pipeline"};
+      if (std::find(kCore.begin(), kCore.end(), name) == kCore.end()) continue;
+      sum.flip_flops += unit.at("xc7").at("flip_flops").get<double>();
+      sum.look_up_tables += unit.at("xc7").at("luts").get<double>();
+    }
+    return sum;
+  };
+  const auto whole = [&](const char* module, const char* configuration) {
+    for (const Json& unit : cost.at("units")) {
+      const Json& names = unit.at("configurations");
+      if (unit.at("unit") == module &&
+          std::find(names.begin(), names.end(), configuration) != names.end())
+        return Synthesis{unit.at("xc7").at("flip_flops"), unit.at("xc7").at("luts")};
+    }
+    throw spec::FileError(
+        fmt::format("docs/measurements/cost.json has no {} of {}: run "
+                    "scripts/synthesise",
+                    module, configuration));
+  };
+  MappedUnit mapped;
+  for (const Synthesis& part :
+       {whole("address_unit", "VAddressPaper"), whole("texture_cache", "VCacheDefault"),
+        whole("filter_pipeline", "VFilterPaper")}) {
+    mapped.whole.flip_flops += part.flip_flops;
+    mapped.whole.look_up_tables += part.look_up_tables;
+  }
+  for (const Synthesis& part : {of("VAddressPaper"), of("VFilterPaper")}) {
+    mapped.core.flip_flops += part.flip_flops;
+    mapped.core.look_up_tables += part.look_up_tables;
+  }
+  return mapped;
+}
+
+PaperTable synthesis(const MappedUnit& ours) {
+  PaperTable table{
+      "Tables 3 and 4: synthesis, and the clock on the board",
+      "Zynq ZC706, and Design Compiler for 0.13 μm of SMIC. Ours: preset paper, mapped by "
+      "yosys to the same FPGA family, not placed; \"core\" is without descriptors, links "
+      "and cache. Our times are quoted for the paper's 166.67 MHz; it is not shown that "
+      "our unit reaches this frequency.",
+      {"item", "paper", "ours", "core", "why", "verdict"},
+      {}};
+  const auto compared = [&](const char* item, const char* paper, double whole, double core,
+                            const char* why) {
+    table.rows.push_back(
+        {item, paper, decimals(whole, 0), decimals(core, 0), why, "not comparable"});
+  };
+  const auto absent = [&](const char* item, const char* paper, const char* why) {
+    table.rows.push_back(
+        {item, paper, kNotPrinted, kNotPrinted, why, verdict(paper, std::nullopt, "other")});
   };
   // Fractions of the board's resources: the paper's own arithmetic, which needs no synthesis.
   const auto share = [&](const char* item, const char* paper, double used, double there) {
-    row(item, paper, 100 * used / there, "");
+    const double percent = 100 * used / there;
+    table.rows.push_back({item, paper, decimals(percent, 2), kNotPrinted, kNotPrinted,
+                          verdict(paper, percent, "other")});
   };
-  constexpr const char* kNoNetlist = "no netlist: the models are not synthesised";
   constexpr const char* kNoTop = "pins belong to a synthesised top level";
-  constexpr const char* kNoClock =
-      "a model gives the work per cycle, not the delay: that needs a netlist";
-  row("FF", "672", ours.flip_flops, kNoNetlist);
+  constexpr const char* kNoClock = "yosys reports no reliable delays of an FPGA, and no wires";
+  compared("FF", "672", ours.whole.flip_flops, ours.core.flip_flops,
+           "the paper's unit has one descriptor and no cache that hides latency, and gives no bit "
+           "widths");
   share("FF, % of 437 200", "0.15", 672, 437200);
-  row("LUT", "3 357", ours.look_up_tables, kNoNetlist);
+  compared("LUT", "3 357", ours.whole.look_up_tables, ours.core.look_up_tables,
+           "tags and descriptors of ours are logic; small memories become LUTs");
   share("LUT, % of 218 600", "1.54", 3357, 218600);
-  row("I/O", "147", ours.pins, kNoTop);
+  absent("I/O", "147", kNoTop);
   share("I/O, % of 362", "40.61", 147, 362);
-  row("BUFG", "1", ours.clock_buffers, kNoTop);
+  absent("BUFG", "1", kNoTop);
   share("BUFG, % of 32", "3.12", 1, 32);
-  row("clock on the board, MHz", "50", ours.fpga_mhz, kNoClock);
-  row("clock of the ASIC, MHz", "166.67", ours.asic_mhz, kNoClock);
-  row("power, mW", "54", ours.milliwatts, "no netlist, and no activity of its nets");
-  row("area, μm²", "1 846 160.13", ours.square_micrometres,
-      "no netlist; about 12 times the logic of Table 3, so it must contain memories");
+  absent("clock on the board, MHz", "50", kNoClock);
+  absent("clock of the ASIC, MHz", "166.67",
+         "the library of 0.13 μm is not available; docs/measurements/cost.md has 180 nm");
+  absent("power, mW", "54", "no activity of its nets, and not this library");
+  absent("area, μm²", "1 846 160.13",
+         "not this library; about 12 times the logic of Table 3, so it must contain memories");
   return table;
 }
 
@@ -633,8 +695,9 @@ Paper build(const PaperOptions& options) {
               "Xu, Du, Zeng and Wang, Journal of Computer-Aided Design & Computer Graphics, 2019",
               {},
               {}};
-  paper.tables = {coefficients(), table_1(),  table_2(),    logarithm(),
-                  equation_23(),  figure_1(), synthesis({})};
+  paper.tables = {
+      coefficients(),          table_1(), table_2(), logarithm(), equation_23(), figure_1(),
+      synthesis(mapped_unit())};
   if (!options.quick) {
     const std::vector<TextureScene> scenes = reference_scenes(options.size);
     {
