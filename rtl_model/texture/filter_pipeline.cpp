@@ -382,8 +382,6 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
       .latency = {encoded ? 9U : 8U},
       .stages = {{.clock = "1",
                   .work = "fields",
-                  .operators = {},
-                  .longest = {},
                   .registers = (encoded ? ticket : ticket + 1 + 3) + 2 * kFraction + kWeight +
                                kFlags + (rom ? 0 : 4) + 4 * 32},
                  {.clock = "2",
@@ -441,6 +439,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                       .operators = {3 * op::mux(8, 2)},
                       .longest = {op::rom_read(8, 4096), op::mux(8, 2)}});
   }
+  for (Stage& stage : stages) stage.on = "stage_" + stage.clock;
   // The colours of a beat, in order.
   for (std::uint32_t lane = 1; lane < w; ++lane)
     sheet.shared.push_back(op::mux(kPayloadBits<spec::texture::Colour>, lane + 1));
