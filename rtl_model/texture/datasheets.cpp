@@ -20,7 +20,7 @@ std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
   return sheets;
 }
 
-// The units with a sheet of their own on the page.
+// The sheets of the page; that of the memory port is in its section of the fabric.
 std::vector<Datasheet> units(const spec::texture::Parameters& p) {
   const bool wide = p.width > 1;
   std::vector<Datasheet> sheets = {
