@@ -171,7 +171,7 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
           "truncated, axis rounded.",
       .copies = z.fragments,
       .per = "fragment",
-      .cost = "`axis_cycles = " + std::to_string(cycles) + "`."};
+      .cost = chosen("axis_cycles", cycles) + "."};
   auto& stages = sheet.stages;
   stages = {{.clock = "1",
              .work = "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two "

@@ -72,6 +72,12 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   fill_writes = u(p.cache_fill_writes);
 }
 
+std::string chosen(const char* parameter, std::string_view value) {
+  return std::string("`").append(parameter).append(" = ").append(value).append("`");
+}
+std::string chosen(const char* parameter, std::uint64_t value) {
+  return chosen(parameter, std::to_string(value));
+}
 std::string chosen_axes(const spec::texture::Parameters& p) {
   return p.axes == spec::texture::Axes::kTwo ? "`axes = two`" : "`axes = four` or `eight`";
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -29,10 +30,11 @@ struct Sizes {
 };
 
 // Texts of variants: "`log2 = segments`"; "`axes = two`" or those of the AxisUnit.
+std::string chosen(const char* parameter, std::string_view value);
+std::string chosen(const char* parameter, std::uint64_t value);
 template <class Names, class Value>
 std::string chosen(const char* parameter, const Names& names, Value value) {
-  return "`" + std::string(parameter) + " = " +
-         std::string(names[static_cast<std::size_t>(value)]) + "`";
+  return chosen(parameter, names[static_cast<std::size_t>(value)]);
 }
 std::string chosen_axes(const spec::texture::Parameters& parameters);
 std::string sets_text(const spec::texture::Parameters& parameters);  // "128 sets of 2 ways, ..."

@@ -376,8 +376,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
       .unit = "FilterPipeline",
       .variant = chosen("srgb_output", spec::texture::kSrgbOutputNames, p.srgb_output) +
                  (rom ? ", ROM `weights`" : ", no ROM `weights`") +
-                 (by_level ? ", `blend = level`" : "") +
-                 (w > 1 ? ", `width = " + std::to_string(w) + "`" : ""),
+                 (by_level ? ", `blend = level`" : "") + (w > 1 ? ", " + chosen("width", w) : ""),
       .does = "Filters four texels per cycle to the colour of a fragment.",
       .latency = {encoded ? 9U : 8U},
       .stages = {{.clock = "1",

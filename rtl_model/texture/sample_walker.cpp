@@ -198,7 +198,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "SampleWalker",
       .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p) +
-                 (wide ? ", `width = " + std::to_string(w) + "`" : ""),
+                 (wide ? ", " + chosen("width", w) : ""),
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
       .latency = any ? Cycles{4, "4 to the first request"} : Cycles{3, "3 to the first request"},
       .interval = {1,
