@@ -372,6 +372,8 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
   constexpr std::uint32_t kFraction = 8, kWeight = 9, kFlags = 2;
   // Of each channel in stage 7.
   const std::uint32_t value = by_level ? 28 : 20, sum = value + 8;
+  // Adders in series to the sums of a group of requests in order, before that of the cycle before.
+  const auto scan = static_cast<std::uint32_t>(std::bit_width(w - 1));
   Datasheet sheet = {
       .unit = "FilterPipeline",
       .variant = chosen("srgb_output", spec::texture::kSrgbOutputNames, p.srgb_output) +
@@ -406,7 +408,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                  {.clock = "6",
                   .work = "level lerp (`blend = level`: sum over the samples of a level)",
                   .operators = {4 * op::multiply(20, 9), 4 * op::add(28)},
-                  .longest = {op::multiply(20, 9), w * op::add(28)},
+                  .longest = {op::multiply(20, 9), (scan + 1) * op::add(28)},
                   .registers = ticket + kWeight + 1 + 4 * 28},
                  {.clock = "7",
                   .work =
@@ -414,7 +416,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                       "level lerp)",
                   .operators = {4 * op::multiply(value, 9), 4 * op::add(sum),
                                 op::logic(4 * (28 + sum))},
-                  .longest = {op::multiply(value, 9), w * op::add(sum)},
+                  .longest = {op::multiply(value, 9), (scan + 1) * op::add(sum)},
                   .registers = ticket + 4 * sum},
                  {.clock = "8",
                   .work = "round, pack",
@@ -439,7 +441,8 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                       .longest = {op::rom_read(8, 4096), op::mux(8, 2)}});
   }
   for (Stage& stage : stages) stage.on = "stage_" + stage.clock;
-  // The colours of a beat, in order.
+  // The sums of a group; the colours of a beat, in order.
+  if (w > 1) sheet.shared = {2 * w * scan * op::add(28), 2 * w * scan * op::add(sum)};
   for (std::uint32_t lane = 1; lane < w; ++lane)
     sheet.shared.push_back(op::mux(kPayloadBits<spec::texture::Colour>, lane + 1));
   return sheet;
