@@ -51,7 +51,7 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   axis = two ? 33 : 34;
   minor = two ? 32 : 47;
   const std::uint32_t spread = u(p.spread) >> std::countr_zero(u(p.spread) | 0x100);
-  step = axis + (spread > 1 ? u(std::bit_width(spread)) : 0);
+  step = axis + (spread > 1 ? static_cast<std::uint32_t>(std::bit_width(spread)) : 0);
   walking = width > 1 ? 2 : 1;
   texels = 4 * width;
   offset = log2_of(p.cache_line_bytes);
