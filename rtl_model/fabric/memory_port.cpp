@@ -449,20 +449,24 @@ Datasheet MemoryPort::datasheet(const MemoryPortParameters& p, std::uint32_t tag
       .does = "Sends an engine's requests to a TLM-2.0 target and returns the responses.",
       .latency = {2, "2 plus the latency of memory"},
       .interval = {1, "one request and one response beat per cycle"},
-      // A table of tags; and the order of arrival, or with `in_order` who has arrived.
+      // A table of tags in the order of arrival, or with `in_order` of requests and who has
+      // arrived.
       .stages = {{.clock = "1",
                   .work = "a request popped in c leaves in c",
                   .operators = {2 * op::add(number + 1), op::compare(number + 1), op::logic(2 * n)},
                   .longest = {op::compare(number + 1)},
-                  .registers = n * tag_bits + 2 * number + 1},
+                  .registers = 2 * number + 1},
                  {.clock = "2",
                   .work = "a response that arrives before edge d > c is pushed in d, and can be "
                           "popped in d + 1",
                   .operators = {2 * op::add(number), op::mux(tag_bits, n)},
-                  .longest = {op::mux(p.in_order ? 1 : number, n), op::mux(tag_bits, n)},
-                  .registers = (p.in_order ? n : n * number) + 2 * number}}};
+                  .longest = {op::mux(tag_bits, n)},
+                  .registers = n * tag_bits + 2 * number}}};
   Stage& response = sheet.stages[1];
-  response.operators.push_back(op::mux(p.in_order ? 1 : number, n));
+  if (p.in_order) {
+    response.operators.push_back(op::mux(1, n));
+    response.registers += n;
+  }
   if (p.max_burst_lines > 1) {
     response.operators.push_back(op::add(6));
     response.registers += 6;

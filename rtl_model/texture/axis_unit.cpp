@@ -170,7 +170,8 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
           "in: U15.16 and the signs of the differences; out: U16.16, U31.16 and S9.24; candidates "
           "truncated, axis rounded.",
       .copies = z.fragments,
-      .per = "fragment"};
+      .per = "fragment",
+      .cost = chosen("axis_cycles", cycles) + "."};
   auto& stages = sheet.stages;
   stages = {{.clock = "1",
              .work = "multiples 118/128, 90/128 and 49/128 of the derivatives in texels; two "
@@ -208,11 +209,8 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
                       .operators = side.operators,
                       .longest = side.longest,
                       .registers = kept + side.bits});
-    stages.push_back({.clock = "4",
-                      .work = "longer line of `two_segment`",
-                      .operators = {},
-                      .longest = {},
-                      .registers = kept + n * length});
+    stages.push_back(
+        {.clock = "4", .work = "longer line of `two_segment`", .registers = kept + n * length});
     if (two_lines) stages.back().operators = {n * op::maximum(length)};
     if (two_lines) stages.back().longest = {op::maximum(length)};
   }
@@ -224,8 +222,6 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
                     .registers = kept + winners * (length + direction)});
   stages.push_back({.clock = "6",
                     .work = "longest of this and the previous cycles",
-                    .operators = {},
-                    .longest = {},
                     .registers = kept - group + length + direction});
   if (again) stages.back().operators = {op::maximum(length), op::mux(direction, 2)};
   if (again) stages.back().longest = {op::maximum(length)};

@@ -20,7 +20,7 @@ std::vector<Datasheet> sums(const spec::texture::Parameters& p) {
   return sheets;
 }
 
-// The units with a sheet of their own on the page.
+// The sheets of the page; that of the memory port is in its section of the fabric.
 std::vector<Datasheet> units(const spec::texture::Parameters& p) {
   const bool wide = p.width > 1;
   std::vector<Datasheet> sheets = {
@@ -51,7 +51,7 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   axis = two ? 33 : 34;
   minor = two ? 32 : 47;
   const std::uint32_t spread = u(p.spread) >> std::countr_zero(u(p.spread) | 0x100);
-  step = axis + (spread > 1 ? u(std::bit_width(spread)) : 0);
+  step = axis + (spread > 1 ? static_cast<std::uint32_t>(std::bit_width(spread)) : 0);
   walking = width > 1 ? 2 : 1;
   texels = 4 * width;
   offset = log2_of(p.cache_line_bytes);
@@ -72,6 +72,12 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   fill_writes = u(p.cache_fill_writes);
 }
 
+std::string chosen(const char* parameter, std::string_view value) {
+  return std::string("`").append(parameter).append(" = ").append(value).append("`");
+}
+std::string chosen(const char* parameter, std::uint64_t value) {
+  return chosen(parameter, std::to_string(value));
+}
 std::string chosen_axes(const spec::texture::Parameters& p) {
   return p.axes == spec::texture::Axes::kTwo ? "`axes = two`" : "`axes = four` or `eight`";
 }

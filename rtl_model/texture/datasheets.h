@@ -13,7 +13,7 @@
 
 namespace deburr::rtl::texture {
 
-// Counts of a build and widths in bits, of which its operators follow.
+// Counts and widths in bits of a build, from which its operators follow.
 struct Sizes {
   explicit Sizes(const spec::texture::Parameters& parameters);
   std::uint32_t fragments, width, axis_cycles;
@@ -29,30 +29,29 @@ struct Sizes {
   std::uint32_t words, line_banks, bank_reads, fill_writes;  // words: of a line
 };
 
-// Text of a variant: "`log2 = segments`"; "`axes = two`", or of the others.
+// Texts of variants: "`log2 = segments`"; "`axes = two`" or those of the AxisUnit.
+std::string chosen(const char* parameter, std::string_view value);
+std::string chosen(const char* parameter, std::uint64_t value);
 template <class Names, class Value>
 std::string chosen(const char* parameter, const Names& names, Value value) {
-  std::string text = "`";
-  for (const std::string_view part : {std::string_view(parameter), std::string_view(" = "),
-                                      std::string_view(names[static_cast<std::size_t>(value)])})
-    text += part;
-  return text += "`";
+  return chosen(parameter, names[static_cast<std::size_t>(value)]);
 }
 std::string chosen_axes(const spec::texture::Parameters& parameters);
 std::string sets_text(const spec::texture::Parameters& parameters);  // "128 sets of 2 ways, ..."
 
-// Of `sides` lengths by every rule but `exact`: the first stage, and the bits that it passes on.
+// The first stage of `sides` lengths by every rule but `exact`, and the bits that it passes on.
 struct SideHardware {
   std::vector<Operator> operators, longest;
   std::uint32_t bits;
 };
 SideHardware side_hardware(spec::texture::FootprintRule rule, std::uint32_t sides);
-// Digits of a constant that are not zero, with digits of -1, 0 and 1.
+// Non-zero digits of a constant, as digits of -1, 0 and 1.
 std::uint32_t signed_digits(std::uint32_t constant);
 
 // Parts built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::texture::Parameters& parameters);
-// All parts, each in every variant, and the whole unit with each preset.
+// All parts as both presets, the build `wide` and some other parameters build them, and the whole
+// unit with each preset.
 std::vector<Datasheet> datasheets();
 
 }  // namespace deburr::rtl::texture

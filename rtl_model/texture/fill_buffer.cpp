@@ -17,8 +17,8 @@ Datasheet FillBuffer::datasheet(const spec::texture::Parameters& p) {
   const Sizes z(p);
   const auto entry = static_cast<std::uint32_t>(std::bit_width(z.outstanding - 1));
   return {.unit = "FillBuffer",
-          .variant = std::to_string(z.outstanding) +
-                     " entries, `cache.fill_writes = " + std::to_string(z.fill_writes) + "`",
+          .variant = std::to_string(z.outstanding) + " entries, " +
+                     chosen("cache.fill_writes", z.fill_writes),
           .does = "Lines in flight from memory, filled in any order, used in the order of fills.",
           .latency = {2, "2, from the last beat of a line to the line on the output register"},
           .interval = {1, "1: one reservation, one beat and `fill_writes` releases per cycle"},

@@ -372,18 +372,17 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
   constexpr std::uint32_t kFraction = 8, kWeight = 9, kFlags = 2;
   // Of each channel in stage 7.
   const std::uint32_t value = by_level ? 28 : 20, sum = value + 8;
+  // Adders in series to the sums of a group of requests in order, before that of the cycle before.
+  const auto scan = static_cast<std::uint32_t>(std::bit_width(w - 1));
   Datasheet sheet = {
       .unit = "FilterPipeline",
       .variant = chosen("srgb_output", spec::texture::kSrgbOutputNames, p.srgb_output) +
                  (rom ? ", ROM `weights`" : ", no ROM `weights`") +
-                 (by_level ? ", `blend = level`" : "") +
-                 (w > 1 ? ", `width = " + std::to_string(w) + "`" : ""),
+                 (by_level ? ", `blend = level`" : "") + (w > 1 ? ", " + chosen("width", w) : ""),
       .does = "Filters four texels per cycle to the colour of a fragment.",
       .latency = {encoded ? 9U : 8U},
       .stages = {{.clock = "1",
                   .work = "fields",
-                  .operators = {},
-                  .longest = {},
                   .registers = (encoded ? ticket : ticket + 1 + 3) + 2 * kFraction + kWeight +
                                kFlags + (rom ? 0 : 4) + 4 * 32},
                  {.clock = "2",
@@ -409,7 +408,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                  {.clock = "6",
                   .work = "level lerp (`blend = level`: sum over the samples of a level)",
                   .operators = {4 * op::multiply(20, 9), 4 * op::add(28)},
-                  .longest = {op::multiply(20, 9), w * op::add(28)},
+                  .longest = {op::multiply(20, 9), (scan + 1) * op::add(28)},
                   .registers = ticket + kWeight + 1 + 4 * 28},
                  {.clock = "7",
                   .work =
@@ -417,7 +416,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                       "level lerp)",
                   .operators = {4 * op::multiply(value, 9), 4 * op::add(sum),
                                 op::logic(4 * (28 + sum))},
-                  .longest = {op::multiply(value, 9), w * op::add(sum)},
+                  .longest = {op::multiply(value, 9), (scan + 1) * op::add(sum)},
                   .registers = ticket + 4 * sum},
                  {.clock = "8",
                   .work = "round, pack",
@@ -441,7 +440,9 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
                       .operators = {3 * op::mux(8, 2)},
                       .longest = {op::rom_read(8, 4096), op::mux(8, 2)}});
   }
-  // The colours of a beat, in order.
+  for (Stage& stage : stages) stage.on = "stage_" + stage.clock;
+  // The sums of a group; the colours of a beat, in order.
+  if (w > 1) sheet.shared = {2 * w * scan * op::add(28), 2 * w * scan * op::add(sum)};
   for (std::uint32_t lane = 1; lane < w; ++lane)
     sheet.shared.push_back(op::mux(kPayloadBits<spec::texture::Colour>, lane + 1));
   return sheet;

@@ -252,8 +252,7 @@ Datasheet GroupFormer::datasheet(const spec::texture::Parameters& p) {
   const std::uint32_t word = z.offset - 2,
                       bank = word + static_cast<std::uint32_t>(std::bit_width(z.line_banks - 1));
   return {.unit = "GroupFormer",
-          .variant = "`width = " + std::to_string(z.width) +
-                     "`, `cache.lookups = " + std::to_string(z.lookups) + "`",
+          .variant = chosen("width", z.width) + ", " + chosen("cache.lookups", z.lookups),
           .does = "Forms groups of requests that the ports of the cache serve in one pass.",
           .latency = {2, "2, from a request in the buffer that leaves at once"},
           .stages = {{.clock = "1",

@@ -110,19 +110,19 @@ void MissQueue::reset() {
 Datasheet MissQueue::datasheet(const spec::texture::Parameters& p) {
   const Sizes z(p);
   const auto entry = static_cast<std::uint32_t>(std::bit_width(z.outstanding - 1));
-  return {.unit = "MissQueue",
-          .variant = std::to_string(z.outstanding) +
-                     " entries, `cache.lookups = " + std::to_string(z.lookups) + "`",
-          .does = "Sends missed lines to memory and collects them in the fill buffer.",
-          .latency = {0, "-"},
-          .interval = {1, "one line per cycle in each direction"},
-          .stages = {
-              {.clock = "-",
-               .work = "line to send; its entry is held from issue until the line is used",
-               .operators = {(z.lookups + 2) * op::add(entry), op::add(entry + 1),
-                             op::compare(entry + 1), op::logic(40)},
-               .longest = {op::add(entry + 1), op::compare(entry + 1), op::mux(z.line, z.lookups)},
-               .registers = entry + entry + 1}}};
+  return {
+      .unit = "MissQueue",
+      .variant = std::to_string(z.outstanding) + " entries, " + chosen("cache.lookups", z.lookups),
+      .does = "Sends missed lines to memory and collects them in the fill buffer.",
+      .latency = {0, "-"},
+      .interval = {1, "one line per cycle in each direction"},
+      .stages = {
+          {.clock = "-",
+           .work = "line to send; its entry is held from issue until the line is used",
+           .operators = {(z.lookups + 2) * op::add(entry), op::add(entry + 1),
+                         op::compare(entry + 1), op::logic(40)},
+           .longest = {op::add(entry + 1), op::compare(entry + 1), op::mux(z.line, z.lookups)},
+           .registers = entry + entry + 1}}};
 }
 
 }  // namespace deburr::rtl::texture

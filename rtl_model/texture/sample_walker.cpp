@@ -198,7 +198,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "SampleWalker",
       .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p) +
-                 (wide ? ", `width = " + std::to_string(w) + "`" : ""),
+                 (wide ? ", " + chosen("width", w) : ""),
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
       .latency = any ? Cycles{4, "4 to the first request"} : Cycles{3, "3 to the first request"},
       .interval = {1,
@@ -206,8 +206,6 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                    "descriptor); `width` = W: W requests, of at most two groups of fragments"},
       .stages = {{.clock = "1",
                   .work = any ? "spread times axis, 1/N from ROM" : "spread times axis",
-                  .operators = {},
-                  .longest = {},
                   .registers = f * (kFragment + 2 * z.step)}},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
@@ -219,6 +217,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
     stages[0].longest = {op::multiply_constant(z.axis, digits - 1)};
   }
   if (any) {
+    stages[0].longest.push_back(op::rom_read(17, 16));
     stages.push_back({.clock = "2",
                       .work = "times 1/N",
                       .operators = {2 * f * op::multiply(z.step, 17)},
@@ -243,18 +242,18 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                    .operators = {4 * w * op::add(34), 2 * w * op::add(4), w * op::equal(4),
                                  w * op::subtract(9), w * op::mux(9, 2)},
                    .longest = {2 * op::add(34)}};
-  // Of N requests, each after the previous one; the last one is where the walk goes on.
   auto& operators = request.operators;
   if (wide) {
-    // The requests left of each fragment, their sums in order; the fragment of each request.
+    // The requests left of each fragment, and before it; the fragment of each request.
+    const auto levels = static_cast<std::uint32_t>(std::bit_width(walks - 1));
     operators.insert(
         operators.end(),
-        {walks * op::add(6), walks * op::add(3), w * walks * op::compare(3),
+        {walks * op::add(6), walks / 2 * levels * op::add(3), w * walks * op::compare(3),
          w * op::mux(kFragment + 4 + 1, walks), 2 * w * op::mux(step, walks),
          2 * (w + 1) * op::mux(walk, walks), 2 * (w - 1) * op::add(step), 2 * w * op::mux(step, w),
          2 * w * op::add(walk), 2 * walks * op::mux(walk, 2)});
-    request.longest = {op::add(6),           op::add(3),    op::compare(3),
-                       op::mux(walk, walks), op::add(walk), 2 * op::add(34)};
+    request.longest = {op::add(6),           levels * op::add(3), op::compare(3),
+                       op::mux(walk, walks), op::add(walk),       2 * op::add(34)};
   } else {
     operators.insert(operators.end(), {2 * op::add(walk), 2 * op::mux(walk, 2)});
   }

@@ -143,7 +143,7 @@ void TagStage::reset() {
 
 Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
   const Sizes z(p);
-  constexpr std::uint32_t kLines = 4;
+  constexpr std::uint32_t kLookups = 4;
   const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
   const Operator way = op::mux(z.tag + 2, std::max(z.ways, 2U));
   return {.unit = "TagStage",
@@ -156,22 +156,23 @@ Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
                 .operators = {6 * op::equal(z.line), op::logic(30)},
                 .longest = {op::mux(z.set_word, z.sets)},
                 // The sets; the first texel in each one's line, and valid.
-                .registers = kPayloadBits<TexelToken> + kLines * z.set_word + 1 + 2 + 2 + 1},
+                .registers = kPayloadBits<TexelToken> + kLookups * z.set_word + 1 + 2 + 2 + 1},
                // A set as the lookups before it left it, of this request; hit, way and order of
                // use; then the place of each texel and the lines that missed, in order. A set that
                // is read in this cycle is one of those, or of the tags.
                {.clock = "2",
                 .work = "up to four lookups, allocation, misses to the queue",
                 .operators = {6 * op::equal(z.set), op::mux(z.set_word, 2), op::mux(z.set_word, 3),
-                              op::mux(z.set_word, 4), kLines * z.ways * op::equal(z.tag + 1),
-                              kLines * z.ways * op::mux(z.tag + 2, 2),
-                              op::logic(kLines * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
+                              op::mux(z.set_word, 4), kLookups * z.ways * op::equal(z.tag + 1),
+                              kLookups * z.ways * op::mux(z.tag + 2, 2),
+                              op::logic(kLookups * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
                               op::mux(z.slot + 4, 2), op::mux(z.slot + 4, 3),
                               op::mux(z.slot + 4, 4), op::mux(z.line + z.slot + 1, 2),
                               op::mux(z.line + z.slot + 1, 3), op::mux(z.line + z.slot + 1, 4),
-                              op::count_ones(kLines), kLines * kLines * op::equal(z.set),
-                              kLines * op::mux(z.set_word, kLines + 1)},
-                .longest = {op::equal(z.tag + 1), kLines * way, op::mux(z.set_word, kLines + 1)}}},
+                              op::count_ones(kLookups), kLookups * kLookups * op::equal(z.set),
+                              kLookups * op::mux(z.set_word, kLookups + 1)},
+                .longest = {op::equal(z.tag + 1), kLookups * way,
+                            op::mux(z.set_word, kLookups + 1)}}},
           .shared_registers = random ? 16U : 0U};
 }
 

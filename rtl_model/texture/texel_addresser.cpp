@@ -180,6 +180,7 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
   constexpr std::uint32_t kKept = 40 + 9 + 2 * 4 + 2 + 3 + 1;
   // Size, layout, wrap modes and bases of the levels of a descriptor.
   constexpr std::uint32_t kDescriptor = 26 + 1 + 4 + spec::texture::kMaxLevels * 26;
+  const std::uint32_t descriptors = wide ? 2 : 1, bases = descriptors * spec::texture::kMaxLevels;
   Datasheet sheet = {
       .unit = "TexelAddresser",
       .variant = wide ? "`width` above 1" : "`width = 1`",
@@ -187,14 +188,12 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
       .latency = {5},
       .stages = {{.clock = "1",
                   .work = "descriptor selected",
-                  .operators = {},
                   .longest = {op::mux(26, spec::texture::kMaxTextures)},
                   .registers = kKept + 2 * 34 + 4 + 1},
                  {.clock = "2",
                   .work = "level selected, both coordinates wrapped",
-                  .operators = {op::mux(26, spec::texture::kMaxLevels), 2 * op::shift(13, 13),
-                                op::logic(200)},
-                  .longest = {op::mux(26, spec::texture::kMaxLevels)},
+                  .operators = {op::mux(26, bases), 2 * op::shift(13, 13), op::logic(200)},
+                  .longest = {op::mux(26, bases)},
                   .registers = kKept + 2 * 34 + 2 * 13 + 26 + 4 + 1 + 1},
                  {.clock = "3",
                   .work = "products with the level's width and height",
@@ -223,8 +222,8 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
       .formats = "position S9.24, texel position rounded to 8 fraction bits, address U32.",
       .copies = Sizes(p).width,
       .per = "request",
-      .shared_registers = kDescriptor * (wide ? 2U : 1U)};
-  if (wide) sheet.stages[1].operators.push_back(op::mux(kDescriptor, 2));
+      .shared_registers = descriptors * kDescriptor};
+  if (wide) sheet.stages[1].operators.push_back(op::mux(26 + 1 + 4, 2));
   return sheet;
 }
 

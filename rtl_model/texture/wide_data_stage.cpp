@@ -269,9 +269,9 @@ Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {
   };
   const std::uint32_t place = z.slot + z.offset, row = z.slot - log2(z.line_banks);
   return {.unit = "WideDataStage",
-          .variant = "`width = " + std::to_string(z.width) + "`, " + std::to_string(banks) +
-                     " banks, `cache.bank_reads = " + std::to_string(z.bank_reads) +
-                     "`, `cache.fill_writes = " + std::to_string(z.fill_writes) + "`",
+          .variant = chosen("width", z.width) + ", " + std::to_string(banks) + " banks, " +
+                     chosen("cache.bank_reads", z.bank_reads) + ", " +
+                     chosen("cache.fill_writes", z.fill_writes),
           .does = "Reads the texels of a group from the banks and writes its fills.",
           .latency = {2, "2, from the last cycle of a group"},
           .interval = {1,

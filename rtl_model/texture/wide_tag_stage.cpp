@@ -167,8 +167,8 @@ Datasheet WideTagStage::datasheet(const spec::texture::Parameters& p) {
   const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
   return {
       .unit = "WideTagStage",
-      .variant = sets_text(p) + ", `cache.lookups = " + std::to_string(lines) +
-                 "`, `cache.allocations = " + std::to_string(z.allocations) + "`",
+      .variant = sets_text(p) + ", " + chosen("cache.lookups", lines) + ", " +
+                 chosen("cache.allocations", z.allocations),
       .does = "Looks up the lines of a group, allocates those that miss and requests them.",
       .latency = {2},
       .interval = {1, "max(1, misses / `allocations`) cycles per group"},

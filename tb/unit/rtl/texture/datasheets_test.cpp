@@ -2,6 +2,9 @@
 // The datasheets of the texture unit: every block has one that matches the contract.
 #include "rtl_model/texture/datasheets.h"
 
+#include <cstdint>
+#include <string>
+
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -9,35 +12,48 @@ namespace deburr::tb::texture_rtl::datasheets_test {
 namespace {
 
 TEST(TextureRtlDatasheets, MatchTheContract) {
-  expect_contract(rtl::texture::datasheets(), {{"TextureUnit, `preset = paper`", 30, 1},
-                                               {"TextureUnit, `preset = deburr`", 53, 1},
-                                               {"AddressUnit, `preset = paper`", 17, 1},
-                                               {"AddressUnit, `preset = deburr`", 40, 1},
-                                               {"TextureCache, `width = 1`", 5, 1},
-                                               {"TextureCache, `width` above 1", 7, 1},
-                                               {"DerivativeUnit", 3, 1},
-                                               {"FootprintUnit, other `footprint`", 2, 1},
-                                               {"FootprintUnit, `footprint = exact`", 19, 1},
-                                               {"AxisUnit, `footprint = exact`", 22, 1},
-                                               {"AxisUnit, other `footprint`", 8, 1},
-                                               {"Log2Unit, `log2 = mitchell`", 1, 1},
-                                               {"Log2Unit, other `log2`", 3, 1},
-                                               {"LevelUnit", 3, 1},
-                                               {"SampleWalker, other `count`", 3, 1},
-                                               {"SampleWalker, `count = any`", 4, 1},
-                                               {"TexelAddresser", 5, 1},
-                                               {"GroupFormer", 2, 1},
-                                               {"TagStage", 2, 1},
-                                               {"WideTagStage", 2, 1},
-                                               {"MissQueue", 0, 1},
-                                               {"FillBuffer", 2, 1},
-                                               {"LatencyFifo", 1, 1},
-                                               {"WideLatencyFifo", 1, 1},
-                                               {"DataStage", 2, 1},
-                                               {"WideDataStage", 2, 1},
-                                               {"FilterPipeline, `srgb_output = linear`", 8, 1},
-                                               {"FilterPipeline, `srgb_output = encoded`", 9, 1},
-                                               {"Descriptors", 0, 1}});
+  const std::string four = "`axes = four` or `eight`",
+                    sets = "128 sets of 2 ways, `cache.replacement = lru`";
+  expect_contract(
+      rtl::texture::datasheets(),
+      {{"TextureUnit, `preset = paper`", 30, 1},
+       {"TextureUnit, `preset = deburr`", 53, 1},
+       {"AddressUnit, `preset = paper`", 17, 1},
+       {"AddressUnit, `preset = deburr`", 40, 1},
+       {"TextureCache, `width = 1`", 5, 1},
+       {"TextureCache, `width` above 1", 7, 1},
+       {"DerivativeUnit", 3, 1},
+       {"FootprintUnit, `footprint = half`", 2, 1},
+       {"FootprintUnit, `footprint = exact`", 19, 1},
+       {"AxisUnit, `axes = four`, `footprint = exact`", 22, 1},
+       {"AxisUnit, `axes = eight`, `footprint = half`", 8, 1},
+       {"Log2Unit, `log2 = mitchell`, `axes = two`", 1, 1},
+       {"Log2Unit, `log2 = exact`, `axes = two`", 3, 1},
+       {"Log2Unit, `log2 = segments`, " + four, 3, 1},
+       {"LevelUnit, `count = floor`, `axes = two`", 3, 1},
+       {"LevelUnit, `count = any`, " + four, 3, 1},
+       {"SampleWalker, `count = floor`, `axes = two`", 3, 1},
+       {"SampleWalker, `count = any`, " + four, 4, 1},
+       {"SampleWalker, `count = any`, " + four + ", `width = 4`", 4, 1},
+       {"TexelAddresser, `width = 1`", 5, 1},
+       {"TexelAddresser, `width` above 1", 5, 1},
+       {"GroupFormer, `width = 4`, `cache.lookups = 8`", 2, 1},
+       {"TagStage, " + sets, 2, 1},
+       {"WideTagStage, " + sets + ", `cache.lookups = 8`, `cache.allocations = 4`", 2, 1},
+       {"MissQueue, 64 entries, `cache.lookups = 4`", 0, 1},
+       {"MissQueue, 128 entries, `cache.lookups = 8`", 0, 1},
+       {"FillBuffer, 64 entries, `cache.fill_writes = 1`", 2, 1},
+       {"FillBuffer, 128 entries, `cache.fill_writes = 4`", 2, 1},
+       {"LatencyFifo", 1, 1},
+       {"WideLatencyFifo", 1, 1},
+       {"DataStage, 16 banks of 256 words", 2, 1},
+       {"WideDataStage, `width = 4`, 64 banks, `cache.bank_reads = 2`, `cache.fill_writes = 4`", 2,
+        1},
+       {"FilterPipeline, `srgb_output = linear`, no ROM `weights`", 8, 1},
+       {"FilterPipeline, `srgb_output = linear`, ROM `weights`", 8, 1},
+       {"FilterPipeline, `srgb_output = linear`, ROM `weights`, `width = 4`", 8, 1},
+       {"FilterPipeline, `srgb_output = encoded`, ROM `weights`", 9, 1},
+       {"Descriptors", 0, 1}});
 }
 
 TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
@@ -47,6 +63,39 @@ TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
 TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetDeburr) {
   const UnitBench b(spec::texture::Parameters{});
   expect_datasheets(b.unit, rtl::texture::datasheets({}));
+}
+
+// Operators of a build, with all their copies.
+std::uint32_t operators(const spec::texture::Parameters& p, const std::string& unit,
+                        rtl::OperatorKind kind) {
+  std::uint32_t count = 0;
+  for (const rtl::Datasheet& sheet : rtl::texture::datasheets(p))
+    for (const rtl::Operator& one : operators_of(sheet))
+      if (sheet.unit == unit && one.kind == kind) count += one.count;
+  return count;
+}
+
+TEST(TextureRtlDatasheets, OperatorsFollowTheBuild) {
+  using Kind = rtl::OperatorKind;
+  spec::texture::Parameters p, twice;
+  p.width = p.fragments = 2;
+  twice.width = twice.fragments = 4;
+  for (const char* unit :
+       {"DerivativeUnit", "AxisUnit", "SampleWalker", "TexelAddresser", "FilterPipeline"}) {
+    EXPECT_NE(operators(p, unit, Kind::kMultiply), 0u) << unit;
+    EXPECT_EQ(operators(twice, unit, Kind::kMultiply), 2 * operators(p, unit, Kind::kMultiply))
+        << unit;
+  }
+  EXPECT_EQ(operators({}, "AxisUnit", Kind::kRootStage), 16u);
+  EXPECT_EQ(operators(stimuli::paper_configuration(), "AxisUnit", Kind::kRootStage), 0u);
+  EXPECT_EQ(operators(stimuli::paper_configuration(), "FootprintUnit", Kind::kSquare), 0u);
+  // A constant is additions, a power of two wires.
+  EXPECT_EQ(operators({}, "SampleWalker", Kind::kMultiplyConstant), 0u);
+  p.spread = 96;
+  EXPECT_EQ(operators(p, "SampleWalker", Kind::kMultiplyConstant), 2 * 2u);
+  p = {};
+  p.axis_cycles = 2;
+  EXPECT_EQ(operators(p, "AxisUnit", Kind::kSquare), operators({}, "AxisUnit", Kind::kSquare) / 2);
 }
 
 }  // namespace
