@@ -245,17 +245,21 @@ Datasheet DescriptorStore::datasheet(const spec::morphological::Parameters& p) {
   if (!table) return sheet;
   sheet.variant = "with a table";
   sheet.latency = {3};
-  sheet.stages.resize(3, sheet.stages[1]);
-  Stage &measure = sheet.stages[1], &store = sheet.stages[2];
-  measure.work = "t at the first edge";
-  measure.operators = {op::subtract(kT), op::add(kT), op::subtract(18)};
-  measure.longest = measure.operators;
-  measure.registers = kT + 2 * 18 + kGrowth + mark + word;
-  store.clock = "3";
-  store.work = "a and b, store";
-  store.operators = {op::compare(15), 2 * op::multiply(18, kInverse), 2 * op::add(42),
-                     2 * op::logic(40), op::mux(26, 2)};
-  store.longest = {op::multiply(18, kInverse), op::add(42), op::logic(12), op::mux(13, 2)};
+  const std::vector<Operator> measured = {op::subtract(kT), op::add(kT), op::subtract(18)};
+  sheet.stages = {
+      sheet.stages[0],
+      {.clock = "2",
+       .work = "t at the first edge",
+       .operators = measured,
+       .longest = measured,
+       .registers = kT + 2 * 18 + kGrowth + mark + word,
+       .on = "descriptors"},
+      {.clock = "3",
+       .work = "a and b, store",
+       .operators = {op::compare(15), 2 * op::multiply(18, kInverse), 2 * op::add(42),
+                     2 * op::logic(40), op::mux(26, 2)},
+       .longest = {op::multiply(18, kInverse), op::add(42), op::logic(12), op::mux(13, 2)},
+       .on = "descriptors"}};
   return sheet;
 }
 
