@@ -16,7 +16,8 @@ constexpr int kUsualMegahertz = 250;
 
 std::string listed(std::span<const Operator> operators) {
   std::string text;
-  for (const Operator& one : operators) text += (text.empty() ? "" : ", ") + counted(one);
+  for (const Operator& one : operators)
+    if (one.count > 0) text += (text.empty() ? "" : ", ") + counted(one);
   return text;
 }
 

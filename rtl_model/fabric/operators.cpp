@@ -54,6 +54,7 @@ std::string counted(const Operator& one) {
 std::vector<Operator> summed(std::span<const Operator> operators) {
   std::vector<Operator> sums;
   for (const Operator& one : operators) {
+    if (one.count == 0) continue;
     const auto same = std::find_if(sums.begin(), sums.end(), [&](const Operator& other) {
       return other.kind == one.kind && other.a == one.a && other.b == one.b;
     });

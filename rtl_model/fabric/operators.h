@@ -53,8 +53,9 @@ constexpr Operator compare(std::uint32_t bits) { return {OperatorKind::kCompare,
 constexpr Operator equal(std::uint32_t bits) { return {OperatorKind::kEqual, bits}; }
 constexpr Operator magnitude(std::uint32_t bits) { return {OperatorKind::kMagnitude, bits}; }
 constexpr Operator maximum(std::uint32_t bits) { return {OperatorKind::kMaximum, bits}; }
+// Of one input: wires.
 constexpr Operator mux(std::uint32_t bits, std::uint32_t inputs) {
-  return {OperatorKind::kMux, bits, inputs};
+  return {OperatorKind::kMux, bits, inputs, inputs > 1 ? 1u : 0u};
 }
 constexpr Operator multiply(std::uint32_t a, std::uint32_t b) {
   return {OperatorKind::kMultiply, a, b};
@@ -84,7 +85,7 @@ const char* name_of(OperatorKind kind);  // "multiply_constant": the key in tool
 // "2 multiplies 23 x 23"; without the count "multiply 23 x 23".
 std::string counted(const Operator& one);
 std::string text_of(const Operator& one);
-// Equal operators in one, in the order of their first.
+// Equal operators in one, in the order of their first; without those of count 0 (not built).
 std::vector<Operator> summed(std::span<const Operator> operators);
 
 }  // namespace deburr::rtl

@@ -11,7 +11,7 @@ namespace deburr::rtl::morphological {
 
 // Units built with these parameters, in pipeline order.
 std::vector<Datasheet> datasheets(const spec::morphological::Parameters& parameters);
-// All units, each in every variant.
+// All units, each in every variant: of a build with the text guard, and of one with SMAA.
 std::vector<Datasheet> datasheets();
 
 }  // namespace deburr::rtl::morphological

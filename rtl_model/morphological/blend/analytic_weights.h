@@ -47,7 +47,7 @@ class AnalyticWeights final : public sc_core::sc_module {
             descriptor.span};
   }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   // |t|, S.24, to U1.12: rounded, saturated.

@@ -84,17 +84,6 @@ struct Entries {
   }
 };
 
-int tiles_of(AreaSource layout) {
-  switch (layout) {
-    case AreaSource::kTableMerged:
-      return static_cast<int>(kMergedTiles.size());
-    case AreaSource::kTableMinimal:
-      return 2;
-    default:
-      return 16;
-  }
-}
-
 int stored_entry(AreaSource layout, const Entries& entries, int tile, int i, int j) {
   switch (layout) {
     case AreaSource::kTableMerged:
@@ -109,7 +98,7 @@ int stored_entry(AreaSource layout, const Entries& entries, int tile, int i, int
 std::vector<std::uint16_t> area_words(AreaSource layout, AreaValues values, int parity) {
   const Entries entries{values == AreaValues::kPublished};
   std::vector<std::uint16_t> words;
-  for (int tile = 0; tile < tiles_of(layout); ++tile)
+  for (int tile = 0; tile < static_cast<int>(AreaTable::tiles_of(layout)); ++tile)
     for (int i = parity / 2; i < kRoots; i += 2)
       for (int j = parity % 2; j < kRoots; j += 2)
         words.push_back(static_cast<std::uint16_t>(stored_entry(layout, entries, tile, i, j)));
@@ -132,6 +121,17 @@ int pattern_of(std::uint8_t shape) {
 
 }  // namespace
 
+std::uint32_t AreaTable::tiles_of(AreaSource layout) {
+  switch (layout) {
+    case AreaSource::kTableMerged:
+      return static_cast<std::uint32_t>(kMergedTiles.size());
+    case AreaSource::kTableMinimal:
+      return 2;
+    default:
+      return 16;
+  }
+}
+
 AreaTable::AreaTable(AreaSource layout, AreaValues values, int lanes)
     : layout_(layout),
       reads_(layout == AreaSource::kTableMinimal ? 2 : 1),
@@ -147,16 +147,15 @@ AreaTable::AreaTable(AreaSource layout, AreaValues values, int lanes)
   for (int port = 0; port < 2 * readers; ++port)
     roots_.emplace_back(sqrt_rom_, "distance " + std::to_string(port));
   for (int parity = 0; parity < static_cast<int>(kParities); ++parity) {
-    area_rom_.emplace_back(
-        ("area_rom" + std::to_string(parity)).c_str(),
-        MemoryShape{
-            .words = static_cast<std::uint64_t>(tiles_of(layout) * kTileWords),
-            .word_bits = layout == AreaSource::kTableMinimal ? 8u : 16u,
-            .kind = MemoryKind::kRom,
-            .read_ports = static_cast<std::uint32_t>(readers) * static_cast<std::uint32_t>(reads_),
-            .write_ports = 0,
-            .content = "areas of tiles, by the parities of both roots"},
-        area_words(layout, values, parity));
+    area_rom_.emplace_back(("area_rom" + std::to_string(parity)).c_str(),
+                           MemoryShape{.words = std::uint64_t{tiles_of(layout)} * kTileWords,
+                                       .word_bits = layout == AreaSource::kTableMinimal ? 8u : 16u,
+                                       .kind = MemoryKind::kRom,
+                                       .read_ports = static_cast<std::uint32_t>(readers) *
+                                                     static_cast<std::uint32_t>(reads_),
+                                       .write_ports = 0,
+                                       .content = "areas of tiles, by the parities of both roots"},
+                           area_words(layout, values, parity));
     for (std::size_t port = 0; port < static_cast<std::size_t>(readers) * reads_; ++port)
       read_[static_cast<std::size_t>(parity)].emplace_back(area_rom_.back(),
                                                            "edge " + std::to_string(port));

@@ -42,6 +42,9 @@ class AreaTable {
   AreaTable(spec::morphological::AreaSource layout, spec::morphological::AreaValues values,
             int lanes);
 
+  // Tiles that a layout stores.
+  static std::uint32_t tiles_of(spec::morphological::AreaSource layout);
+
   void address_roots(Cycle cycle, std::size_t reader, const Query& query);
   // In the cycle in which the roots arrive.
   void address_entries(Cycle cycle, std::size_t reader, Query& query);

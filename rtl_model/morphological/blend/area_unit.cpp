@@ -152,23 +152,45 @@ void AreaUnit::reset() {
 }
 
 Datasheet AreaUnit::datasheet(const spec::morphological::Parameters& p) {
-  const Datasheet line = has_table(p) ? TableWeights::datasheet() : AnalyticWeights::datasheet();
+  const Datasheet line = has_table(p) ? TableWeights::datasheet(p) : AnalyticWeights::datasheet(p);
+  const std::uint32_t lanes = lane_copies(p);
+  const std::uint32_t learned = p.area == spec::morphological::AreaSource::kLearned ? 1 : 0;
+  constexpr std::uint32_t kEdges = 2, kWeights = 2 * 8, kSpan = 12, kDiagonal = 2 * 8 + 6 + 1;
+  const std::uint32_t corner = p.round_corners ? kEdges * (4 + 2) : 0;  // far bits, nearer end
   return {
       .unit = "AreaUnit",
       .does = "Weights of the pixels on both sides of each edge, from its descriptor's line.",
-      .latency = {DescriptorWalk::datasheet().latency.cycles + line.latency.cycles +
-                  WeightRows::datasheet().latency.cycles},
-      .stages = {{"1-3", "DescriptorWalk"},
-                 {"4-8",
-                  "in parallel AnalyticWeights, with a table TableWeights, with learned weights "
-                  "LearnedWeights (4-7)"},
-                 {"8",
-                  "a learned weight replaces the line's; a beat of diagonals; address of "
-                  "WeightRows"},
-                 {"9", "corner factor; a diagonal replaces the weight; WeightRows",
-                  "10 x 8 multiply, mux"}},
+      .latency = {DescriptorWalk::datasheet(p).latency.cycles + line.latency.cycles +
+                  WeightRows::datasheet(p).latency.cycles},
+      .stages = {{.clock = "1-3", .work = "DescriptorWalk", .registers = kEdges},
+                 {.clock = "4-8",
+                  .work = "in parallel AnalyticWeights, with a table TableWeights, with learned "
+                          "weights LearnedWeights (4-7)",
+                  .registers = kEdges + corner},
+                 {.clock = "8",
+                  .work = "a learned weight replaces the line's; a beat of diagonals; address of "
+                          "WeightRows",
+                  .operators = {kEdges * learned * op::mux(kWeights + kSpan, 2),
+                                kEdges * has_table(p) * op::mux(kWeights, 2)},
+                  .registers = kEdges * (kWeights + kSpan) + (p.diagonals ? kDiagonal : 0)},
+                 {.clock = "9",
+                  .work = "corner factor; a diagonal replaces the weight; WeightRows",
+                  .operators = {2 * kEdges * p.round_corners * op::mux(10, 3),
+                                2 * kEdges * p.round_corners * op::subtract(10),
+                                2 * kEdges * p.round_corners * op::multiply(10, 8),
+                                2 * kEdges * p.round_corners * op::add(18),
+                                kEdges * p.diagonals * op::mux(kWeights + kSpan, 2)},
+                  .longest = p.round_corners ? std::vector{op::mux(10, 3), op::subtract(10),
+                                                           op::multiply(10, 8), op::add(18),
+                                                           op::mux(kWeights + kSpan, 2)}
+                                             : std::vector<Operator>{}}},
       .formats = "weights U0.8, corner factor U1.9.",
-      .cost = "that of its parts; with corners two 10 x 8 multipliers per axis and lane."};
+      .copies = lanes,
+      .per = "lane",
+      // The slot, and the edges of the next row up to the query.
+      .shared = {op::logic(40)},
+      .shared_registers =
+          8 * (kPayloadBits<Slot> + 1 + p.diagonals) + learned * 2 * kEdges * lanes};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -294,26 +294,60 @@ Activity Blender::tick(Cycle cycle) {
   return kBusy;
 }
 
-Datasheet Blender::datasheet() {
-  return {.unit = "Blender",
-          .does = "Decides the axis of each pixel and blends it with its neighbours on that axis.",
-          .latency = {6, "6; 5 to its push into the output link"},
-          .stages = {{"1",
-                      "sums, spans, axis, neighbours, marks, text guard; mix_rom address from the "
-                      "sum on the chosen axis (`strongest`: two maxima, compare, sums of both "
-                      "pairs)"},
-                     {"2", "linear_rom address; mix_rom word, squares of both weights"},
-                     {"3", "linear light, differences; squares x word, rounded",
-                      "21 x 16 multiply + 37-bit add"},
-                     {"4", "products, sum", "signed 13 x 13 multiply"},
-                     {"5", "rounding, new value, encode_rom address"},
-                     {"6", "codes", "ROM read"}},
-          .formats = "weights U0.8, blended as U0.12; linear light U0.12, differences S13.",
-          .cost =
-              "per lane: nine reads of linear_rom, 256 x 12 bits (three per channel, after the "
-              "axis is chosen), three of encode_rom, 4096 x 8 bits (two reads per copy), two "
-              "signed 13 x 13 multipliers per channel, one read of mix_rom, 511 x 21 bits, two "
-              "8 x 8 and two 21 x 16 multipliers, nine comparators, five mark bits, two shifts."};
+Datasheet Blender::datasheet(const spec::morphological::Parameters& p) {
+  constexpr std::uint32_t kChannels = 3, kCode = 8, kLight = 12, kDifference = 13;
+  constexpr std::uint32_t kWeight = 8, kBlend = 12, kMix = kMixBits;
+  // The pixel passes unchanged where it is not blended.
+  constexpr std::uint32_t kPassed = 4 * kCode + 1;
+  return {
+      .unit = "Blender",
+      .does = "Decides the axis of each pixel and blends it with its neighbours on that axis.",
+      .latency = {6, "6; 5 to its push into the output link"},
+      .stages =
+          {// Sums of both pairs; spans, or largest weights; marks of five pixels; half weights.
+           {.clock = "1",
+            .work = "sums, spans, axis, neighbours, marks, text guard; mix_rom address from the "
+                    "sum on the chosen axis (`strongest`: two maxima, compare, sums of both pairs)",
+            .operators = {2 * op::add(kWeight), 2 * op::maximum(12), op::compare(12), op::equal(12),
+                          op::compare(9), 2 * op::maximum(kWeight), op::compare(kWeight),
+                          2 * op::mux(25, 2), 2 * op::mux(kWeight, 2), 2 * op::mux(kWeight, 2),
+                          op::mux(9, 2), op::logic(120 + (p.text_guard ? 4 : 0))},
+            .longest = {op::maximum(12), op::compare(12), op::logic(8), op::mux(25, 2),
+                        op::mux(kWeight, 2)},
+            .registers = kPassed + 2 * kChannels * kCode + 2 * kWeight},
+           {.clock = "2",
+            .work = "linear_rom address; mix_rom word, squares of both weights",
+            .operators = {2 * op::square(kWeight)},
+            .longest = {op::square(kWeight)},
+            .registers = kPassed + 2 * kChannels * kCode + 2 * kWeight + 2 * 2 * kWeight + kMix},
+           {.clock = "3",
+            .work = "linear light, differences; squares x word, rounded",
+            .operators = {3 * kChannels * op::mux(kLight, 2), 2 * kChannels * op::subtract(12),
+                          2 * op::multiply(kMix, 2 * kWeight), 2 * op::add(37),
+                          2 * op::mux(kBlend, 2)},
+            .longest = {op::multiply(kMix, 2 * kWeight), op::add(37), op::mux(kBlend, 2)},
+            .registers = kPassed + kChannels * (kLight + 2 * kDifference) + 2 * kBlend},
+           {.clock = "4",
+            .work = "products, sum",
+            .operators = {2 * kChannels * op::multiply(13, kDifference), kChannels * op::add(26)},
+            .longest = {op::multiply(13, kDifference), op::add(26)},
+            .registers = kPassed + kChannels * (kLight + 25)},
+           {.clock = "5",
+            .work = "rounding, new value, encode_rom address",
+            .operators = {kChannels * op::magnitude(25), kChannels * op::add(25),
+                          kChannels * op::add(kDifference)},
+            .longest = {op::magnitude(25), op::add(25), op::add(kDifference)},
+            .registers = kPassed + kChannels * kCode},
+           {.clock = "6",
+            .work = "codes",
+            .operators = {op::mux(kChannels * kCode, 3), op::logic(8)},
+            .longest = {op::rom_read(kCode, 4096), op::mux(kChannels * kCode, 3)}}},
+      .formats = "weights U0.8, blended as U0.12; linear light U0.12, differences S13.",
+      .copies = lane_copies(p),
+      .per = "lane",
+      // Marks of the beat; ends of row and frame.
+      .shared = {3 * op::equal(14), op::equal(13), op::logic(20)},
+      .shared_registers = 5 * (3 + 1 + 1 + 1 + 1)};
 }
 
 }  // namespace deburr::rtl::morphological

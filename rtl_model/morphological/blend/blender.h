@@ -56,7 +56,7 @@ class Blender final : public Unit {
   Counter bypassed_pixels{"bypassed_pixels", "pixels", "pixels with a weight that were bypassed"};
   Histogram beat_latency{"beat_latency", "clk", "cycles from popping a beat to pushing it"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   static constexpr std::size_t kLanes = spec::morphological::kMaxLanes;

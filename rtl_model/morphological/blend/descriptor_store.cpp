@@ -25,11 +25,6 @@ bool has_crossings(const spec::morphological::Parameters& p) {
   return p.ends == spec::morphological::Ends::kCrossings;
 }
 
-std::uint32_t descriptor_bits(const spec::morphological::Parameters& p) {
-  return kDescriptorBits + (p.round_corners ? kCornerBits : 0) +
-         (p.area == spec::morphological::AreaSource::kLearned ? kLearnedBits : 0);
-}
-
 MemoryShape axis_shape(std::size_t words, std::size_t columns, std::size_t banks,
                        const char* content) {
   return {.words = words,
@@ -103,13 +98,13 @@ DescriptorStore::DescriptorStore(const sc_core::sc_module_name& name,
                       std::max<std::size_t>(1, lanes_ >> pair_bits_),
                       has_crossings(p) ? "one horizontal descriptor per column, two rows"
                                        : "one horizontal descriptor per pair of columns, two rows"),
-           kRowMarkBits, descriptor_bits(p)),
+           kRowMarkBits, word_bits(p)),
       column_("column",
               axis_shape(columns << entry_bits_, static_cast<std::size_t>(p.line_pixels),
                          lanes_ << entry_bits_,
                          has_crossings(p) ? "two vertical descriptors per column"
                                           : "one vertical descriptor per column"),
-              kColumnMarkBits, descriptor_bits(p)),
+              kColumnMarkBits, word_bits(p)),
       counters_(counters) {}
 
 std::size_t DescriptorStore::place(const AxisDescriptors& axis, const LineToken& token) const {
@@ -209,26 +204,62 @@ void DescriptorStore::reset() {
   odd_row_ = false;
 }
 
+std::uint32_t DescriptorStore::word_bits(const spec::morphological::Parameters& p) {
+  return kDescriptorBits + (p.round_corners ? kCornerBits : 0) +
+         (p.area == spec::morphological::AreaSource::kLearned ? kLearnedBits : 0);
+}
+
 Datasheet DescriptorStore::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint32_t lanes = lane_copies(p), crossings = has_crossings(p) ? 1 : 0;
+  const bool table = has_table(p);
+  // A line in flight: what is stored, without t and growth, and its place, slot and parity.
+  constexpr std::uint32_t kT = 29, kGrowth = 26, kInverse = 24, kPlace = 13 + 1 + 2;
+  const std::uint32_t mark = kRowMarkBits + kPlace,
+                      word = word_bits(p) - kT - kGrowth + (table ? 4 : 0);
+  const std::uint32_t banks = std::max(1u, lanes >> (1 - crossings)) + (lanes << crossings);
+  const std::uint32_t stored = word_bits(p) + kRowMarkBits;
   Datasheet sheet = {
       .unit = "DescriptorStore",
       .does = "Stores the descriptors of both axes, addressed by raster position.",
       .latency = {2},
       .interval = {1, "1 per bank"},
-      .stages = {{"1", "select one line per bank, two products", "24 x 24 multiply"},
-                 {"2", "t at the first edge, store"}},
+      .stages = {{.clock = "1",
+                  .work = "select one line per bank, two products",
+                  .operators = {op::compare(15), (lanes - 1) * op::equal(3), op::logic(20),
+                                op::multiply(24, 24), op::multiply(7, 24)},
+                  .longest = {op::multiply(24, 24)},
+                  .registers = 48 + kGrowth + 6 + mark + word,
+                  .on = "descriptors"},
+                 {.clock = "2",
+                  .work = "t at the first edge, store",
+                  .operators = {op::subtract(kT), op::compare(15)},
+                  .longest = {op::subtract(kT)},
+                  .on = "descriptors"}},
       .formats = "t S4.24, growth U2.24, inverse U12.12; with a table a, b S13 instead of both.",
-      .cost =
-          "per axis and lane: two 24 x 24 multipliers, with a table two more of 18 x 24. "
-          "row_marks and row_descriptors: two rows of column pairs (with crossings of columns); "
-          "column_marks and column_descriptors: one word per column (with crossings two). Each "
-          "bank is 1R1W: marks are read a beat at a time, descriptors one per bank."};
-  if (!has_table(p)) return sheet;
+      .copies = 2 * lanes,
+      .per = "axis and lane",
+      // Choice of a line per bank, finished descriptors, clearing of marks.
+      .shared = {(lanes > 1 ? banks : 0) * op::mux(stored, lanes), 2 * op::count_ones(2 * lanes),
+                 banks * op::logic(kRowMarkBits)},
+      .shared_registers = 15 + 15 + 1};
+  if (!table) return sheet;
   sheet.variant = "with a table";
   sheet.latency = {3};
-  sheet.stages = {{"1", "select one line per bank, two products", "24 x 24 multiply"},
-                  {"2", "t at the first edge"},
-                  {"3", "a and b, store", "two 18 x 24 multiplies"}};
+  const std::vector<Operator> measured = {op::subtract(kT), op::add(kT), op::subtract(18)};
+  sheet.stages = {
+      sheet.stages[0],
+      {.clock = "2",
+       .work = "t at the first edge",
+       .operators = measured,
+       .longest = measured,
+       .registers = kT + 2 * 18 + kGrowth + mark + word,
+       .on = "descriptors"},
+      {.clock = "3",
+       .work = "a and b, store",
+       .operators = {op::compare(15), 2 * op::multiply(18, kInverse), 2 * op::add(42),
+                     2 * op::logic(40), op::mux(26, 2)},
+       .longest = {op::multiply(18, kInverse), op::add(42), op::logic(12), op::mux(13, 2)},
+       .on = "descriptors"}};
   return sheet;
 }
 

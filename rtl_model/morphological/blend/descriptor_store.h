@@ -139,6 +139,7 @@ class DescriptorStore final : public sc_core::sc_module {
   std::function<void(const spec::morphological::LineDescriptor&)> observer;
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
+  static std::uint32_t word_bits(const spec::morphological::Parameters& parameters);
 
  private:
   // Lines between pop and store.

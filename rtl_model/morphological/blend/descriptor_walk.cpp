@@ -38,21 +38,41 @@ void DescriptorWalk::match_smaa(Cycle cycle, Beat& beat) {
   beat.any = any != 0;
 }
 
-Datasheet DescriptorWalk::datasheet() {
+Datasheet DescriptorWalk::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint32_t lanes = lane_copies(p), corners = p.round_corners ? 1 : 0,
+                      entries = p.ends == spec::morphological::Ends::kCrossings ? 2 : 1,
+                      after = corners != 0 || p.area == spec::morphological::AreaSource::kLearned;
+  const std::uint32_t descriptor = DescriptorStore::word_bits(p), mark = 13 + 12;
+  // Per lane the mark of a pair of columns, or with crossings of a column; vertical marks.
+  const std::uint32_t marks = (entries == 1 ? 13 : 26) + entries * 21;
   return {
       .unit = "DescriptorWalk",
       .does =
           "Finds for each edge of a beat the descriptor that covers it and its pixel in the run.",
       .latency = {3},
-      .stages = {{"1", "address of the marks"},
-                 {"2", "marks, address of the descriptors", "SRAM read"},
-                 {"3", "marks compared with the raster, k, descriptor selected", "SRAM read"}},
+      .stages = {{.clock = "1", .work = "address of the marks"},
+                 {.clock = "2",
+                  .work = "marks, address of the descriptors",
+                  .path = "SRAM read",
+                  .registers = marks},
+                 // Row and column of a horizontal mark; k and length of both axes.
+                 {.clock = "3",
+                  .work = "marks compared with the raster, k, descriptor selected",
+                  .operators = {op::equal(14), op::logic(20), op::mux(mark, 2),
+                                2 * op::subtract(13), 2 * op::compare(13),
+                                2 * after * op::subtract(12), 2 * corners * op::compare(13),
+                                op::mux(descriptor, 2), (entries - 1) * op::subtract(13),
+                                (entries - 1) * op::compare(13),
+                                (entries - 1) * op::mux(descriptor + 12, 2)},
+                  .longest = {op::equal(14), lanes * op::mux(mark, 2), op::subtract(13),
+                              op::compare(13), op::logic(4)},
+                  .registers = 2 * (descriptor + 12 + 12 * after + 2 * corners + 1)}},
       .formats = "k U12, rows and columns U13.",
-      .cost =
-          "per lane: for each axis a 13-bit subtract (k) and a 12-bit compare with the length, "
-          "with crossings two for the vertical axis; two 13-bit compares (row and start of a "
-          "horizontal mark); with corners a 13-bit compare per axis (which end is nearer). "
-          "Once: a register for a horizontal mark and its descriptor."};
+      .copies = lanes,
+      .per = "lane",
+      // The row; the current horizontal mark and its descriptor.
+      .shared = {op::subtract(14), op::compare(14), op::logic(20)},
+      .shared_registers = 2 * 15 + mark + descriptor};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -122,7 +122,7 @@ class DescriptorWalk final : public sc_core::sc_module {
   }
   void reset() { hand_.length = 0; }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   void match_smaa(Cycle cycle, Beat& beat);

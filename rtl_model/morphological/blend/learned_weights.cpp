@@ -29,25 +29,42 @@ void LearnedWeights::move(Cycle cycle, BeatWeights* weights) {
   });
 }
 
-Datasheet LearnedWeights::datasheet() {
+Datasheet LearnedWeights::datasheet(const spec::morphological::Parameters& p) {
+  constexpr std::uint32_t kSides = 2, kEnd = 2 + 3 + 5;  // code, D, E
   return {
       .unit = "LearnedWeights",
       .does = "Weights of an edge whose descriptor has no line, or without a descriptor.",
       .latency = {4},
-      .stages = {{"1",
-                  "pixels to both ends, class of each distance; for both sides the codes and "
-                  "classes of the ends seen from there, the nearer end; addresses of `weights_a`, "
-                  "`_b`, `_c`",
-                  "12-bit subtract and compare, 2 : 1 mux"},
-                 {"2", "words of all three; A + B", "SRAM read + 9-bit add"},
-                 {"3", "+ C, limit, address of `weight_rom`", "10-bit add, limit"},
-                 {"4", "weight", "ROM read"}},
+      .stages = {{.clock = "1",
+                  .work = "pixels to both ends, class of each distance; for both sides the codes "
+                          "and classes of the ends seen from there, the nearer end; addresses of "
+                          "`weights_a`, `_b`, `_c`",
+                  .operators = {op::compare(12), op::equal(12), op::add(12), op::logic(70),
+                                2 * kSides * op::add(5), kSides * op::compare(5),
+                                2 * kSides * op::mux(kEnd, 2)},
+                  .longest = {op::compare(12), op::logic(4), op::mux(kEnd, 2)},
+                  .registers = kSides * 3 * 10 + 1},
+                 {.clock = "2",
+                  .work = "words of all three; A + B",
+                  .path = "SRAM read",
+                  .operators = {kSides * op::add(9)},
+                  .longest = {op::add(9)},
+                  .registers = kSides * (9 + 8) + 1},
+                 {.clock = "3",
+                  .work = "+ C, limit, address of `weight_rom`",
+                  .operators = {kSides * op::add(10), kSides * op::logic(24)},
+                  .longest = {op::add(10), op::logic(4)},
+                  .registers = 1},
+                 {.clock = "4",
+                  .work = "weight",
+                  .longest = {op::rom_read(8, 256)},
+                  .registers = kSides * 8 + 1}},
       .formats = "words and z S3.4, weights U0.8.",
-      .cost =
-          "per axis and lane: a 12-bit subtract, two 12-bit comparators with a mux (the nearer "
-          "end), two distance encoders; per side a 5-bit comparator of E, adders of 9 and 10 bits "
-          "with a limit, reads of weights_a, _b, _c and weight_rom. Once, for the checksum: a "
-          "12 x 9 multiplier and a 32-bit adder."};
+      .copies = 2 * lane_copies(p),
+      .per = "axis and lane",
+      // The checksum of the tables.
+      .shared = {op::multiply(12, 9), op::subtract(9), op::add(32)},
+      .shared_registers = 32};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -38,7 +38,7 @@ class LearnedWeights final : public sc_core::sc_module {
   void ask_gap(std::size_t edge) { newest(edge) = WeightsRom::ask_gap(); }
   void reset() { pipe_.reset(); }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
   // For the registers, which load words while no frame is inside.
   WeightsRom rom;

@@ -287,19 +287,41 @@ void PixelStore::reset() {
   memory_->reads.reset();
 }
 
-Datasheet PixelStore::datasheet() {
-  return {.unit = "PixelStore",
-          .does = "Stores the pixels of a frame until they are blended, R + 5 rows later.",
-          .latency = {2},
-          .stages = {{"1", "address",
-                      "storage = memory: 256 : 1 mux of lines in flight (memory.outstanding), "
-                      "nothing after it"},
-                     {"2", "words", "SRAM read + 4 : 1 mux"}},
-          .cost =
-              "pixel_lines0 to 3: together R + 7 rows (storage = memory: 4) rounded up to a "
-              "multiple of 4, one word per beat; storage = memory (8 banks) adds the line being "
-              "gathered and an arrival bit per line in flight.",
-          .megahertz = 300};
+Datasheet PixelStore::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint32_t lanes = lane_copies(p), word = 32 * lanes;
+  const std::uint32_t memory = p.storage == spec::morphological::Storage::kMemory ? 1 : 0;
+  const auto outstanding = static_cast<std::uint32_t>(p.memory_outstanding);
+  constexpr auto kMemories = static_cast<std::uint32_t>(kLines);
+  // Position of a line in its row, its row, and for the next write and read its address.
+  constexpr std::uint32_t kPlace = 9 + 14, kAddress = 26;
+  return {
+      .unit = "PixelStore",
+      .does = "Stores the pixels of a frame until they are blended, R + 5 rows later.",
+      .latency = {2},
+      // Bases of the incoming row and of the three rows around the blended one. In memory: four
+      // positions, numbers of lines in flight, address and data of a request, half of a line.
+      .stages = {{.clock = "1",
+                  .work = "address",
+                  .operators = {4 * op::add(16), 4 * op::add(17), kMemories * op::mux(17, 4),
+                                2 * op::compare(14), op::compare(13), op::equal(14), op::logic(60),
+                                memory * 4 * op::add(9), memory * 4 * op::equal(9),
+                                memory * 4 * op::add(14), memory * 2 * op::add(kAddress),
+                                memory * op::add(32), memory * op::mux(32 + kTagBits, 2),
+                                memory * 3 * op::compare(kPlace), memory * 6 * op::add(8),
+                                memory * 4 * op::equal(8), memory * op::mux(8 * word, 2),
+                                memory * op::logic(100)},
+                  .longest = memory != 0 ? std::vector{op::mux(1, outstanding), op::logic(8)}
+                                         : std::vector{op::add(17), op::mux(17, 4)},
+                  .registers =
+                      4 * 16 + 2 * 14 + 13 + 8 + memory * (4 * kPlace + 2 * kAddress + 6 * 8 + 4)},
+                 {.clock = "2",
+                  .work = "words",
+                  .path = "SRAM read",
+                  .operators = {2 * op::mux(word, kMemories), op::mux(word + 32, kMemories),
+                                op::mux(word + 32, 2)},
+                  .longest = {op::mux(word, kMemories), op::mux(word, 2)},
+                  .registers = 32}},
+      .megahertz = 300};
 }
 
 }  // namespace deburr::rtl::morphological

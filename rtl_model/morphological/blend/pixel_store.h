@@ -59,7 +59,7 @@ class PixelStore final : public Unit {
   Counter lines_read{"lines_read", "lines", "lines of 64 bytes requested from memory"};
   Counter memory_errors{"memory_errors", "lines", "memory responses with an error"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   // Result of one side in a cycle.

@@ -74,22 +74,47 @@ void TableWeights::move_on(Cycle cycle, const FrameConfiguration& configuration,
   if (Beat* beat = pipe_.at(2)) cut(cycle, configuration.search_steps, *beat);
 }
 
-Datasheet TableWeights::datasheet() {
+Datasheet TableWeights::datasheet(const spec::morphological::Parameters& p) {
+  const bool minimal = p.area == spec::morphological::AreaSource::kTableMinimal;
+  const std::uint32_t reads = minimal ? 2 : 1, corners = p.round_corners ? 1 : 0;
+  const std::uint32_t entry = minimal ? 8 : 16, tiles = AreaTable::tiles_of(p.area);
+  // Sides and valid; far bits, nearer end.
+  const std::uint32_t passed = 4 + 1 + corners * 6;
   return {
       .unit = "TableWeights",
       .does = "Weights of an edge from SMAA's table, by its distances to both ends of its line.",
       .latency = {5},
-      .stages = {{"1", "k - a, b - 1 - k; limits, masked shape and far bits, `sqrt_rom` addresses",
-                  "two 13-bit subtracts in series + mux"},
-                 {"2", "roots, `area_rom` addresses; which end is nearer", "ROM read + 5-bit add"},
-                 {"3", "entries, differences of adjacent entries in l",
-                  "ROM read + 9-bit subtract"},
-                 {"4", "first interpolation", "9 x 8 multiply + 17-bit add"},
-                 {"5", "second interpolation, rounding; sides", "18 x 8 multiply + 25-bit add"}},
+      .stages = {{.clock = "1",
+                  .work = "k - a, b - 1 - k; limits, masked shape and far bits, `sqrt_rom` "
+                          "addresses",
+                  .operators = {2 * op::subtract(14), 2 * op::compare(14), 2 * op::mux(8, 3),
+                                op::logic(20)},
+                  .longest = {op::subtract(14), op::compare(14), op::mux(8, 3)},
+                  .registers = 2 * 8 + passed},
+                 {.clock = "2",
+                  .work = "roots, `area_rom` addresses; which end is nearer",
+                  .operators = {4 * reads * op::add(4), op::rom_read(4, 16),
+                                corners * op::compare(8), corners * op::equal(8)},
+                  .longest = {op::rom_read(12, 225), op::add(4)},
+                  .registers = 2 * 8 + 2 + passed},
+                 {.clock = "3",
+                  .work = "entries, differences of adjacent entries in l",
+                  .operators = {4 * reads * op::mux(entry, 4), 4 * op::subtract(9)},
+                  .longest = {op::rom_read(entry, tiles * 64), op::mux(entry, 4), op::subtract(9)},
+                  .registers = 2 * 2 * (8 + 9) + 2 * 8 + passed},
+                 {.clock = "4",
+                  .work = "first interpolation",
+                  .operators = {4 * op::multiply(9, 8), 4 * op::add(17)},
+                  .longest = {op::multiply(9, 8), op::add(17)},
+                  .registers = 2 * 2 * 17 + reads * 8 + passed},
+                 {.clock = "5",
+                  .work = "second interpolation, rounding; sides",
+                  .operators = {2 * op::subtract(18), 2 * op::multiply(18, 8), 4 * op::add(26),
+                                2 * minimal * op::mux(8, 3)},
+                  .longest = {op::subtract(18), op::multiply(18, 8), op::add(26)}}},
       .formats = "a, b S13, distances S14, roots U4.8, entries U0.9 in eight bits, weights U0.8.",
-      .cost =
-          "per axis and lane: two reads of sqrt_rom (225 x 12), one of each area_rom (minimal: "
-          "two); three multipliers (9 x 8 and 18 x 8) for each of two values."};
+      .copies = 2 * lane_copies(p),
+      .per = "axis and lane"};
 }
 
 }  // namespace deburr::rtl::morphological

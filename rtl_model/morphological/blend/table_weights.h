@@ -40,7 +40,7 @@ class TableWeights final : public sc_core::sc_module {
   void ask(std::size_t edge, const StoredDescriptor& descriptor, std::int32_t k);
   void reset() { pipe_.reset(); }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   // An edge in flight.

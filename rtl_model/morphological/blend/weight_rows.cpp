@@ -26,16 +26,20 @@ WeightRows::WeightRows(const sc_core::sc_module_name& name,
                                .columns = static_cast<std::uint64_t>(p.line_pixels)}),
       words_(columns / lanes_) {}
 
-Datasheet WeightRows::datasheet() {
+Datasheet WeightRows::datasheet(const spec::morphological::Parameters& p) {
   return {.unit = "WeightRows",
           .does = "Stores the weights of a row and joins those of two rows for the Blender.",
           .latency = {1, "1; the row above is addressed one cycle earlier"},
-          .stages = {{"0", "address of the weights in the row above"},
-                     {"1", "weights, write-back", "SRAM read"}},
+          .stages = {{.clock = "0", .work = "address of the weights in the row above"},
+                     {.clock = "1",
+                      .work = "weights, write-back",
+                      .path = "SRAM read",
+                      .operators = {op::logic(32)},
+                      .longest = {op::logic(6)}}},
           .formats = "weights U0.8, spans U12.",
-          .cost =
-              "weight_lines, one 48-bit word per column: first, second and span of its left edge, "
-              "second and span of its top edge; 1R1W, 2 x lanes banks."};
+          .copies = lane_copies(p),
+          .per = "lane",
+          .shared = {op::compare(14), op::logic(40)}};
 }
 
 }  // namespace deburr::rtl::morphological

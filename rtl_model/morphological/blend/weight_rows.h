@@ -42,7 +42,7 @@ class WeightRows final : public sc_core::sc_module {
   inline void join(Cycle cycle, std::size_t width, std::size_t x, std::size_t count,
                    std::size_t beat, const BeatWeights& below, WeightToken& out) const;
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   const std::size_t lanes_, columns_;

@@ -95,6 +95,14 @@ struct Decoded {
 inline std::int32_t built_lanes(const spec::morphological::Parameters& p) {
   return spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)];
 }
+inline bool has_depth(const spec::morphological::Parameters& p) {
+  return p.edge_source == spec::morphological::EdgeSource::kDepth ||
+         p.edge_source == spec::morphological::EdgeSource::kPredicated;
+}
+// For the copies in a datasheet.
+inline std::uint32_t lane_copies(const spec::morphological::Parameters& p) {
+  return static_cast<std::uint32_t>(built_lanes(p));
+}
 inline std::int32_t search_range_rows_of(const spec::morphological::Parameters& p) {  // R
   return p.window_rows / 2 - 1;
 }

@@ -52,9 +52,7 @@ EdgeDetector::EdgeDetector(const sc_core::sc_module_name& name, ClockDomain& clo
              .content = "per column, the last three rows of luma or colour, and marks",
              .columns = static_cast<std::uint64_t>(p.line_pixels)},
             lanes_) {
-  if (p.edge_source == spec::morphological::EdgeSource::kLuma ||
-      p.edge_source == spec::morphological::EdgeSource::kColour)
-    return;
+  if (!has_depth(p)) return;
   depth_.emplace("depth_lines",
                  MemoryShape{.words = words_for(p.line_pixels, lanes_),
                              .word_bits = 2 * 24,
@@ -242,22 +240,52 @@ bool EdgeDetector::survives(Position p, Position across, Position along) const {
   return 2 * c > most || (rule == spec::morphological::LocalContrast::kSmaa && 2 * c == most);
 }
 
-Datasheet EdgeDetector::datasheet() {
-  return {.unit = "EdgeDetector",
-          .does = "Left and top edge bits of each pixel from steps in luma, colour or depth.",
-          .latency = {4},
-          .stages = {{"1", "address"},
-                     {"2", "column words, write-back", "SRAM read"},
-                     {"3", "differences, maxima of two pairs, products with the thresholds",
-                      "25 x 24 multiply, or 24-bit compare and mux"},
-                     {"4", "last maxima, decision", "three 24-bit compares with muxes"}},
-          .formats =
-              "U8.16 luma or three U0.8 codes, U24 depth; thresholds U8.16, alpha U0.24, depth "
-              "threshold U0.16.",
-          .cost =
-              "per lane: two differences and compares (fixed), six 8-bit differences and two "
-              "maxima (colour), two more 25 x 24 multipliers (dynamic, depth), and per edge bit "
-              "nine differences and an 8-input maximum (local contrast)."};
+Datasheet EdgeDetector::datasheet(const spec::morphological::Parameters& p) {
+  const std::uint32_t depth = has_depth(p) ? 1 : 0;
+  constexpr std::uint32_t kPixel = 25, kStep = 24, kProduct = 49;
+  // Steps in luma and in colour.
+  const auto with_steps = [](std::uint32_t count, std::vector<Operator> operators) {
+    operators.insert(operators.begin(), {count * op::subtract(kStep), count * op::magnitude(kStep),
+                                         3 * count * op::subtract(8), 3 * count * op::magnitude(8),
+                                         2 * count * op::maximum(8), count * op::mux(kStep, 2)});
+    return operators;
+  };
+  return {
+      .unit = "EdgeDetector",
+      .does = "Left and top edge bits of each pixel from steps in luma, colour or depth.",
+      .latency = {4},
+      .stages = {{.clock = "1", .work = "address", .registers = kPixel + depth * 24},
+                 {.clock = "2",
+                  .work = "column words, write-back",
+                  .path = "SRAM read",
+                  .registers = 4 * kPixel + depth * 2 * 24},
+                 // Five steps per pixel: to the left, also one row above; up, one further up, down.
+                 // The sign of a difference tells the larger luma. Depth shares the multipliers.
+                 {.clock = "3",
+                  .work = "differences, maxima of two pairs, products with the thresholds",
+                  .operators = with_steps(
+                      5, {3 * op::maximum(kStep), 2 * op::add(24), 2 * op::mux(25, 4),
+                          2 * op::multiply(25, 24), 2 * depth * op::subtract(24),
+                          2 * depth * op::magnitude(24), 2 * depth * op::mux(24 + kProduct, 2)}),
+                  .longest = {op::subtract(24), op::mux(25, 4), op::multiply(25, 24)},
+                  .registers = 6 * kStep + 2 * kProduct + depth * 2 * kPixel},
+                 {.clock = "4",
+                  .work = "last maxima, decision",
+                  .operators = {6 * op::maximum(kStep), 2 * op::mux(kStep, 2), 2 * op::compare(25),
+                                4 * op::compare(kStep), 2 * op::compare(kProduct),
+                                2 * depth * op::compare(40), 2 * depth * op::mux(kStep, 3),
+                                op::logic(40)},
+                  .longest = {op::maximum(kStep), op::mux(kStep, 2), op::maximum(kStep),
+                              op::compare(25)}}},
+      .formats =
+          "U8.16 luma or three U0.8 codes, U24 depth; thresholds U8.16, alpha U0.24, depth "
+          "threshold U0.16.",
+      .copies = lane_copies(p),
+      .per = "lane",
+      // The columns next to the beat: their steps, six pixels, two steps of stage 3.
+      .shared = with_steps(
+          5, {op::maximum(kStep), 3 * op::equal(14), 2 * op::compare(14), op::logic(60)}),
+      .shared_registers = 3 * (kPayloadBits<Slot> + 1) + 6 * kPixel + 2 * kStep + depth * 24};
 }
 
 }  // namespace deburr::rtl::morphological

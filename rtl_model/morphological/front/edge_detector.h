@@ -43,7 +43,7 @@ class EdgeDetector final : public Unit {
 
   Counter edge_pixels{"edge_pixels", "pixels", "pixels with a left or a top edge"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   struct Position {

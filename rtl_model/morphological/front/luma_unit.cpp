@@ -30,14 +30,26 @@ Activity LumaUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-Datasheet LumaUnit::datasheet() {
+Datasheet LumaUnit::datasheet(const spec::morphological::Parameters& p) {
+  constexpr std::uint32_t kProducts = 22 + 24 + 21, kMark = 1;
   return {.unit = "LumaUnit",
           .does = "Luma of each pixel, or its three codes unchanged.",
           .latency = {2},
-          .stages = {{"1", "three products, or the three codes unchanged", "8 x 16 multiply"},
-                     {"2", "sum"}},
+          // Weights of 7, 7 and 4 signed digits. The codes, shifted, take the bits of the products.
+          .stages = {{.clock = "1",
+                      .work = "three products, or the three codes unchanged",
+                      .operators = {2 * op::multiply_constant(8, 6), op::multiply_constant(8, 3),
+                                    op::mux(kProducts, 2)},
+                      .longest = {op::multiply_constant(8, 6), op::mux(24, 2)},
+                      .registers = kProducts + kMark + (has_depth(p) ? 24u : 0u)},
+                     {.clock = "2",
+                      .work = "sum",
+                      .operators = {2 * op::add(24)},
+                      .longest = {2 * op::add(24)}}},
           .formats = "U8.16 luma, or three U0.8 codes.",
-          .cost = "per lane: three constant 8 x 16 multipliers, two adders, a 2 : 1 mux.",
+          .copies = lane_copies(p),
+          .per = "lane",
+          .shared_registers = kPayloadBits<Slot> + 1,
           .megahertz = 300};
 }
 

@@ -30,7 +30,7 @@ class LumaUnit final : public Unit {
   Activity tick(Cycle cycle) override;
   void reset() override { pipe_.reset(); }
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   const std::size_t lanes_;

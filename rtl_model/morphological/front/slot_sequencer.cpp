@@ -104,13 +104,19 @@ void SlotSequencer::reset() {
   next_ = {};
 }
 
-Datasheet SlotSequencer::datasheet() {
+Datasheet SlotSequencer::datasheet(const spec::morphological::Parameters& p) {
   return {.unit = "SlotSequencer",
           .does = "Counts the slots of a frame and takes a beat in each input slot.",
           .latency = {1},
-          .stages = {{"1", "counts, takes a beat, checks it against SIZE",
-                      "14-bit compare + 27-bit count"}},
-          .cost = "three 14-bit counters.",
+          // Number, beat and row; ends of row and frame; the beat's marks. In the cycle of `latch`
+          // the configuration comes from the registers.
+          .stages = {{.clock = "1",
+                      .work = "counts, takes a beat, checks it against SIZE",
+                      .operators = {op::add(27), op::add(14), op::add(13), 2 * op::equal(14),
+                                    op::compare(14), op::equal(3), op::mux(45, 2), op::logic(20),
+                                    p.text_guard * op::add(14), p.text_guard * op::compare(14)},
+                      .longest = {op::mux(14, 2), op::compare(14), op::logic(20)},
+                      .registers = kPayloadBits<Slot> + 2}},
           .megahertz = 300};
 }
 

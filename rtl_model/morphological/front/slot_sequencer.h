@@ -53,7 +53,7 @@ class SlotSequencer final : public Unit {
   Counter frame_cycles{"frame_cycles", "clk",
                        "cycles of the last frame, from first beat in to last beat out inclusive"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   // kNone: no frame inside. kSent: all slots of the frame were sent. kSome: slots remain. kGuarded:

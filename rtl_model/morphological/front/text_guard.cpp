@@ -287,41 +287,76 @@ void TextGuard::reset() {
 }
 
 Datasheet TextGuard::datasheet(const spec::morphological::Parameters& p) {
-  const std::int32_t lanes = spec::morphological::kLaneCount[static_cast<std::size_t>(p.lanes)],
-                     row = row_stage_of(lanes), column = column_stage_of(lanes),
-                     last = last_stage_of(lanes);
+  const std::int32_t lanes = built_lanes(p), row = row_stage_of(lanes),
+                     column = column_stage_of(lanes), last = last_stage_of(lanes);
   const auto clock = [](std::int32_t stage) { return std::to_string(stage + 1); };
-  return {
-      .unit = "TextGuard",
-      .does = "Marks the pixels of aliased two-colour text.",
-      .latency = {static_cast<std::uint64_t>(last) + 1,
-                  "17 with one lane, 14 with two, 12 with four: from the last beat of a row "
-                  "to the first beat of the row eight above"},
-      .stages = {{"1", "hash, stored in guard_row", "5-input xor, SRAM write"},
-                 {clock(1), "address of guard_row"},
-                 {clock(2) + "-" + clock(row),
-                  "hashes of a row, one beat per cycle; H in the last stage; address of "
-                  "guard_columns",
-                  "SRAM read, 6-bit compare, run selection"},
-                 {clock(row + 1), "column words; V; write-back",
-                  "SRAM read with bypass, 6-bit compares, run selection, SRAM write"},
-                 {clock(row + 2), "minimum and maximum of 11 hashes, counts of 11 bits",
-                  "four 6-bit compares with muxes"},
-                 {clock(row + 3), "other hashes?", "6-bit compare, OR of 11"},
-                 {clock(row + 4) + "-" + clock(column),
-                  "columns, one beat per cycle; minimum and maximum of 11, sums in the last stage",
-                  "four 6-bit compares with muxes"},
-                 {clock(column + 1), "other hashes? enough? address of guard_colours",
-                  "6-bit compare, OR of 33"},
-                 {clock(last), "two colours three rows ago, write-back, decision",
-                  "SRAM read with bypass, SRAM write"}},
-      .formats = "hashes U6; counts per column U4, per window U7.",
-      .cost =
-          "per lane: the xors of a hash, 6 compares of 6 bits for H and 6 for V, 20 with muxes "
-          "and 22 more for the colours of a column, 20 and 44 for those of a window, two counts "
-          "of 11 bits, two sums of 11 times 4 bits; registers for 11 more columns. Per column, "
-          "guard_row holds 6 bits, guard_columns 83, guard_colours 3; the FIFO one bit per "
-          "pixel of R - 3 rows and 32 beats."};
+  const auto clocks = [&](std::int32_t first, std::int32_t end) {
+    return first == end ? clock(first) : clock(first) + "-" + clock(end);
+  };
+  constexpr std::uint32_t kHash = kHashWidth, kRows = kCountRows, kColumns = 2 * kWindow + 1;
+  // Of a column: least and greatest hash, others, any, both counts.
+  constexpr std::uint32_t kColumn = 2 * kHash + 2 + 2 * 4, kPlace = 14 + 13 + 1;
+  const auto extremes = 2 * (kRows - 1) * op::maximum(kHash);
+  return {.unit = "TextGuard",
+          .does = "Marks the pixels of aliased two-colour text.",
+          .latency = {static_cast<std::uint64_t>(last) + 1,
+                      "17 with one lane, 14 with two, 12 with four: from the last beat of a row "
+                      "to the first beat of the row eight above"},
+          .stages = {{.clock = "1",
+                      .work = "hash, stored in guard_row",
+                      .operators = {op::logic(72)},
+                      .longest = {op::logic(12)}},
+                     {.clock = clock(1), .work = "address of guard_row"},
+                     {.clock = clocks(2, row - 1),
+                      .work = "hashes of a row, one beat per cycle",
+                      .path = "SRAM read",
+                      .registers = kHash},
+                     {.clock = clock(row),
+                      .work = "H, address of guard_columns",
+                      .operators = {2 * kStroke * op::equal(kHash), op::logic(50)},
+                      .longest = {op::equal(kHash), op::logic(12)},
+                      .registers = kHash + 1},
+                     {.clock = clock(row + 1),
+                      .work = "column words; V; write-back",
+                      .path = "SRAM read with bypass, SRAM write",
+                      .operators = {2 * kStroke * op::equal(kHash), op::logic(50)},
+                      .longest = {op::equal(kHash), op::logic(12)},
+                      .registers = kRows * kHash + 2 * kRows},
+                     {.clock = clock(row + 2),
+                      .work = "minimum and maximum of 11 hashes, counts of 11 bits",
+                      .operators = {extremes, 2 * op::count_ones(kRows)},
+                      .longest = {4 * op::maximum(kHash)},
+                      .registers = kRows * kHash + 2 * kHash + 2 * 4},
+                     {.clock = clock(row + 3),
+                      .work = "other hashes?",
+                      .operators = {2 * kRows * op::equal(kHash), op::logic(3 * kRows)},
+                      .longest = {op::equal(kHash), op::logic(12)},
+                      .registers = kColumn},
+                     {.clock = clocks(row + 4, column - 1),
+                      .work = "columns, one beat per cycle",
+                      .registers = kColumn},
+                     {.clock = clock(column),
+                      .work = "minimum and maximum of 11 columns, sums",
+                      .operators = {extremes, 2 * (kColumns - 1) * op::add(6)},
+                      .longest = {4 * op::maximum(kHash)},
+                      .registers = kColumn + 2 * kHash + 2 * 7 + 1},
+                     {.clock = clock(column + 1),
+                      .work = "other hashes? enough? address of guard_colours",
+                      .operators = {4 * kColumns * op::equal(kHash), op::logic(7 * kColumns),
+                                    op::add(8), 3 * op::compare(8)},
+                      .longest = {op::add(8), op::compare(8), op::logic(12)},
+                      .registers = 2},
+                     {.clock = clock(last),
+                      .work = "two colours three rows ago, write-back, decision",
+                      .path = "SRAM read with bypass, SRAM write",
+                      .operators = {op::logic(4)}}},
+          .formats = "hashes U6; counts per column U4, per window U7.",
+          .copies = lane_copies(p),
+          .per = "lane",
+          // Rows and beats of both sides; columns left of the beat.
+          .shared = {op::add(14), op::add(13), 2 * op::equal(14), op::compare(14), op::logic(40)},
+          .shared_registers =
+              14 + static_cast<std::uint32_t>(last) * kPlace + kStroke * kHash + kWindow * kColumn};
 }
 
 }  // namespace deburr::rtl::morphological

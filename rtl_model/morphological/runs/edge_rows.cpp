@@ -22,10 +22,7 @@ std::int32_t words_of_a_row(const spec::morphological::Parameters& p) {
 }
 
 MemoryShape shape(const spec::morphological::Parameters& p) {
-  std::int32_t columns = p.contiguous ? (p.search_columns + 1) / 2 + 2 : 4;
-  if (p.area == spec::morphological::AreaSource::kLearned)
-    columns = std::max((p.search_columns + 1) / 2 + 2, kMostLooks + 1);
-  const auto words = static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
+  const std::uint32_t words = EdgeRows::words_per_read(p);
   MemoryShape shape;
   shape.banks = std::bit_ceil(words);
   shape.words =
@@ -83,6 +80,13 @@ struct StepEdges {
 };
 
 }  // namespace
+
+std::uint32_t EdgeRows::words_per_read(const spec::morphological::Parameters& p) {
+  std::int32_t columns = p.contiguous ? (p.search_columns + 1) / 2 + 2 : 4;
+  if (p.area == spec::morphological::AreaSource::kLearned)
+    columns = std::max((p.search_columns + 1) / 2 + 2, kMostLooks + 1);
+  return static_cast<std::uint32_t>((columns + kWordColumns - 2) / kWordColumns + 1);
+}
 
 EdgeRows::EdgeRows(const spec::morphological::Parameters& p)
     : memory{{{"edge_rows_even", shape(p)}, {"edge_rows_odd", shape(p)}}},

@@ -35,6 +35,9 @@ class EdgeRows final : public EdgeMemory {
  public:
   explicit EdgeRows(const spec::morphological::Parameters& parameters);
 
+  // Words of a row that a read covers.
+  static std::uint32_t words_per_read(const spec::morphological::Parameters& parameters);
+
   // While the runs of row y are searched, row y + ahead() is written.
   std::int32_t ahead() const { return steps_ + 1; }
   // A beat of row y, left to right; bit k is lane k.

@@ -51,7 +51,8 @@ class EndpointPredictor final : public Unit {
   Counter occupancy{"occupancy", "clk",
                     "cycles in which a predictor held a descriptor, summed over predictors"};
 
-  static Datasheet datasheet();  // descriptor that is not extended and needs no class
+  // Descriptor that is not extended and needs no class.
+  static Datasheet datasheet(const spec::morphological::Parameters& parameters = {});
   // Descriptor extended by one step on both sides.
   static Datasheet trial_datasheet(const spec::morphological::Parameters& parameters);
   static Datasheet class_datasheet(const spec::morphological::Parameters& parameters);

@@ -198,6 +198,19 @@ void LineUnit::reset() {
 }
 
 Datasheet LineUnit::datasheet(const spec::morphological::Parameters& p) {
+  const auto latency = static_cast<std::uint32_t>(p.divider_latency),
+             interval = static_cast<std::uint32_t>(p.divider_interval);
+  const auto shared = [&](std::uint32_t clocks) { return (clocks + interval - 1) / interval; };
+  // Cycles of two quotient bits and of one, each in hardware of its own per `interval` cycles.
+  constexpr std::uint32_t kBits = spec::morphological::kRecipFractionBits;
+  const std::uint32_t clocks = latency - 2, twos = clocks < kBits ? kBits - clocks : 0;
+  const std::uint32_t pairs = shared(twos), ones = kBits > 2 * twos ? shared(kBits - 2 * twos) : 0;
+  // Of a line in flight: what later units read, but not its axis, steps, slope and classes; rest,
+  // divisor, bits of numerator and quotient. Three times the divisor where two bits are found.
+  const std::uint32_t line = Payload::of<LineToken>(line_shape(p)).bits() -
+                             (p.area == spec::morphological::AreaSource::kLearned ? 9 : 0) - 1 -
+                             10 - kBits;
+  const std::uint32_t dividing = 29 + 27 + kBits;
   return {
       .unit = "LineUnit",
       .variant = "lines",
@@ -206,25 +219,51 @@ Datasheet LineUnit::datasheet(const spec::morphological::Parameters& p) {
       .latency = {static_cast<std::uint64_t>(p.divider_latency) + 1,
                   "divider.latency + 1 of its link"},
       .interval = {static_cast<std::uint64_t>(p.divider_interval), "divider.interval, per lane"},
-      .stages = {{"1", "products (of the corners, of their sum), table address"},
-                 {"2", "numerator, denominator"},
-                 {"from 3",
-                  "at most two of 24 quotient bits per cycle; in parallel the inverse (a multiply "
-                  "in two stages) and its rounding",
-                  "4 : 1 mux of multiples + 29-bit add; half of a 24 x 27 multiply"}},
+      .stages = {{.clock = "1",
+                  .work = "products (of the corners, of their sum), table address",
+                  .operators = {op::multiply(18, 6), op::square(6), op::subtract(13), op::add(13),
+                                op::add(6), op::subtract(6), op::mux(24, 3)},
+                  .longest = {op::add(6), op::multiply(18, 6)},
+                  .registers = line + 24 + 24 + 11,
+                  .on = "divides"},
+                 {.clock = "2",
+                  .work = "numerator, denominator",
+                  .operators = {op::subtract(24), op::multiply_constant(24, 1), op::add(36),
+                                op::mux(27, 3), op::mux(11, 3)},
+                  .longest = {op::subtract(24), op::multiply_constant(24, 1), op::mux(27, 3),
+                              op::add(36)},
+                  .registers = line + 24 + 36 + 27,
+                  .on = "divides"},
+                 {.clock = "3, 4",
+                  .work = "inverse: half of its product per cycle",
+                  .operators = {op::multiply(12, 27), op::add(39)},
+                  .longest = {op::multiply(12, 27), op::add(39)},
+                  .registers = 24 + 27 + 39,
+                  .on = "divides"},
+                 {.clock = "from 3",
+                  .work = "at most two of 24 quotient bits per cycle",
+                  .operators = {pairs * op::mux(29, 4), pairs * op::add(29), pairs * op::logic(40),
+                                ones * op::subtract(29), ones * op::mux(29, 2)},
+                  .longest = pairs > 0 ? std::vector{op::logic(40), op::mux(29, 4), op::add(29)}
+                                       : std::vector{op::subtract(29), op::mux(29, 2)},
+                  .registers = shared(clocks) * (line + dividing) + pairs * 29}},
       .formats = "slope U0.24 = rdiv(a 2^24, b), inverse U12.12 from U1.26.",
-      .cost =
-          "per lane: a divider 36 / 27 bits, pipelined with interval 1, two multipliers 18 x 6 "
-          "and 24 x 27, one read port of inverse_rom (2 x 34 x 27 bits)."};
+      .copies = 2 * lane_copies(p),
+      .per = "axis and lane"};
 }
 
-Datasheet LineUnit::learned_datasheet() {
+Datasheet LineUnit::learned_datasheet(const spec::morphological::Parameters& p) {
   return {
       .unit = "LineUnit",
       .variant = "learned weights",
       .does =
           "Fits a line through a descriptor's corners: one division, and an inverse by a table.",
-      .latency = {1, "1 of its link: bypasses the divider"}};
+      .latency = {1, "1 of its link: bypasses the divider"},
+      .stages = {{.clock = "1",
+                  .work = "choice of quotient or descriptor",
+                  .operators = {op::mux(Payload::of<LineToken>(line_shape(p)).bits(), 2)}}},
+      .copies = 2 * lane_copies(p),
+      .per = "axis and lane"};
 }
 
 }  // namespace deburr::rtl::morphological

@@ -50,7 +50,8 @@ class LineUnit final : public Unit {
                     "cycles in which a divider could not start a division, summed over dividers"};
 
   static Datasheet datasheet(const spec::morphological::Parameters& parameters);
-  static Datasheet learned_datasheet();  // descriptor with learned weights
+  // Descriptor with learned weights.
+  static Datasheet learned_datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   struct Division {

@@ -404,41 +404,90 @@ void RunExtractor::reset() {
   open_ = false;
 }
 
-Datasheet RunExtractor::slot_datasheet() {
-  return {
-      .unit = "RunExtractor",
-      .variant = "slots",
-      .does = "Finds runs of edges in both axes during the raster scan.",
-      .latency = {2},
-      .stages = {{"1", "address of the beat's columns"},
-                 {"2",
-                  "columns arrive, are shifted by one row and written back; edges of the row being "
-                  "blended, one row for `edge_rows`",
-                  "SRAM read"}}};
+Datasheet RunExtractor::slot_datasheet(const spec::morphological::Parameters& p) {
+  const std::uint32_t lanes = lane_copies(p), token = kPayloadBits<Slot> + 2 * lanes + 1;
+  const auto word = static_cast<std::uint32_t>(2 * (p.window_rows + 1));
+  return {.unit = "RunExtractor",
+          .variant = "slots",
+          .does = "Finds runs of edges in both axes during the raster scan.",
+          .latency = {2},
+          // Descriptors that are not finished, by parity of their row.
+          .stages = {{.clock = "1",
+                      .work = "address of the beat's columns",
+                      .operators = {2 * op::add(15), 2 * op::subtract(15), op::logic(40)},
+                      .longest = {op::subtract(15), op::logic(12)},
+                      .registers = token + 2 * 15 + 2 * 3},
+                     // Zeros in the first slot row; row numbers; a word of 64 columns is gathered.
+                     {.clock = "2",
+                      .work = "columns arrive, are shifted by one row and written back; edges of "
+                              "the row being blended, one row for `edge_rows`",
+                      .path = "SRAM read",
+                      .operators = {lanes * op::logic(word), 4 * op::add(14), 4 * op::compare(14),
+                                    op::add(16), op::logic(256)},
+                      .longest = {op::logic(2)},
+                      .registers = 128 + 16}}};
 }
 
-Datasheet RunExtractor::descriptor_datasheet() {
+Datasheet RunExtractor::descriptor_datasheet(const spec::morphological::Parameters& p) {
+  const bool crossings = p.ends == spec::morphological::Ends::kCrossings,
+             clamp = p.border == spec::morphological::Border::kClamp;
+  const std::uint32_t lanes = lane_copies(p), corners = p.round_corners ? 1 : 0;
+  const auto range = static_cast<std::uint32_t>(search_range_rows_of(p));
+  constexpr std::uint32_t kGroup = 16;  // rows
+  const std::uint32_t below = range + 1, groups = (below + kGroup - 1) / kGroup;
+  // Descriptors of a slot, by axis; a corner's bits; a descriptor; what its slot shares.
+  const std::uint32_t across = lanes + 1, down = lanes + corners;
+  const std::uint32_t code = 2 + 2 * corners + (crossings ? 1 : 0) + (clamp ? 1 : 0);
+  const std::uint32_t run = Payload::of<RunToken>(descriptor_shape(p, "", "run.")).bits();
+  constexpr std::uint32_t kShared = 13 + 13 + 15 + 1;
+  const std::uint32_t found = across * (1 + 2 + 13 + 12 + 2 * code) + down * (3 + 2 * code);
+  const std::uint32_t waiting = 2 * (lanes + 1);
   return {
       .unit = "RunExtractor",
       .variant = "descriptors",
-      .does = slot_datasheet().does,
+      .does = slot_datasheet(p).does,
       .latency = {6, "6, measured from the slot"},
       .interval = {1, "1 per FIFO"},
-      .stages =
-          {{"1, 2", "as for slots; end of a horizontal run or beginning of a vertical run"},
-           {"3, 4",
-            "length of a vertical run: first gap below row y, in groups of 16 rows; select "
-            "a group, and in each group the code at its first gap (border = clamp: rows below "
-            "the frame repeat the last row)",
-            "9 : 1 mux of groups (window_rows = 258; default 3 groups)"},
-           {"5", "code at the end: select a group; shape; side or none", "16 : 1 table of shapes"},
-           {"6", "pushed to the lanes' FIFOs in rotation, one per FIFO and cycle"}},
-      .cost =
-          "per lane: a first-gap circuit of R + 1 bits, two R + 1 : 1 muxes, two counters, 3 "
-          "columns of flip-flops (window_rows + 1 pairs of bits; with corners 5 columns and one "
-          "more circuit); registers for 12 descriptors being searched and 4 waiting for their "
-          "FIFOs; with border = clamp a register of R + 1 bits that marks the end of the frame, "
-          "and a gate for each code below it. Memory: descriptor_fifo entries per axis and lane."};
+      .stages = {
+          {.clock = "1",
+           .work = "as for slots; a short row waits for diagonals",
+           .operators = {p.diagonals * op::add(5)},
+           .registers = p.diagonals ? 5u : 0u},
+          // Of the columns: left edges from half a range above the row, top edges on both sides.
+          {.clock = "2",
+           .work = "as for slots; end of a horizontal run or beginning of a vertical run",
+           .path = "SRAM read",
+           .operators = {lanes * op::subtract(13), lanes * op::equal(13), across * op::compare(13),
+                         across * op::subtract(13), across * op::mux(27, 3),
+                         lanes * op::mux(13 + code, 2), lanes * op::logic(crossings ? 40 : 20)},
+           .longest = {lanes * op::mux(13 + code, 2), op::mux(27, 3)},
+           .registers = kShared + found + 14 + code + down * (below + range / 2 + 1) +
+                        (down + 1 + 2 * corners) * below + (clamp ? below : 0)},
+          {.clock = "3",
+           .work = "length of a vertical run: first gap below row y, in groups of 16 rows "
+                   "(border = clamp: rows below the frame repeat the last row)",
+           .operators = {down * groups * op::leading_one(kGroup), down * op::logic(below),
+                         down * crossings * op::logic(3 * below),
+                         down * clamp * op::logic(2 * below)},
+           .longest = {op::logic(crossings ? 3 : 1), op::leading_one(kGroup)},
+           .registers = kShared + found + (down + 1 + 2 * corners) * below + down * groups * 5},
+          {.clock = "4",
+           .work = "select a group, and in each group the code at its first gap",
+           .operators = {down * op::priority(groups), down * op::mux(4, groups),
+                         down * groups * op::mux(code, kGroup)},
+           .longest = {op::priority(groups), op::mux(4, groups)},
+           .registers = kShared + found + down * (8 + groups * (code + 1))},
+          {.clock = "5",
+           .work = "code at the end: select a group; shape; side or none",
+           .operators = {down * op::mux(code, groups), (across + down) * op::rom_read(6, 16),
+                         waiting * op::mux(run, lanes + 2), op::logic(60)},
+           .longest = {op::mux(code, groups), op::rom_read(6, 16), op::mux(run, lanes + 2)},
+           .registers = waiting * run},
+          {.clock = "6",
+           .work = "pushed to the lanes' FIFOs in rotation, one per FIFO and cycle",
+           .operators = {2 * lanes * op::mux(run, lanes + 1)},
+           .longest = {op::mux(run, lanes + 1)},
+           .on = "descriptors"}}};
 }
 
 }  // namespace deburr::rtl::morphological

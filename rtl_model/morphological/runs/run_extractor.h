@@ -81,8 +81,9 @@ class RunExtractor final : public Unit {
 
   std::function<void(const spec::morphological::RunDescriptor&)> observer;
 
-  static Datasheet slot_datasheet();
-  static Datasheet descriptor_datasheet();  // measured from the slot in which the run is found
+  static Datasheet slot_datasheet(const spec::morphological::Parameters& parameters = {});
+  // Measured from the slot in which the run is found.
+  static Datasheet descriptor_datasheet(const spec::morphological::Parameters& parameters = {});
 
  private:
   // Cycles from reading a slot's columns to knowing its descriptors.

@@ -120,15 +120,18 @@ TEST(Datasheets, MemoryPortMatchesContract) {
   EXPECT_EQ(rtl::MemoryPort::datasheet().interval.cycles, 1u);
 }
 
-// Stages of several clocks and copies multiply; equal operators are one entry.
+// Stages of several clocks and copies multiply; equal operators are one entry, none of count 0.
 TEST(Datasheets, CostSentenceCountsOperatorsOfClocksAndCopies) {
   const Datasheet adder = {
       .unit = "Adder",
-      .stages = {{.clock = "1", .work = "sum", .operators = {2 * rtl::op::add(8)}, .registers = 9},
+      .stages = {{.clock = "1",
+                  .work = "sum",
+                  .operators = {2 * rtl::op::add(8), 0 * rtl::op::square(8)},
+                  .registers = 9},
                  {.clock = "2-4",
                   .work = "sum and choice",
                   .operators = {rtl::op::add(8), rtl::op::mux(8, 4)},
-                  .longest = {rtl::op::add(8), rtl::op::mux(8, 4)},
+                  .longest = {rtl::op::add(8), rtl::op::mux(8, 4), rtl::op::mux(8, 1)},
                   .registers = 8},
                  {.clock = "5, 6", .work = "product", .operators = {rtl::op::multiply(8, 9)}}},
       .copies = 2,
