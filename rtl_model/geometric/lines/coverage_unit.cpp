@@ -172,7 +172,8 @@ Datasheet CoverageUnit::datasheet(const spec::geometric::Parameters& p) {
       .stages = {{.clock = "1",
                   .work = "distance, direction, depth, magnitude of the slope",
                   .operators = {op::magnitude(16), op::logic(16)},
-                  .longest = built({thrice * op::add(36), op::add(36)}),
+                  .longest = built({thrice * op::add(36), (lanes > 1) * op::add(36),
+                                    (lanes == 1) * op::magnitude(26)}),
                   .registers = 16 + 16 + 1 + 24},
                  {.clock = "2",
                   .work = "coverage by distance, frame borders; check whether the line leaves the "

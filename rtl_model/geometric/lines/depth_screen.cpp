@@ -199,7 +199,7 @@ Datasheet DepthScreen::datasheet(const spec::geometric::Parameters& p) {
       .interval = {1, "1; 2 if both lookups miss"},
       .stages = {{.clock = "1",
                   .work = "lines and tiles of the group, first use of each",
-                  .operators = {lanes * op::logic(8), 3 * op::mux(10, 2), op::add(10),
+                  .operators = {op::logic(8 * lanes), 3 * op::mux(10, 2), op::add(10),
                                 op::equal(15)},
                   .longest = {op::mux(10, 2), op::add(10), op::mux(10, 2), op::equal(15)},
                   .registers = group + lanes + 2 * 15 + 2 * 5 + 3},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -310,11 +311,11 @@ Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
             .on = "lines"}},
       .shared = p.pipelined
                     ? none
-                    : built({dividers * op::subtract(26), dividers * op::subtract(26),
-                             dividers * op::subtract(26), dividers * op::mux(23, 4),
+                    : built({3 * dividers * op::subtract(26), dividers * op::mux(23, 4),
                              dividers * op::mux(kRemainder + kDivisor, 2), dividers * op::add(4),
                              op::mux(kQuotient, dividers), op::logic(8 * dividers)}),
-      .shared_registers = p.pipelined ? 0 : dividers * (kRemainder + kDivisor + kQuotient + 4)};
+      .shared_registers = p.pipelined ? 0 : dividers * (kRemainder + kDivisor + kQuotient + 4),
+      .cost = p.pipelined ? "" : "dividers = " + std::to_string(dividers) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

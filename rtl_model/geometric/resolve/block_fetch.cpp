@@ -223,8 +223,11 @@ void BlockFetch::reset() {
 
 Datasheet BlockFetch::datasheet(const spec::geometric::Parameters& p) {
   const auto kept = static_cast<std::uint32_t>(p.colour_lines);
-  const std::uint32_t keeps = kept > 0, block = Payload::of<TouchedBlock>().bits(),
-                      token = Payload::of<BlockToken>().bits();
+  const std::uint32_t
+      keeps = kept > 0,
+      index =
+          bits_below(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
+      block = Payload::of<TouchedBlock>().bits(), token = Payload::of<BlockToken>().bits();
   constexpr std::uint32_t kBlock = 8 * spec::geometric::kLineBytes, kTag = WeightPlaces::kTagBits;
   const Hardware fills = fill_store(p.resolve_lines / 2);
   return {
@@ -236,7 +239,7 @@ Datasheet BlockFetch::datasheet(const spec::geometric::Parameters& p) {
       .stages =
           {{.clock = "1",
             .work = "tag of the block, product of its address",
-            .operators = {op::multiply(11, 12), op::add(23)},
+            .operators = {op::mux(index, 2), op::multiply(11, 12), op::add(23)},
             .longest = {op::multiply(11, 12), op::add(23)},
             .registers = block + 23 + 1},
            {.clock = "2",
@@ -247,15 +250,15 @@ Datasheet BlockFetch::datasheet(const spec::geometric::Parameters& p) {
             .registers = fills.registers},
            {.clock = "3",
             .work = "read of cached weights, or the arrived line; product of the lines' addresses",
-            .operators = {op::multiply(11, 11)},
-            .longest = {op::multiply(11, 11)},
+            .operators = {op::mux(index, 2), op::mux(11, 2), op::mux(10, 2), op::multiply(11, 10)},
+            .longest = {op::mux(11, 2), op::multiply(11, 10)},
             .registers = kBlock + block + 1 + 22 + 1},
            {.clock = "4",
             .work = "limits of the weights, axis, needed lines",
             .path = "SRAM read",
-            .operators = {op::mux(kBlock, 2), 64 * op::logic(9), 2 * op::equal(11),
+            .operators = {op::mux(kBlock, 2), op::logic(64 * 9), 2 * op::equal(11),
                           2 * op::compare(13), op::logic(200), op::logic(kBlock), 32 * op::add(8),
-                          16 * op::compare(9), 16 * op::logic(50), op::add(26)},
+                          16 * op::compare(9), op::logic(16 * 50), op::add(26)},
             .longest = {op::mux(kBlock, 2), op::logic(9), op::add(8), op::compare(9),
                         op::logic(24)},
             .registers = token + 18 + 26 + 2},
@@ -265,7 +268,7 @@ Datasheet BlockFetch::datasheet(const spec::geometric::Parameters& p) {
             .operators =
                 built({op::priority(18), op::logic(40), op::add(13), op::mux(14, 6), op::add(11),
                        op::add(13), op::mux(24, 2), 2 * op::add(26), op::mux(26, 2), op::mux(38, 2),
-                       kept * op::equal(kTag), keeps * op::logic(4 * kept), keeps * op::add(8),
+                       kept * op::equal(kTag), op::logic(4 * kept), keeps * op::add(8),
                        keeps * op::mux(kBlock, 2)},
                       fills.operators),
             .longest = {op::priority(18), op::mux(14, 6), op::add(26), op::add(26)},

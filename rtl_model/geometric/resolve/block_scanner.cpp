@@ -78,7 +78,7 @@ Datasheet BlockScanner::datasheet() {
       .interval = {1, "one cycle per touched block, at least 1 per word of 128 blocks"},
       .stages = {{.clock = "1",
                   .work = "address of the word",
-                  .operators = {op::add(17), op::equal(17)},
+                  .operators = {op::add(17), op::equal(17), op::mux(16, 2)},
                   .registers = 17},
                  {.clock = "2",
                   .work = "word",

@@ -363,7 +363,7 @@ Datasheet WeightCombiner::datasheet(const spec::geometric::Parameters& p) {
       .stages =
           {{.clock = "1",
             .work = "address of tag and touched word, product of the block's address",
-            .operators = {lanes * op::logic(12), op::add(11), op::mux(group, 2),
+            .operators = {op::logic(12 * lanes), op::add(11), op::mux(group, 2),
                           op::multiply(11, 5), op::add(16), op::multiply(11, 12), op::add(23)},
             .longest = {op::mux(group, 2), op::multiply(11, 12), op::add(23)},
             .registers = group + lanes + 11 + 1 + 16 + 23 + 1},
@@ -393,7 +393,7 @@ Datasheet WeightCombiner::datasheet(const spec::geometric::Parameters& p) {
             .path = "SRAM read",
             .operators = {op::mux(kBlock, 2), op::mux(kBlock, 2 + kept), op::mux(256, 2),
                           both * op::mux(8, 32), both * op::compare(8), both * op::mux(8, 2),
-                          both * op::logic(60), 16 * op::mux(8, both), op::mux(kBlock, 2),
+                          op::logic(60 * both), 16 * op::mux(8, both), op::mux(kBlock, 2),
                           op::equal(index), op::add(26)},
             .longest = {op::mux(kBlock, 2), op::mux(kBlock, 2 + kept), op::mux(256, 2),
                         op::mux(8, 32), op::compare(8), op::mux(8, 2), op::mux(8, both),

@@ -100,10 +100,10 @@ TEST(GeometricDatasheets, ListsNameOperatorsOfSomeWidthAndCountersOfTheUnit) {
     const EngineBench b(p);
     for (const rtl::Datasheet& sheet : rtl::geometric::datasheets(p)) {
       std::set<std::string> counters = {""};
-      for (rtl::Unit* unit : b.engine.units())
+      for (const rtl::Unit* unit : b.engine.units())
         if (class_of(*unit) == sheet.unit)
-          rtl::for_each<rtl::Counter>(*unit,
-                                      [&](rtl::Counter& c) { counters.insert(c.basename()); });
+          for (const sc_core::sc_object* child : unit->get_child_objects())
+            if (dynamic_cast<const rtl::Counter*>(child)) counters.insert(child->basename());
       for (const rtl::Stage& stage : sheet.stages)
         EXPECT_TRUE(counters.contains(stage.on)) << title(sheet) << ": " << stage.on;
       for (const rtl::Operator& one : operators_of(sheet))
