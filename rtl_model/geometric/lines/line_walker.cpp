@@ -72,7 +72,7 @@ Datasheet LineWalker::datasheet(const spec::geometric::Parameters& p) {
                   .operators = built({op::mux(line, 2), thrice * op::add(28), n * op::add(40),
                                       thrice * op::add(38), n * op::add(38),
                                       (n - 1) * op::equal(14), op::mux(40, n), op::mux(38, n),
-                                      op::add(13), op::subtract(14), op::logic(40)}),
+                                      op::add(13), op::subtract(14), op::logic(60)}),
                   .longest =
                       built({op::mux(line, 2), thrice * op::add(28), op::add(40),
                              (n > 1) * op::equal(14), (n > 1) * op::logic(2 * n), op::mux(40, n)}),

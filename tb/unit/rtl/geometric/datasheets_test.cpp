@@ -90,7 +90,7 @@ TEST(GeometricDatasheets, OperatorsFollowTheBuild) {
 TEST(GeometricDatasheets, ListsNameOperatorsOfSomeWidthAndCountersOfTheUnit) {
   Parameters least, most;
   least.edge_lanes = least.walkers = least.resolve_lanes = spec::geometric::Lanes::kOne;
-  least.pipelined = false;
+  least.pipelined = most.pipelined = false;
   most.edge_lanes = most.resolve_lanes = spec::geometric::Lanes::kFour;
   most.records = spec::geometric::RecordsLayout::kSplit;
   most.coarse_lines = spec::geometric::CoarseLines::k64;
