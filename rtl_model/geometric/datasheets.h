@@ -9,7 +9,8 @@
 
 namespace deburr::rtl::geometric {
 
-// The datasheets of all units built with these parameters, in pipeline order.
+// The datasheets of all units built with these parameters, in pipeline order. Sizes that are 0 are
+// those for the default memory.
 std::vector<Datasheet> datasheets(const spec::geometric::Parameters& parameters);
 // The datasheets of all units in all their builds.
 std::vector<Datasheet> datasheets();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/frame_sequencer.h"
 
+#include "rtl_model/geometric/common/frame_configuration.h"
+
 namespace deburr::rtl::geometric {
 namespace {
 
@@ -56,15 +58,27 @@ void FrameSequencer::reset() {
 }
 
 Datasheet FrameSequencer::datasheet() {
+  // Registers that only some builds have are listed with the units that need them. Bases have 26
+  // bits: six are 0.
+  constexpr std::uint32_t kBases = 7, kWorkCounters = 19, kCycleRegisters = 4, kFlags = 17;
+  const std::uint32_t configuration =
+      Payload::of<FrameConfiguration>(configuration_shape({})).bits() - 6 * kBases;
   return {.unit = "FrameSequencer",
           .does = "Sequences the phases of a frame: begin, edges, resolve.",
           .latency = {0, "-"},
           .interval = {1, "-"},
-          .stages = {{"1",
-                      "checks START in the cycle after the write: products of SIZE are shifts and "
-                      "one 11 x 11 multiply over two cycles (ParameterStore)",
-                      "11 x 11 multiply"}},
-          .cost = "a state of two bits, a 32-bit counter."};
+          .stages = {{.clock = "1",
+                      .work = "checks START in the cycle after the write: products of SIZE are "
+                              "shifts and one multiply over two cycles (ParameterStore)",
+                      .operators = {4 * op::add(14), op::add(12), op::mux(11, 2),
+                                    op::multiply(5, 12), 3 * op::maximum(5), 3 * op::compare(14),
+                                    op::compare(16), op::compare(32), op::logic(120)},
+                      .longest = {op::multiply(5, 12), op::compare(16)},
+                      .registers = configuration + kFlags},
+                     {.clock = "all",
+                      .work = "counts of the register map",
+                      .operators = {(kWorkCounters + 1) * op::add(32), op::subtract(32)},
+                      .registers = 32 * (kWorkCounters + kCycleRegisters)}}};
 }
 
 }  // namespace deburr::rtl::geometric

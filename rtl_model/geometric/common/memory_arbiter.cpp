@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
+
 namespace deburr::rtl::geometric {
 namespace {
 
@@ -102,18 +104,24 @@ Activity MemoryArbiter::tick(Cycle cycle) {
   return kBusy;
 }
 
-Datasheet MemoryArbiter::datasheet() {
+Datasheet MemoryArbiter::datasheet(const spec::geometric::Parameters& p) {
+  const auto clients = static_cast<std::uint32_t>(clients_of(p).size());
+  constexpr std::uint32_t kAddress = 26 + kPlaceBits, kWriters = 3,
+                          kData = 8 * kLineBytes + kLineBytes;
   return {
       .unit = "MemoryArbiter",
+      .variant = std::to_string(clients) + " clients",
       .does =
           "Forwards the memory requests of all units to the memory port and returns the responses.",
       .latency = {1, "1 each way"},
       .interval = {1, "one request and one response per cycle"},
-      .stages = {{"1", "round-robin choice of 8 to 10 clients",
-                  "10 : 1 priority chain, 10 : 1 choice"}},
-      .cost =
-          "two beat registers per client, a choice of eight clients; one more client each with "
-          "`records = split` and with `coarse_lines`."};
+      .stages = {{.clock = "1",
+                  .work = "round-robin choice of the clients",
+                  .operators = {2 * op::priority(clients), op::mux(kAddress, clients),
+                                op::mux(kData, kWriters), op::add(bits_below(clients)),
+                                op::logic(10 * clients)},
+                  .longest = {op::priority(clients), op::logic(4), op::mux(kAddress, clients)},
+                  .registers = bits_below(clients)}}};
 }
 
 }  // namespace deburr::rtl::geometric

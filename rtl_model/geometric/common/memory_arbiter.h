@@ -93,7 +93,7 @@ class MemoryArbiter final : public Unit {
 
   Counter memory_errors{"memory_errors", "responses", "memory responses with an error"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   struct Side {

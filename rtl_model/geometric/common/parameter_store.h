@@ -7,8 +7,7 @@
 //           The current register values become the configuration, which units read from the next
 //           cycle on; or the frame is rejected, which only changes REJECTION and STATUS. A pulse of
 //           a sticky bit sets it in its cycle.
-// Cost      The registers, and 60 bits of sizes. Longest path: 11 x 11 multiply (words of the
-//           TouchedMap).
+// Cost      In the datasheet of the FrameSequencer.
 //
 // A write during a frame is ignored (except to CONTROL and STATUS) and sets a sticky bit. Unknown
 // codes of CONFIG count as code 0. This module is not ticked.

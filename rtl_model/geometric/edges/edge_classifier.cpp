@@ -4,6 +4,7 @@
 #include <bit>
 #include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -198,20 +199,49 @@ void EdgeClassifier::reset() {
   next_ = {};
 }
 
-Datasheet EdgeClassifier::datasheet() {
-  return {
-      .unit = "EdgeClassifier",
-      .does = "Decides for each edge whether it can be visible as an edge.",
-      .latency = {3, "3, plus 1 for each kept edge of the same beat that leaves first"},
-      .interval = {1, "kept edges of a beat of edge_lanes edges, at least 1"},
-      .stages = {{"1", "ranges, addresses of the facing bits; `records = split`: pair numbers",
-                  "24-bit compare, `records = split` 24-bit add and compare"},
-                 {"2", "words of facing bits, selection of one of 32", "SRAM read, 32 : 1 choice"},
-                 {"3", "class, counters; one kept edge leaves per cycle"}},
-      .cost =
-          "per lane four 24-bit comparators and two reads of FacingStore; registers of two beats. "
-          "`records = split`: per lane two 24-bit and one 25-bit comparator; two 24-bit numbers, "
-          "each also as line and position, and their adders."};
+Datasheet EdgeClassifier::datasheet(const spec::geometric::Parameters& p) {
+  const bool split = p.records == spec::geometric::RecordsLayout::kSplit;
+  const std::uint32_t lanes = lane_count(p.edge_lanes), more = lanes > 1;
+  // Of an edge to be kept: two vertices, or line, record and whether it has a pair.
+  const std::uint32_t pair = split ? 21 + 4 + 1 : 2 * 24;
+  const std::vector<Operator> ranges =
+      split ? built({2 * op::compare(21), op::mux(21, 4), op::mux(28, 2), more * op::add(4),
+                     more * op::compare(4), more * op::add(24), op::compare(25),
+                     more * op::count_ones(lanes)})
+            : std::vector{2 * op::compare(25), 2 * op::compare(24)};
+  return {.unit = "EdgeClassifier",
+          .variant = split ? "`records = split`" : "`records = joined`",
+          .does = "Decides for each edge whether it can be visible as an edge.",
+          .latency = {3, "3, plus 1 for each kept edge of the same beat that leaves first"},
+          .interval = {1, "kept edges of a beat of edge_lanes edges, at least 1"},
+          .stages = {{.clock = "1",
+                      .work = std::string("ranges, addresses of the facing bits") +
+                              (split ? "; pair numbers" : ""),
+                      .operators = built({op::logic(10)}, ranges),
+                      .longest = split ? built({more * op::count_ones(lanes), op::mux(28, 2),
+                                                more * op::add(24), op::compare(25)})
+                                       : std::vector{op::compare(25)},
+                      .registers = pair + 4 + 2 * 5 + 2},
+                     {.clock = "2",
+                      .work = "words of facing bits, selection of one of 32",
+                      .path = "SRAM read",
+                      .operators = {2 * op::mux(1, 32), op::logic(2)},
+                      .longest = {op::mux(32, 16), op::mux(1, 32)},
+                      .registers = pair + 4 + 3},
+                     {.clock = "3",
+                      .work = "class, counters; one kept edge leaves per cycle",
+                      .operators = built({op::logic(30), op::mux(pair, 2)}),
+                      .longest = built({op::logic(8), more * op::priority(lanes), op::mux(pair, 2),
+                                        op::mux(pair + 1, lanes)}),
+                      .registers = pair + 2}},
+          .copies = lanes,
+          .per = "lane",
+          .shared =
+              split ? built({op::subtract(25), 2 * op::add(24), 2 * op::add(21), 2 * op::add(4),
+                             2 * op::compare(4), more * op::priority(lanes),
+                             op::mux(pair + 1, lanes), op::logic(20)})
+                    : built({more * op::priority(lanes), op::mux(pair + 1, lanes), op::logic(20)}),
+          .shared_registers = 2 * 5 + 1 + (split ? 2 * (21 + 4 + 24) : 0U)};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -54,7 +54,7 @@ class EdgeClassifier final : public Unit {
   Counter unpaired_edges{"unpaired_edges", "edges",
                          "records = split: edges to be kept without a vertex pair in the array"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   struct Beat {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -103,14 +104,31 @@ void EdgeReader::reset() {
   begin();
 }
 
-Datasheet EdgeReader::datasheet() {
+Datasheet EdgeReader::datasheet(const spec::geometric::Parameters& p) {
+  const bool split = p.records == spec::geometric::RecordsLayout::kSplit;
+  const std::uint32_t lanes = lane_count(p.edge_lanes), in_line = split ? 10 : 4,
+                      place_bits = split ? 4 : 2;
+  // A beat begins at a multiple of `lanes`.
+  const Operator edge = op::mux(split ? 46 : 100, (in_line + lanes - 1) / lanes);
+  const Hardware buffer = fill_store(p.edge_lines);
   return {.unit = "EdgeReader",
+          .variant = split ? "`records = split`" : "`records = joined`",
           .does = "Prefetches the edge table and forwards its records.",
           .latency = {2, "2 from the response with a line"},
           .interval = {1, "1 for edge_lanes edges of a line"},
-          .stages = {{"1", "line", "SRAM read"},
-                     {"2", "selection of edges", "4 : 1 choice, `records = split` 10 : 1"}},
-          .cost = "edge_buffer, counters of 25 bits."};
+          .stages = {{.clock = "1",
+                      .work = "line",
+                      .path = "SRAM read",
+                      .operators = built({op::add(26), op::add(23), (split ? 1U : 0U) * op::add(25),
+                                          op::compare(25), op::logic(20)},
+                                         buffer.operators),
+                      .registers = 23 + (split ? 25U : 0U) + buffer.registers},
+                     {.clock = "2",
+                      .work = "selection of edges",
+                      .operators = built({lanes * edge, op::subtract(25), op::add(25),
+                                          op::add(place_bits), op::logic(20)}),
+                      .longest = built({edge}),
+                      .registers = 25 + place_bits + 1}}};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -35,7 +35,7 @@ class EdgeReader final : public Unit {
 
   Counter lines_read{"lines_read", "lines", "lines of the edge table read"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   bool ask(Cycle cycle);

@@ -4,6 +4,8 @@
 #include <array>
 #include <span>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
+
 namespace deburr::rtl::geometric {
 namespace {
 
@@ -67,14 +69,23 @@ Activity FacingStore::work(Cycle cycle) {
 
 void FacingStore::reset() { asked_ = answered_ = 0; }
 
-Datasheet FacingStore::datasheet() {
+Datasheet FacingStore::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t lines = bits_below(static_cast<std::uint32_t>(p.face_limit / 512) + 1),
+                      reads = 2 * lane_count(p.edge_lanes);
   return {.unit = "FacingStore",
           .does = "Stores the facing bits of a frame's faces.",
           .latency = {2, "2 for a reader"},
           .interval = {1, "one line of 512 bits in and 2 x edge_lanes bits out per cycle"},
-          .stages = {{"1", "word", "SRAM read"},
-                     {"2", "selection of one of 32 bits, in the reader", "32 : 1 choice"}},
-          .cost = "face_limit bits, one copy per read."};
+          .stages = {{.clock = "1",
+                      .work = "word",
+                      .path = "SRAM read",
+                      .operators = {op::add(21), op::add(26), 2 * op::add(lines),
+                                    2 * op::equal(lines), op::logic(20)},
+                      .registers = 2 * lines + 1 + 4 * reads},
+                     {.clock = "2",
+                      .work = "selection of one of 32 bits, in the reader",
+                      .operators = {reads * op::mux(32, 16)},
+                      .longest = {op::mux(32, 16), op::mux(1, 32)}}}};
 }
 
 }  // namespace deburr::rtl::geometric

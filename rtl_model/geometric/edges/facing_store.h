@@ -35,7 +35,7 @@ class FacingStore final : public Unit {
 
   Counter lines_read{"lines_read", "lines", "lines of facing bits read"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   static constexpr std::size_t kWordsInLine = spec::geometric::kFacesInLine / 32;

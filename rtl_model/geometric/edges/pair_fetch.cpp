@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/edges/pair_fetch.h"
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -110,18 +111,31 @@ void PairFetch::reset() {
   pipe_.reset();
 }
 
-Datasheet PairFetch::datasheet() {
+Datasheet PairFetch::datasheet(const spec::geometric::Parameters& p) {
+  const Hardware fills = fill_store(p.fills), tags = line_cache(2, kPairTagBits, 1, false);
+  // BOUNDARY_COUNT and two bases, registers that only this build has.
+  constexpr std::uint32_t kRegisters = 25 + 2 * 26;
   return {.unit = "PairFetch",
           .does = "Fetches the vertices of each edge to be kept from separate arrays.",
           .latency = {3, "3, plus the wait for a line"},
           .interval = {1},
-          .stages = {{"1", "tag compare per array, read request; FIFO", "22-bit compare"},
-                     {"2", "arrived line into the register of its array; selection of a pair",
-                      "10 : 1 choice of 48 bits"},
-                     {"3", "range check of the vertices; output", "25-bit compare"}},
-          .cost =
-              "two tags and two lines in registers, the lines in flight, the FIFO; a 22-bit and "
-              "two 25-bit comparators, a 10 : 1 choice of 48 bits."};
+          .stages = {
+              {.clock = "1",
+               .work = "tag compare per array, read request; FIFO",
+               .operators =
+                   built({op::mux(26, 2), op::add(26)}, built(tags.operators, fills.operators)),
+               .longest = {op::mux(kPairTagBits, 2), op::equal(kPairTagBits), op::logic(8)},
+               .registers = kRegisters + tags.registers + fills.registers,
+               .on = "lookups"},
+              {.clock = "2",
+               .work = "arrived line into the register of its array; selection of a pair",
+               .operators = {op::mux(kPairLineBits, 2), op::mux(48, 10)},
+               .longest = {op::mux(kPairLineBits, 2), op::mux(kPairLineBits, 2), op::mux(48, 10)},
+               .registers = 48 + 4},
+              {.clock = "3",
+               .work = "range check of the vertices; output",
+               .operators = {2 * op::compare(25), op::logic(8)},
+               .longest = {op::compare(25), op::logic(8)}}}};
 }
 
 }  // namespace deburr::rtl::geometric

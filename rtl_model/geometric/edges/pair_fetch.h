@@ -48,7 +48,7 @@ class PairFetch final : public Unit {
   Counter invalid_edges{"invalid_edges", "edges", "edges with a vertex out of range"};
   Counter kept_edges{"kept_edges", "edges", "edges whose vertices are fetched"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   using PairLine = std::array<std::uint64_t, spec::geometric::kSplitInLine>;  // U48: v0, v1

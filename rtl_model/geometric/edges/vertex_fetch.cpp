@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/edges/vertex_fetch.h"
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -128,18 +129,40 @@ void VertexFetch::reset() {
   looking_ = working_ = false;
 }
 
-Datasheet VertexFetch::datasheet() {
+Datasheet VertexFetch::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t
+      lines = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.vertex_lines)],
+      line = kVertexBits * kVerticesInLine;
+  const Hardware fills = fill_store(p.fills), tags = line_cache(lines, kVertexTagBits, 2, true);
   return {
       .unit = "VertexFetch",
       .does = "Fetches both vertices of each kept edge through a lookahead cache.",
       .latency = {5, "5, plus the wait for a line"},
       .interval = {1, "1; 2 if both lookups miss"},
-      .stages = {{"1", "tag addresses"},
-                 {"2", "two tags, one fill request per cycle; FIFO", "SRAM read + 23-bit compare"},
-                 {"3", "line install, word addresses"},
-                 {"4", "cache words, selection of a vertex", "SRAM read, 4 : 1 choice"},
-                 {"5", "output (usable is computed when a line arrives)"}},
-      .cost = "tags and data 2R1W, the lines in flight, the FIFO; two 22-bit comparators."};
+      .stages = {{.clock = "1",
+                  .work = "tag addresses",
+                  .operators = {op::equal(22)},
+                  .registers = 2 * 22 + 2 * 2 + 4},
+                 {.clock = "2",
+                  .work = "two tags, one fill request per cycle; FIFO",
+                  .path = "SRAM read",
+                  .operators = built({2 * op::add(26), op::mux(26, 2)},
+                                     built(tags.operators, fills.operators)),
+                  .longest = {op::equal(kVertexTagBits), op::logic(8), op::mux(26, 2)},
+                  .registers = tags.registers + fills.registers},
+                 {.clock = "3",
+                  .work = "line install, word addresses",
+                  .operators = {2 * op::mux(kVertexBits, 4), op::logic(4 * 24)},
+                  .longest = {op::mux(kVertexBits, 4)},
+                  .registers = 2 * kVertexBits + 2 * bits_below(lines) + 14},
+                 {.clock = "4",
+                  .work = "cache words, selection of a vertex",
+                  .path = "SRAM read",
+                  .operators = {op::mux(line, 2), 2 * op::mux(kVertexBits, 4),
+                                2 * op::mux(kVertexBits, 2)},
+                  .longest = {op::mux(line, 2), op::mux(kVertexBits, 4), op::mux(kVertexBits, 2)},
+                  .registers = 2 * kVertexBits + 3},
+                 {.clock = "5", .work = "output (usable is computed when a line arrives)"}}};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -37,7 +37,7 @@ class VertexFetch final : public Unit {
   Counter lookups{"lookups", "lines", "lines of vertices looked up"};
   Counter misses{"misses", "lines", "lookups that requested a line"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   using VertexLine = std::array<VertexFields, spec::geometric::kVerticesInLine>;

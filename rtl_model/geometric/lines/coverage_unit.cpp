@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/tables.h"
 
 namespace deburr::rtl::geometric {
@@ -159,7 +160,8 @@ Activity CoverageUnit::tick(Cycle cycle) {
   return kBusy;
 }
 
-Datasheet CoverageUnit::datasheet() {
+Datasheet CoverageUnit::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t lanes = lanes_of(p), thrice = lanes > 2;
   return {
       .unit = "CoverageUnit",
       .does =
@@ -167,17 +169,29 @@ Datasheet CoverageUnit::datasheet() {
           "neighbour.",
       .latency = {3},
       .interval = {1, "one group per cycle; a group without candidates produces no output"},
-      .stages = {{"1", "distance, direction, depth, magnitude of the slope", "38-bit add"},
-                 {"2",
-                  "coverage by distance, frame borders; check whether the line leaves the pixel, "
-                  "addresses of the areas",
-                  "17-bit add and compare"},
-                 {"3", "areas, candidates and second candidates", "ROM read + 2 : 1 choice"}},
+      .stages = {{.clock = "1",
+                  .work = "distance, direction, depth, magnitude of the slope",
+                  .operators = {op::magnitude(16), op::logic(16)},
+                  .longest = built({thrice * op::add(36), (lanes > 1) * op::add(36),
+                                    (lanes == 1) * op::magnitude(26)}),
+                  .registers = 16 + 16 + 1 + 24},
+                 {.clock = "2",
+                  .work = "coverage by distance, frame borders; check whether the line leaves the "
+                          "pixel, addresses of the areas",
+                  .operators = {2 * op::compare(14), 2 * op::subtract(17), op::add(18),
+                                op::logic(20)},
+                  .longest = {op::add(18), op::logic(6)},
+                  .registers = 1 + 1 + 4 + 8 + 24 + 2},
+                 {.clock = "3",
+                  .work = "areas, candidates and second candidates",
+                  .operators = {op::mux(8, 3), op::logic(20)},
+                  .longest = {op::rom_read(8, 1024), op::mux(8, 3), op::logic(8)}}},
       .formats = "distance S0.16, slope U1.16 and in 1/32, coverage U0.8.",
-      .cost =
-          "26-bit magnitude, 6-bit add; per lane 17-bit add, 17-bit magnitude, two 14-bit "
-          "comparators, 17-bit add and compare, 17-bit subtract, one read of near_area_rom and one "
-          "of far_area_rom; 4 adds of 38 bits."};
+      .copies = lanes,
+      .per = "lane",
+      .shared = built({op::magnitude(26), (lanes - 1) * op::add(36), thrice * op::add(36),
+                       op::add(7), op::add(6), op::logic(20)}),
+      .shared_registers = 17 + 2 + 13 + 3 + 2 + (22 + 2 + 2)};
 }
 
 }  // namespace deburr::rtl::geometric

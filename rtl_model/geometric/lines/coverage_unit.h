@@ -40,7 +40,7 @@ class CoverageUnit final : public Unit {
 
   Counter candidates{"candidates", "pixels", "pixels with a neighbour and a coverage"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   struct Beat {

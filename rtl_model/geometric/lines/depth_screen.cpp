@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -182,24 +184,55 @@ void DepthScreen::reset() {
   looking_ = working_ = false;
 }
 
-Datasheet DepthScreen::datasheet() {
+Datasheet DepthScreen::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t
+      lanes = lane_count(p.walkers),
+      lines = spec::geometric::kCoarseLineCount[static_cast<std::size_t>(p.coarse_lines)],
+      group = Payload::of<CandidateToken>(candidates_shape(p, false)).bits();
+  const Hardware fills = fill_store(p.fills), tags = line_cache(lines, kCoarseTagBits, 2, false);
+  // COARSE_BASE, a register that only this build has.
+  constexpr std::uint32_t kRegisters = 26, kLineBits = kCoarseEntryBits * kInLine;
   return {
       .unit = "DepthScreen",
       .does = "Drops candidates that a lower bound of their tile's depth proves hidden.",
       .latency = {5, "5, plus the wait for a line"},
       .interval = {1, "1; 2 if both lookups miss"},
-      .stages = {{"1", "lines and tiles of the group, first use of each"},
-                 {"2", "two tags, one fill request per cycle; FIFO",
-                  "64 : 1 choice + 16-bit compare; 8 x 8 multiply"},
-                 {"3", "line install, word addresses"},
-                 {"4", "two lines, selection of a tile, smaller bound",
-                  "SRAM read, 32 : 1 choice + 16-bit compare"},
-                 {"5", "test against the bound", "24-bit shift, subtract and compare"}},
-      .cost =
-          "tags in registers, data 2R1W, the lines in flight, the FIFO; two 16-bit comparators, "
-          "an 8 x 8 multiply, two 32 : 1 choices of 16 bits and their minimum, its shift and "
-          "subtract and that of the group's own tile; per lane a 2 : 1 choice and a 24-bit "
-          "comparator."};
+      .stages = {{.clock = "1",
+                  .work = "lines and tiles of the group, first use of each",
+                  .operators = {op::logic(8 * lanes), 3 * op::mux(10, 2), op::add(10),
+                                op::equal(15)},
+                  .longest = {op::mux(10, 2), op::add(10), op::mux(10, 2), op::equal(15)},
+                  .registers = group + lanes + 2 * 15 + 2 * 5 + 3},
+                 {.clock = "2",
+                  .work = "two tags, one fill request per cycle; FIFO",
+                  .operators = built({op::add(14), op::multiply(8, 8), 2 * op::add(15),
+                                      op::mux(15, 2), op::add(26)},
+                                     built(tags.operators, fills.operators)),
+                  .longest = {op::mux(kCoarseTagBits, lines), op::equal(kCoarseTagBits),
+                              op::logic(8), op::mux(15, 2), op::add(26)},
+                  .registers = kRegisters + tags.registers + fills.registers,
+                  .on = "groups"},
+                 {.clock = "3",
+                  .work = "line install, word addresses",
+                  .operators = {2 * op::mux(kCoarseEntryBits, kInLine)},
+                  .longest = {op::mux(kCoarseEntryBits, kInLine)},
+                  .registers = group + lanes + 2 * 16 + 2 * 5 + 2 * bits_below(lines) + 7},
+                 {.clock = "4",
+                  .work = "two lines, selection of a tile, smaller bound",
+                  .path = "SRAM read",
+                  .operators = {op::mux(kLineBits, 2), 2 * op::mux(kCoarseEntryBits, kInLine),
+                                2 * op::mux(kCoarseEntryBits, 2), op::maximum(kCoarseEntryBits)},
+                  .longest = {op::mux(kLineBits, 2), op::mux(kCoarseEntryBits, kInLine),
+                              op::mux(kCoarseEntryBits, 2), op::maximum(kCoarseEntryBits)},
+                  .registers = group + lanes + 2 * 16 + 2,
+                  .on = "groups"},
+                 {.clock = "5",
+                  .work = "test against the bound",
+                  .operators = {2 * op::shift(24, 24), 2 * op::subtract(24), lanes * op::mux(24, 2),
+                                lanes * op::compare(24)},
+                  .longest = {op::shift(24, 24), op::subtract(24), op::mux(24, 2), op::compare(24)},
+                  .on = "groups"}},
+      .cost = "walkers = " + std::to_string(lanes) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

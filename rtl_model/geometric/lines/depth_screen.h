@@ -52,7 +52,7 @@ class DepthScreen final : public Unit {
                          "first candidates with a neighbour in another tile, by the smaller bound: "
                          "own tile, other tile, equal"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   static constexpr std::size_t kInLine =

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -273,28 +275,70 @@ void DepthTest::reset() {
   reading_ = 0;
 }
 
-Datasheet DepthTest::datasheet() {
+Datasheet DepthTest::datasheet(const spec::geometric::Parameters& p) {
+  const bool screened = p.coarse_lines != spec::geometric::CoarseLines::kNone;
+  // n: own and other depths of all lanes, and the most lines of a group.
+  const std::uint32_t lanes = lane_count(p.walkers), n = 2 * lanes, more = lanes > 1,
+                      cached =
+                          spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.depth_lines)],
+                      group = Payload::of<CandidateToken>(candidates_shape(p, screened)).bits(),
+                      places = n * (bits_below(n) + 4) + bits_below(n + 1);
+  constexpr std::uint32_t kPlace = kDepthTagBits - 1;  // bits of u, v
+  const Hardware fills = fill_store(p.fills), tags = line_cache(cached, kDepthTagBits, 2, true);
   return {
       .unit = "DepthTest",
+      .variant = screened ? "with `coarse_lines`" : "without `coarse_lines`",
       .does = "Drops the candidates that are hidden in the frame.",
       .latency = {7, "7, plus the wait for a line"},
       .interval =
           {1,
            "the lookups of a group are made in pairs; a pair takes one cycle, two if both miss; "
            "at least 1"},
-      .stages = {{"1", "lines, first use of each"},
-                 {"2", "tag addresses, products of the line addresses", "13 x 10 multiply"},
-                 {"3", "two tags, one fill request per cycle; FIFO", "SRAM read + 23-bit compare"},
-                 {"4", "line install, word addresses"},
-                 {"5", "two lines per cycle, two 16 : 1 choices per lane",
-                  "SRAM read, 16 : 1 choice"},
-                 {"6", "nearer pixel, farther depth", "24-bit compare + 2 : 1 choice"},
-                 {"7", "depth test of the line, and crease test",
-                  "24-bit shift, subtract and compare"}},
-      .cost =
-          "tags and data 2R1W, the lines in flight, the FIFO; 28 line comparators, two "
-          "13 x 10 multiplies; per lane two 16 : 1 choices of 24 bits, a 24-bit minimum, two "
-          "24-bit shifts, subtracts and compares."};
+      .stages = {{.clock = "1",
+                  .work = "lines, first use of each",
+                  .operators = built({2 * op::add(11), op::logic(30 * lanes),
+                                      n * op::mux(kPlace, 2), n * (n - 1) / 2 * op::equal(kPlace),
+                                      n * op::count_ones(n - 1), n * op::mux(kPlace, lanes)}),
+                  .longest = built({op::add(11), op::mux(kPlace, 2), op::equal(kPlace),
+                                    op::count_ones(n - 1), more * op::mux(kPlace, lanes)}),
+                  .registers = group + n * kPlace + places + 1},
+                 {.clock = "2",
+                  .work = "tag addresses, products of the line addresses",
+                  .operators = built({2 * op::mux(kPlace, lanes), 2 * op::mux(13, 2),
+                                      2 * op::mux(10, 2), 2 * op::multiply(13, 10), op::add(3)}),
+                  .longest = built({op::mux(kPlace, lanes), op::mux(13, 2), op::multiply(13, 10)}),
+                  .registers = group + n * kPlace + places + 2 * kPlace + 2 * 24 + n + 4},
+                 {.clock = "3",
+                  .work = "two tags, one fill request per cycle; FIFO",
+                  .path = "SRAM read",
+                  .operators = built({2 * op::add(22), 2 * op::add(26), op::mux(26, 2)},
+                                     built(tags.operators, fills.operators)),
+                  .longest = {op::equal(kDepthTagBits), op::logic(8), op::mux(26, 2)},
+                  .registers = tags.registers + fills.registers},
+                 {.clock = "4",
+                  .work = "line install, word addresses",
+                  .operators = built({n * op::mux(24, 16), op::logic(4 * n),
+                                      2 * op::mux(bits_below(cached), lanes), op::add(4)}),
+                  .longest = {op::mux(24, 16)},
+                  .registers = group + n * 24 + places + n * bits_below(cached) + n + 8},
+                 {.clock = "5",
+                  .work = "two lines per cycle, two choices of a depth per lane",
+                  .path = "SRAM read",
+                  .operators = {n * op::mux(24, 32), n * op::mux(24, 2), op::logic(4 * n)},
+                  .longest = {op::mux(24, 32), op::mux(24, 2)},
+                  .registers = group + n * 24 + 1},
+                 {.clock = "6",
+                  .work = "nearer pixel, farther depth",
+                  .operators = {lanes * op::compare(24), lanes * op::equal(24),
+                                lanes * op::mux(24, 2)},
+                  .longest = {op::compare(24), op::mux(24, 2)},
+                  .registers = group + lanes * (24 + 2) + 1},
+                 {.clock = "7",
+                  .work = "depth test of the line, and crease test",
+                  .operators = {n * op::shift(24, 24), n * op::subtract(24), n * op::compare(24),
+                                op::logic(6 * lanes)},
+                  .longest = {op::shift(24, 24), op::subtract(24), op::compare(24), op::logic(4)}}},
+      .cost = "walkers = " + std::to_string(lanes) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

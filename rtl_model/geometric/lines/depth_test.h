@@ -49,7 +49,7 @@ class DepthTest final : public Unit {
   Counter misses{"misses", "lines", "lookups that requested a line"};
   Histogram group_lines{"group_lines", "lines", "lines of depth per group"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   // Per group: raster, vertical, four own lines and four of neighbours beyond a multiple of 16.

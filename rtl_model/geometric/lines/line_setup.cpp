@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/tables.h"
 
 namespace deburr::rtl::geometric {
@@ -218,7 +220,17 @@ void LineSetup::reset() {
 
 Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
   constexpr std::uint64_t kDivision = 13;
-  const auto dividers = static_cast<std::uint64_t>(p.dividers);
+  const auto dividers = static_cast<std::uint32_t>(p.dividers);
+  const std::uint32_t table = p.reciprocal_table > 0;
+  // A radix-4 step: three differences and the choice of the remainder.
+  const std::vector<Operator> step = {3 * op::subtract(26), op::mux(23, 4)};
+  const std::vector<Operator> none;
+  // Bits of a line, without what a step works on: |dm|, D, offset, m0, d0, e, signs, axis, columns.
+  constexpr std::uint32_t kLine = 23 + 24 + 23 + 23 + 24 + 5 + 2 + 3 + 13 + 14 + 2;
+  constexpr std::uint32_t kRemainder = 23, kDivisor = 22 + 25, kQuotient = 27;
+  // The quotient has 14 bits in the mean of the twelve cycles.
+  const std::uint32_t quotient = (p.pipelined ? kRemainder + kDivisor + 14 : 0) + table * 25;
+  constexpr std::uint32_t kLast = 25 + 2 + 3 + 13 + 14 + 2;  // slope and the rest
   return {
       .unit = "LineSetup",
       .variant = p.pipelined ? "`pipelined`" : "not pipelined",
@@ -227,20 +239,83 @@ Datasheet LineSetup::datasheet(const spec::geometric::Parameters& p) {
       .interval = p.pipelined ? Cycles{1}
                               : Cycles{(kDivision + dividers - 1) / dividers,
                                        "13 / dividers; 1 for table lines and dropped edges"},
-      .stages = {{"1", "differences"},
-                 {"2", "axis, ends, first and last column, dropped edges",
-                  "five carry chains, compares of 15 bits and adds of 22: 1.20 of the multiply"},
-                 {"3", "leading one (e)"},
-                 {"4", "shift, table address"},
-                 {"5-17", "quotient, two bits per cycle, a 27th if L is a power of two",
-                  "choice of 4 multiples + 26-bit add"},
-                 {"18, 19", "slope, t, depth step", "23 x 27 multiply over two cycles"},
-                 {"20, 21", "start: slope x offset, D x t", "24 x 24 multiply"},
-                 {"22", "sums"}},
-      .cost =
-          "13 radix-4 stages (choice of 0..3 l, 26-bit add), or `dividers` single stages shared in "
-          "time; multiplies 23 x 27, 23 x 24, 24 x 25, 25 x 23, 24 x 24; registers of 22 lines; "
-          "reciprocal_rom."};
+      .stages =
+          {{.clock = "1",
+            .work = "differences",
+            .operators = {2 * op::subtract(24), op::subtract(25)},
+            .longest = {op::subtract(25)},
+            .registers = 4 * 23 + 2 * 24 + 2 * 24 + 25 + 4},
+           {.clock = "2",
+            .work = "axis, ends, first and last column, dropped edges",
+            .operators = {2 * op::magnitude(24), op::magnitude(25), op::compare(24),
+                          4 * op::mux(23, 4), op::mux(24, 2), 2 * op::mux(23, 2),
+                          2 * op::mux(14, 2), 2 * op::add(23), op::add(14), op::maximum(15),
+                          3 * op::compare(15), op::subtract(23), op::subtract(15), op::logic(90)},
+            .longest = {op::magnitude(24), op::compare(24), op::mux(23, 4), op::add(23),
+                        op::maximum(15), op::subtract(15)},
+            .registers = 23 + kLine - 5 + 1},
+           {.clock = "3",
+            .work = "leading one (e)",
+            .operators = {op::leading_one(23)},
+            .longest = {op::leading_one(23)},
+            .registers = 23 + kLine + 1},
+           {.clock = "4",
+            .work = "shift, three times l, table address",
+            .operators = built({2 * op::shift(23, 23), op::add(24), table * op::logic(12)}),
+            .longest = {op::shift(23, 23), op::add(24)},
+            .registers = kDivisor + kLine + table,
+            .on = "lines"},
+           {.clock = "5-16",
+            .work = "quotient, two bits per cycle, a 27th if L is a power of two",
+            .operators = p.pipelined ? step : none,
+            .longest = {op::subtract(26), op::mux(23, 4)},
+            .registers = kLine + quotient,
+            .on = "lines"},
+           {.clock = "17",
+            .work = "last bits of the quotient, shift of the offset",
+            .operators = built(
+                {op::shift(23, 23), table * op::subtract(26), table * op::mux(kQuotient, 2)},
+                p.pipelined ? step : none),
+            .longest = {op::subtract(26), op::mux(23, 4)},
+            .registers = kLine + 23 + (p.pipelined || table ? kQuotient : 0),
+            .on = "lines"},
+           {.clock = "18",
+            .work = "slope, t, depth step: first halves of the products",
+            .operators = {op::multiply(23, 14), op::multiply(23, 13), op::multiply(24, 13)},
+            .longest = {op::multiply(23, 14)},
+            .registers = kLine + 23 + 13 + 37 + 36 + 37,
+            .on = "lines"},
+           {.clock = "19",
+            .work = "second halves",
+            .operators = {op::multiply(23, 13), op::multiply(23, 12), op::multiply(24, 12),
+                          3 * op::add(24)},
+            .longest = {op::multiply(23, 14)},
+            .registers = kLast + 24 + 49 + 5 + 23 + 24 + 23 + 24,
+            .on = "lines"},
+           {.clock = "20",
+            .work = "start: slope x offset, D x t, first halves; shift of the step",
+            .operators = {op::multiply(25, 12), op::multiply(24, 12), op::shift(37, 15)},
+            .longest = {op::multiply(25, 12)},
+            .registers = kLast + 37 + 36 + 37 + 23 + 24 + 12 + 23 + 24,
+            .on = "lines"},
+           {.clock = "21",
+            .work = "second halves",
+            .operators = {op::multiply(25, 11), op::multiply(24, 12), 2 * op::add(25)},
+            .longest = {op::multiply(25, 12)},
+            .registers = kLast + 40 + 36 + 37 + 23 + 24,
+            .on = "lines"},
+           {.clock = "22",
+            .work = "sums",
+            .operators = {op::subtract(40), op::subtract(38), op::magnitude(26), op::magnitude(38)},
+            .longest = {op::subtract(40)},
+            .on = "lines"}},
+      .shared = p.pipelined
+                    ? none
+                    : built({3 * dividers * op::subtract(26), dividers * op::mux(23, 4),
+                             dividers * op::mux(kRemainder + kDivisor, 2), dividers * op::add(4),
+                             op::mux(kQuotient, dividers), op::logic(8 * dividers)}),
+      .shared_registers = p.pipelined ? 0 : dividers * (kRemainder + kDivisor + kQuotient + 4),
+      .cost = p.pipelined ? "" : "dividers = " + std::to_string(dividers) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

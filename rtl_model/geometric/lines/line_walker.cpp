@@ -2,6 +2,9 @@
 #include "rtl_model/geometric/lines/line_walker.h"
 
 #include <algorithm>
+#include <string>
+
+#include "rtl_model/geometric/common/hardware_lists.h"
 
 namespace deburr::rtl::geometric {
 namespace {
@@ -56,19 +59,26 @@ Activity LineWalker::tick(Cycle cycle) {
   return kBusy;
 }
 
-Datasheet LineWalker::datasheet() {
+Datasheet LineWalker::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t n = lane_count(p.walkers), thrice = n > 2, line = 172;
   return {
       .unit = "LineWalker",
       .does = "Steps along a line, one group of columns per cycle.",
       .latency = {1},
       .interval = {1, "one group per cycle, also across the ends of lines"},
-      .stages =
-          {{"1", "position + k slope for k = 0..N, block compares, selection of the next position",
-            "2 : 1 choice, with four walkers 3 x slope (an add), 40-bit add + 13-bit compare + "
-            "5 : 1 choice: 1.22 of the multiply with four walkers"}},
-      .cost =
-          "9 adds of 40 bits (position + k slope, the next position), 5 of 38 (the next "
-          "depth), 3 comparators of 14 bits, a 5 : 1 choice."};
+      .stages = {{.clock = "1",
+                  .work = "position + k slope for k = 1..N, block compares, selection of the next "
+                          "position; the same for depth",
+                  .operators = built({op::mux(line, 2), thrice * op::add(28), n * op::add(40),
+                                      thrice * op::add(38), n * op::add(38),
+                                      (n - 1) * op::equal(14), op::mux(40, n), op::mux(38, n),
+                                      op::add(13), op::subtract(14), op::logic(60)}),
+                  .longest =
+                      built({op::mux(line, 2), thrice * op::add(28), op::add(40),
+                             (n > 1) * op::equal(14), (n > 1) * op::logic(2 * n), op::mux(40, n)}),
+                  .registers = line,
+                  .on = "groups"}},
+      .cost = "N = " + std::to_string(n) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -33,7 +33,7 @@ class LineWalker final : public Unit {
   Counter groups{"groups", "groups", "cycles in which the walkers stepped"};
   Histogram line_columns{"line_columns", "columns", "columns per line"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   EdgeLatency& latency_;  // measuring instrument

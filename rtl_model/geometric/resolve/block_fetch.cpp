@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -219,26 +221,59 @@ void BlockFetch::reset() {
   to_ask_ = 0;
 }
 
-Datasheet BlockFetch::datasheet() {
+Datasheet BlockFetch::datasheet(const spec::geometric::Parameters& p) {
+  const auto kept = static_cast<std::uint32_t>(p.colour_lines);
+  const std::uint32_t
+      keeps = kept > 0,
+      index =
+          bits_below(spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)]),
+      block = Payload::of<TouchedBlock>().bits(), token = Payload::of<BlockToken>().bits();
+  constexpr std::uint32_t kBlock = 8 * spec::geometric::kLineBytes, kTag = WeightPlaces::kTagBits;
+  const Hardware fills = fill_store(p.resolve_lines / 2);
   return {
       .unit = "BlockFetch",
+      .variant = keeps ? "with `colour_lines`" : "without `colour_lines`",
       .does = "Fetches the weights of a touched block and the colour lines that it needs.",
       .latency = {5, "5, plus the wait for weights"},
       .interval = {1, "max(1, needed lines) per block"},
-      .stages = {{"1", "tag of the block"},
-                 {"2", "read request for weights; FIFO"},
-                 {"3", "read of cached weights, or the arrived line"},
-                 {"4", "limits of the weights, axis, needed lines",
-                  "SRAM read, limits of a weight, 8-bit add, 9-bit compare, or of 16 pixels: more "
-                  "than a read and an addition"},
-                 {"5",
-                  "kept lines; requests of the others, one line per cycle, the "
-                  "block with the first",
-                  "`colour_lines`: 23-bit compare"}},
-      .cost =
-          "weights and lines in flight, the FIFO, 16 9-bit comparators, a 13 x 10 and a "
-          "11 x 11 multiply. `colour_lines` = N: N lines 1R1W, N comparators of 23 bits, the order "
-          "of lines, 9 bits each."};
+      .stages =
+          {{.clock = "1",
+            .work = "tag of the block, product of its address",
+            .operators = {op::mux(index, 2), op::multiply(11, 12), op::add(23)},
+            .longest = {op::multiply(11, 12), op::add(23)},
+            .registers = block + 23 + 1},
+           {.clock = "2",
+            .work = "read request for weights; FIFO",
+            .path = "SRAM read",
+            .operators = built({op::equal(kTag), op::add(26), op::logic(20)}, fills.operators),
+            .longest = {op::equal(kTag), op::logic(8)},
+            .registers = fills.registers},
+           {.clock = "3",
+            .work = "read of cached weights, or the arrived line; product of the lines' addresses",
+            .operators = {op::mux(index, 2), op::mux(11, 2), op::mux(10, 2), op::multiply(11, 10)},
+            .longest = {op::mux(11, 2), op::multiply(11, 10)},
+            .registers = kBlock + block + 1 + 22 + 1},
+           {.clock = "4",
+            .work = "limits of the weights, axis, needed lines",
+            .path = "SRAM read",
+            .operators = {op::mux(kBlock, 2), op::logic(64 * 9), 2 * op::equal(11),
+                          2 * op::compare(13), op::logic(200), op::logic(kBlock), 32 * op::add(8),
+                          16 * op::compare(9), op::logic(16 * 50), op::add(26)},
+            .longest = {op::mux(kBlock, 2), op::logic(9), op::add(8), op::compare(9),
+                        op::logic(24)},
+            .registers = token + 18 + 26 + 2},
+           {.clock = "5",
+            .work = std::string(keeps ? "kept lines; requests of the others" : "requests") +
+                    ", one line per cycle, the block with the first",
+            .operators =
+                built({op::priority(18), op::logic(40), op::add(13), op::mux(14, 6), op::add(11),
+                       op::add(13), op::mux(24, 2), 2 * op::add(26), op::mux(26, 2), op::mux(38, 2),
+                       kept * op::equal(kTag), op::logic(4 * kept), keeps * op::add(8),
+                       keeps * op::mux(kBlock, 2)},
+                      fills.operators),
+            .longest = {op::priority(18), op::mux(14, 6), op::add(26), op::add(26)},
+            .registers = fills.registers + keeps * (8 + 9 + 2)}},
+      .cost = keeps ? "colour_lines = " + std::to_string(kept) + "." : ""};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -45,7 +45,7 @@ class BlockFetch final : public Unit {
   Counter lines_kept{"lines_kept", "lines", "lines of colours that were kept and not read again"};
   Counter lines_replaced{"lines_replaced", "lines", "lines read that replaced a kept line"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   struct Lookup {

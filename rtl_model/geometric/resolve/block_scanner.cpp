@@ -70,16 +70,28 @@ void BlockScanner::reset() {
 }
 
 Datasheet BlockScanner::datasheet() {
-  return {.unit = "BlockScanner",
-          .does = "Finds the touched blocks of a frame, in raster order of blocks.",
-          .latency = {3, "3 from the start to the first block"},
-          .interval = {1, "one cycle per touched block, at least 1 per word of 128 blocks"},
-          .stages = {{"1", "address of the word"},
-                     {"2", "word", "SRAM read"},
-                     {"3", "first set bit of 128, in groups of 16", "16 : 1 priority"}},
-          .cost =
-              "the touched words of the block row above (touched_above), two words of registers, "
-              "two 16 : 1 priorities."};
+  constexpr std::uint32_t kWord = spec::geometric::kBlocksInWord;
+  return {
+      .unit = "BlockScanner",
+      .does = "Finds the touched blocks of a frame, in raster order of blocks.",
+      .latency = {3, "3 from the start to the first block"},
+      .interval = {1, "one cycle per touched block, at least 1 per word of 128 blocks"},
+      .stages = {{.clock = "1",
+                  .work = "address of the word",
+                  .operators = {op::add(17), op::equal(17), op::mux(16, 2)},
+                  .registers = 17},
+                 {.clock = "2",
+                  .work = "word",
+                  .path = "SRAM read",
+                  .operators = {op::add(17), op::equal(17), op::add(5), op::equal(5), op::add(12),
+                                op::mux(kWord, 2), op::logic(20)},
+                  .longest = {op::mux(kWord, 2)},
+                  .registers = 2 * kWord + 17 + 5 + 12 + 4 + 11 + 1},
+                 {.clock = "3",
+                  .work = "first set bit of 128, in groups of 16",
+                  .operators = {op::logic(kWord), op::priority(8), op::mux(16, 8), op::priority(16),
+                                op::mux(1, kWord), op::logic(2 * kWord)},
+                  .longest = {op::logic(16), op::priority(8), op::mux(16, 8), op::priority(16)}}}};
 }
 
 }  // namespace deburr::rtl::geometric

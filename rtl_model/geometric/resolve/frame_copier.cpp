@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/geometric/resolve/frame_copier.h"
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -65,16 +66,23 @@ void FrameCopier::reset() {
   asked_ = written_ = answered_ = 0;
 }
 
-Datasheet FrameCopier::datasheet() {
+Datasheet FrameCopier::datasheet(const spec::geometric::Parameters& p) {
+  const Hardware buffer = fill_store(p.copy_lines);
   return {.unit = "FrameCopier",
           .does = "Copies the whole frame before it is resolved (`frame_copy`).",
           .latency = {0, "-"},
           .interval = {2,
                        "2 cycles of the port per line if M + 8 <= 2 copy_lines, otherwise (M + 8) "
                        "/ copy_lines"},
-          .stages = {{"1", "reads a line while an entry is free, otherwise writes the oldest line",
-                      "26-bit add"}},
-          .cost = "copy_buffer, two 32-bit addresses."};
+          .stages = {{.clock = "1",
+                      .work = "reads a line while an entry is free, otherwise writes the oldest "
+                              "line; the number of lines is constant in a frame",
+                      .operators =
+                          built({op::add(14), op::mux(14, 2), op::multiply(11, 14), 3 * op::add(23),
+                                 3 * op::equal(23), 2 * op::add(26), op::mux(38, 2), op::logic(20)},
+                                buffer.operators),
+                      .longest = {op::add(26), op::mux(38, 2)},
+                      .registers = 3 * 23 + 1 + buffer.registers}}};
 }
 
 }  // namespace deburr::rtl::geometric

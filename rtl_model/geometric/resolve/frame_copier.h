@@ -34,7 +34,7 @@ class FrameCopier final : public Unit {
 
   Counter lines_copied{"lines_copied", "lines", "lines read and written"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   // A cycle with work to do.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 #include "spec/geometric/tables.h"
 
@@ -338,25 +339,72 @@ void Resolver::reset() {
   loaded_beats_ = 0;
 }
 
-Datasheet Resolver::datasheet() {
+Datasheet Resolver::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t lanes = resolve_lanes_of(p), token = Payload::of<BlockToken>().bits();
+  // Alpha is only kept of a block's own pixels.
+  constexpr std::uint32_t kOwn = 16 * 32, kSide = 4 * 24, kWindow = kOwn + 4 * kSide,
+                          kWeights = 16 * 32;
+  // A block in the blend: position, blended pixels, last beat, end, lanes in use.
+  constexpr std::uint32_t kBlock = 22 + 16 + 2 + 3 + 1;
   return {
       .unit = "Resolver",
       .does = "Blends the pixels of a touched block and writes them back, in place.",
       .latency = {8, "8 for a block of one line and resolve_lanes pixels, plus the wait for lines"},
       .interval = {1,
                    "max(1, lines, ceil(blended pixels / resolve_lanes), lines to write) per block"},
-      .stages = {{"1", "one line per cycle into a window of 16 pixels and their 16 neighbours"},
-                 {"2", "original values of blended neighbours", "SRAM read"},
-                 {"3", "selection of pixels, address of linear_rom"},
-                 {"4", "linear light, differences", "ROM read"},
-                 {"5", "products", "8 x 13 multiply + 22-bit add"},
-                 {"6", "rounding, address of encode_rom"},
-                 {"7", "codes", "ROM read"},
-                 {"8", "write"}},
+      .stages =
+          {{.clock = "1",
+            .work = "one line per cycle into a window of 16 pixels and their 16 neighbours",
+            .operators = {op::priority(18), op::logic(80), op::mux(4 * 32, 4), 2 * op::mux(24, 4),
+                          op::mux(kOwn, 2), 4 * op::mux(kSide, 2)},
+            .longest = {op::priority(18), op::logic(8), op::mux(4 * 32, 4), op::mux(kOwn, 2)},
+            .registers = token + kWindow + 1},
+           {.clock = "2",
+            .work = "original values of blended neighbours",
+            .path = "SRAM read",
+            .operators = {2 * op::mux(kSide, 2), op::add(11), op::equal(22), op::logic(16)},
+            .longest = {op::logic(4), op::mux(kSide, 2)},
+            .registers = kWindow + (kSide + 4 + 22 + 1) + kWeights + 3 * 16 + 22 + 2},
+           {.clock = "3",
+            .work = "selection of pixels, address of linear_rom",
+            .operators = {lanes * op::priority(16), op::logic(32 * lanes), 2 * op::mux(16 * 24, 2),
+                          op::mux(16 * 16, 2), lanes * op::mux(32, 16), 2 * lanes * op::mux(24, 16),
+                          lanes * op::mux(16, 16)},
+            .longest = {lanes * op::priority(16), op::mux(32, 16)},
+            .registers = lanes * (4 + 32 + 2 * 24 + 16) + kBlock},
+           {.clock = "4",
+            .work = "linear light, differences",
+            .operators = {9 * lanes * op::mux(12, 2), 6 * lanes * op::subtract(13)},
+            .longest = {op::rom_read(12, 256), op::mux(12, 2), op::subtract(13)},
+            .registers = lanes * (4 + 8 + 16 + 3 * 12 + 6 * 13) + kBlock},
+           {.clock = "5",
+            .work = "products",
+            .operators = {6 * lanes * op::multiply(8, 13), 3 * lanes * op::add(22)},
+            .longest = {op::multiply(8, 13), op::add(22)},
+            .registers = lanes * (4 + 8 + 3 * 12 + 3 * 22) + kBlock},
+           {.clock = "6",
+            .work = "rounding, address of encode_rom",
+            .operators = {3 * lanes * op::magnitude(22), 3 * lanes * op::add(15),
+                          3 * lanes * op::subtract(13)},
+            .longest = {op::magnitude(22), op::add(15), op::subtract(13)},
+            .registers = lanes * (4 + 8 + 3 * 12) + kBlock},
+           {.clock = "7",
+            .work = "codes; product of the block's address",
+            .operators = built({3 * lanes * op::mux(8, 2), op::logic(20 * lanes),
+                                16 * op::mux(32, lanes), op::mux(kOwn, 2),
+                                op::mux(11, 2), op::mux(10, 2), op::multiply(11, 10), op::add(22)}),
+            .longest =
+                built({op::rom_read(8, 4096), op::mux(8, 2), op::mux(32, lanes), op::mux(kOwn, 2)}),
+            .registers = 2 * kOwn + 22 + 16 + 2 + 4 + 22},
+           {.clock = "8",
+            .work = "write",
+            .operators = {op::priority(4), op::add(13), op::mux(13, 4), op::add(24), op::add(26),
+                          op::mux(4 * 32, 4), op::mux(kOwn, 2), op::logic(64), 2 * op::add(11)},
+            .longest = {op::priority(4), op::mux(13, 4), op::add(24), op::add(26)},
+            .registers = 11 + 1,
+            .on = "lines_written"}},
       .formats = "weights U0.8, linear light U0.12.",
-      .cost =
-          "two windows of 32 pixels, two of 16 result pixels, originals; per lane nine reads of "
-          "linear_rom, three of encode_rom, six multiplies 8 x 13."};
+      .cost = "resolve_lanes = " + std::to_string(lanes) + "."};
 }
 
 }  // namespace deburr::rtl::geometric

@@ -50,7 +50,7 @@ class Resolver final : public Unit {
   Counter blended_pixels{"blended_pixels", "pixels", "blended pixels"};
   Counter lines_written{"lines_written", "lines", "colour lines written"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   using Rgba = spec::geometric::Rgba8;

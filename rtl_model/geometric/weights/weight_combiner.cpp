@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
 #include "rtl_model/geometric/common/block_pixels.h"
+#include "rtl_model/geometric/common/hardware_lists.h"
 #include "spec/geometric/records.h"
 
 namespace deburr::rtl::geometric {
@@ -341,30 +343,65 @@ void WeightCombiner::reset() {
   writes_ = 0;
 }
 
-Datasheet WeightCombiner::datasheet() {
+Datasheet WeightCombiner::datasheet(const spec::geometric::Parameters& p) {
+  const std::uint32_t
+      lanes = lane_count(p.walkers),
+      both = 2 * lanes, ring = static_cast<std::uint32_t>(p.write_buffer), kept = ring > 0,
+      fills = static_cast<std::uint32_t>(p.fills),
+      blocks = spec::geometric::kCacheLineCount[static_cast<std::size_t>(p.weight_blocks)],
+      index = bits_below(blocks), tag = WeightPlaces::kTagBits,
+      group = Payload::of<WeightToken>({.lanes = lanes}).bits(),
+      lookup = Payload::of<Lookup>(lookup_shape(p)).bits();
+  constexpr std::uint32_t kBlock = 8 * spec::geometric::kLineBytes;
+  const Hardware store = fill_store(p.fills), tags = line_cache(blocks, tag, 1, true);
   return {
       .unit = "WeightCombiner",
+      .variant = kept ? "with `write_buffer`" : "without `write_buffer`",
       .does = "Combines the weights of each pixel cut by a line, and marks the touched blocks.",
       .latency = {5, "5, plus the wait for a block"},
       .interval = {1, "1; 2 for a group with second candidates in another block"},
-      .stages = {{"1", "address of tag and touched word, product of the block's address",
-                  "11 x 11 multiply"},
-                 {"2",
-                  "tag, touched bit, spill list and write buffer; read "
-                  "request; FIFO",
-                  "SRAM read + 23-bit compare"},
-                 {"3", "block install, address of the word and of the one in the write buffer"},
-                 {"4",
-                  "the word or its fill, maxima and minima; the replaced block "
-                  "written back, or into the write buffer, whose oldest block is written back",
-                  "SRAM read + 16 : 1 choice + 8-bit compare"},
-                 {"5", "write, with a bypass to the next group"}},
-      .cost =
-          "tags, touched map and data 1R1W, the blocks in flight, the FIFO; the spill "
-          "list, 23 bits each, compared with a tag in parallel: `fills` comparators of 23 bits "
-          "(108 for a memory of 100 cycles) and a choice of its first free entry; two 11 x 11 "
-          "multiplies; per lane and candidate (two) a 16 : 1 choice and an 8-bit comparator. "
-          "`write_buffer` = N: N blocks 1R1W, N comparators of 23 bits, 9 more bits of the FIFO."};
+      .stages =
+          {{.clock = "1",
+            .work = "address of tag and touched word, product of the block's address",
+            .operators = {op::logic(12 * lanes), op::add(11), op::mux(group, 2),
+                          op::multiply(11, 5), op::add(16), op::multiply(11, 12), op::add(23)},
+            .longest = {op::mux(group, 2), op::multiply(11, 12), op::add(23)},
+            .registers = group + lanes + 11 + 1 + 16 + 23 + 1},
+           {.clock = "2",
+            .work = std::string("tag, touched bit, spill list") + (kept ? ", write buffer" : "") +
+                    "; read request; FIFO",
+            .path = "SRAM read",
+            .operators =
+                built({fills * op::equal(tag), op::priority(fills), op::mux(1, 128), op::logic(256),
+                       op::mux(16, 2), op::add(17), 2 * op::add(9), op::add(26), op::mux(38, 2),
+                       ring * op::equal(tag), kept * op::mux(tag, ring), kept * op::mux(tag, 2),
+                       kept * op::logic(6 * ring), 2 * kept * op::add(8)},
+                      built(tags.operators, store.operators)),
+            .longest = built(
+                {op::equal(tag), kept * op::mux(tag, ring), op::logic(8), kept * op::mux(tag, 2)}),
+            .registers = tags.registers + store.registers + 17 + 9 + 3 + kept * (7 + 8 + 1)},
+           {.clock = "3",
+            .work = std::string("block install, address of the word") +
+                    (kept ? " and of the one in the write buffer" : ""),
+            .operators = {op::logic(kBlock), op::multiply(11, 12), op::add(23)},
+            .longest = {op::multiply(11, 12), op::add(23)},
+            .registers = kBlock + lookup + 23 - 22},
+           {.clock = "4",
+            .work = std::string("the word or its fill, maxima and minima; the replaced block "
+                                "written back") +
+                    (kept ? ", or into the write buffer, whose oldest block is written back" : ""),
+            .path = "SRAM read",
+            .operators = {op::mux(kBlock, 2), op::mux(kBlock, 2 + kept), op::mux(256, 2),
+                          both * op::mux(8, 32), both * op::compare(8), both * op::mux(8, 2),
+                          op::logic(60 * both), 16 * op::mux(8, both), op::mux(kBlock, 2),
+                          op::equal(index), op::add(26)},
+            .longest = {op::mux(kBlock, 2), op::mux(kBlock, 2 + kept), op::mux(256, 2),
+                        op::mux(8, 32), op::compare(8), op::mux(8, 2), op::mux(8, both),
+                        op::mux(kBlock, 2)},
+            .registers = kBlock + index + 3},
+           {.clock = "5", .work = "write, with a bypass to the next group"}},
+      .cost = "walkers = " + std::to_string(lanes) + ", fills = " + std::to_string(fills) +
+              (kept ? ", write_buffer = " + std::to_string(ring) : "") + "."};
 }
 
 }  // namespace deburr::rtl::geometric

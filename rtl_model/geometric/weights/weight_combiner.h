@@ -63,7 +63,7 @@ class WeightCombiner final : public Unit {
   Histogram edge_latency{"edge_latency", "clk",
                          "from an edge leaving the EdgeReader to the write of its last group"};
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::geometric::Parameters& parameters = {});
 
  private:
   // A group reduced to the candidates of one block.
