@@ -379,16 +379,12 @@ std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines)
       "* **Latency** is counted from the cycle in which a unit pops a token from its input link to "
       "the cycle in which the next unit\n  can pop the result.\n"
       "* **Initiation interval** is the number of cycles from one token to the next.\n"
-      "* **Longest path** of a stage is estimated from its operators and their widths, not "
-      "synthesised; a stage without one is\n"
-      "  shorter than others of its unit. Unless stated otherwise, units are designed for 250 MHz "
-      "in standard cells: no stage does more\n"
-      "  than a 24 x 24 multiply, an SRAM read and a 16-bit addition, or a choice of 1 in 32 and "
-      "an "
-      "addition. In an FPGA such a\n"
-      "  multiply runs at 100 to 170 MHz. Stages that do more say so, with their delay relative to "
-      "the multiply where they were\n"
-      "  synthesised separately (yosys, 180 nm standard cells osu018).\n"
+      "* **Longest path**: the operators in series in a stage, with their widths in bits; a stage "
+      "without one is shorter than\n  others of its unit. Units are designed for 250 MHz in "
+      "standard cells.\n"
+      "* **Cost**: operators and flip-flops of a unit, as built in the page's variants. Memories "
+      "and links come on top.\n  `deburr params ENGINE --cost` [estimates](../explanation/cost.md) "
+      "gates and nanoseconds from them.\n"
       "\n## Fabric\n";
   page += rtl::datasheets_markdown(std::vector{rtl::MemoryPort::datasheet()});
   for (const auto& engine : engines)
