@@ -215,53 +215,54 @@ Datasheet DiagonalUnit::datasheet(const spec::morphological::Parameters& p) {
   const std::uint32_t lanes = lane_copies(p), steps = static_cast<std::uint32_t>(p.diagonal_steps),
                       behind = (steps + lanes) / lanes;
   const std::uint32_t clamp = p.border == spec::morphological::Border::kClamp ? 1 : 0;
-  constexpr std::uint32_t kSearches = 4, kPlanes = 2, kDistance = 5, kLines = 2;
+  constexpr std::uint32_t kSearches = 4, kPlanes = 2, kDistance = 5, kDiagonals = 2;
   const std::uint32_t rows = 2 * steps + 1, columns = (behind + 1) * lanes + steps + 1;
-  return {.unit = "DiagonalUnit",
-          .does = "Weights of pixels on a diagonal (`diagonals`).",
-          .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
-          .stages =
-              {{.clock = "1",
-                .work = "shift (D beats until the pixels are evaluated); with border = clamp, rows "
-                        "outside the frame repeat the nearest one",
-                .operators = {2 * kPlanes * clamp * op::mux(1, rows),
-                              2 * kPlanes * clamp * op::logic(rows)},
-                .longest = clamp != 0 ? std::vector{op::mux(1, rows), op::logic(2)}
-                                      : std::vector<Operator>{}},
-               // A search reads two bits per step, one more per step for the extra bit of its end,
-               // and two for the crossing code of each distance.
-               {.clock = "2",
-                .work = "tags, valid steps, first gap, four searches",
-                .operators = {kSearches * op::logic(2 * steps), kSearches * op::leading_one(steps),
-                              kSearches * op::maximum(kDistance),
-                              clamp * op::mux(kSearches * (5 * steps + 2), 2), op::logic(20)},
-                .longest = {op::equal(6), op::logic(clamp != 0 ? 6 : 2), op::leading_one(steps),
-                            op::maximum(kDistance)},
-                .registers = kSearches * (kDistance + 2 + 3 * (steps + 1)) + 1},
-               // The crossing codes at both distances, with and without the extra pixel.
-               {.clock = "3",
-                .work = "the ends' extra bits and crossing bits, d1 + d2 > 2",
-                .operators = {kSearches * op::mux(5, steps + 1), kSearches * op::mux(2, 2),
-                              kSearches * op::add(kDistance), kLines * op::add(6), op::logic(20)},
-                .longest = {op::mux(5, steps + 1), op::add(kDistance), op::add(6), op::logic(4)},
-                .registers = kLines * (2 * kDistance + 2 * 2 + 1) + 1},
-               {.clock = "4",
-                .work = "`diagonal_rom` addresses",
-                .operators = {kLines * op::multiply_constant(4, 2),
-                              kLines * op::multiply_constant(kDistance, 1),
-                              2 * kLines * op::add(13), kLines * op::add(6), op::maximum(6)},
-                .longest = {op::multiply_constant(4, 2), 2 * op::add(13)},
-                .registers = 6 + kLines + 1},
-               {.clock = "5",
-                .work = "words, sum, limit, push",
-                .operators = {op::logic(32), 2 * op::add(9), 2 * op::logic(24)},
-                .longest = {op::rom_read(16, kDiagonalWords), op::add(9), op::logic(4)}}},
-          .formats = "weights U0.8, span U6.",
-          .copies = lanes,
-          .per = "lane",
-          // Tags of the window; with clamp, first and last column of two rows.
-          .shared = {columns * op::equal(6), clamp * 2 * op::add(14), op::logic(40)},
-          .shared_registers = 6 + 4 + clamp * 4 * kPlanes * rows};
+  return {
+      .unit = "DiagonalUnit",
+      .does = "Weights of pixels on a diagonal (`diagonals`).",
+      .latency = {behind + 5, "D + 5, D = ceil((diagonal_steps + 1) / lanes)"},
+      .stages =
+          {{.clock = "1",
+            .work = "shift (D beats until the pixels are evaluated); with border = clamp, rows "
+                    "outside the frame repeat the nearest one",
+            .operators = {2 * kPlanes * clamp * op::mux(1, rows),
+                          2 * kPlanes * clamp * op::logic(rows)},
+            .longest =
+                clamp != 0 ? std::vector{op::mux(1, rows), op::logic(2)} : std::vector<Operator>{}},
+           // A search reads two bits per step, one more per step for the extra bit of its end,
+           // and two for the crossing code of each distance.
+           {.clock = "2",
+            .work = "tags, valid steps, first gap, four searches",
+            .operators = {kSearches * op::logic(2 * steps), kSearches * op::leading_one(steps),
+                          kSearches * op::maximum(kDistance),
+                          clamp * op::mux(kSearches * (5 * steps + 2), 2), op::logic(20)},
+            .longest = {op::equal(6), op::logic(clamp != 0 ? 6 : 2), op::leading_one(steps),
+                        op::maximum(kDistance)},
+            .registers = kSearches * (kDistance + 2 + 3 * (steps + 1)) + 1},
+           // The crossing codes at both distances, with and without the extra pixel.
+           {.clock = "3",
+            .work = "the ends' extra bits and crossing bits, d1 + d2 > 2",
+            .operators = {kSearches * op::mux(5, steps + 1), kSearches * op::mux(2, 2),
+                          kSearches * op::add(kDistance), kDiagonals * op::add(6), op::logic(20)},
+            .longest = {op::mux(5, steps + 1), op::add(kDistance), op::add(6), op::logic(4)},
+            .registers = kDiagonals * (2 * kDistance + 2 * 2 + 1) + 1},
+           {.clock = "4",
+            .work = "`diagonal_rom` addresses",
+            .operators = {kDiagonals * op::multiply_constant(4, 2),
+                          kDiagonals * op::multiply_constant(kDistance, 1),
+                          2 * kDiagonals * op::add(13), kDiagonals * op::add(6), op::maximum(6)},
+            .longest = {op::multiply_constant(4, 2), 2 * op::add(13)},
+            .registers = 6 + kDiagonals + 1},
+           {.clock = "5",
+            .work = "words, sum, limit, push",
+            .operators = {op::logic(32), 2 * op::add(9), 2 * op::logic(24)},
+            .longest = {op::rom_read(16, kDiagonalWords), op::add(9), op::logic(4)}}},
+      .formats = "weights U0.8, span U6.",
+      .copies = lanes,
+      .per = "lane",
+      // Tags of the window; with clamp, first and last column of two rows.
+      .shared = {columns * op::equal(6), clamp * 2 * op::add(14), op::logic(40)},
+      .shared_registers = 6 + 4 + clamp * 4 * kPlanes * rows};
 }
 
 }  // namespace deburr::rtl::morphological
