@@ -21,10 +21,10 @@ std::string listed(std::span<const Operator> operators) {
   return text;
 }
 
-// "per lane: 2 multiplies 23 x 23, 28 adds 38, 310 flip-flops; once: an add 14."
+// "multiply 23 x 23 (2); add 38 (28); 310 flip-flops"
 std::string hardware_text(std::span<const Operator> operators, std::uint64_t registers) {
-  std::string text = listed(summed(operators));
-  if (registers > 0) text += fmt::format("{}{} flip-flops", text.empty() ? "" : ", ", registers);
+  std::string text = by_kind(operators);
+  if (registers > 0) text += fmt::format("{}{} flip-flops", text.empty() ? "" : "; ", registers);
   return text;
 }
 
@@ -45,9 +45,9 @@ std::string cost_text(const Datasheet& sheet) {
   std::string text = hardware_text(operators, stage_registers(sheet));
   if (!text.empty() && !sheet.per.empty()) text = "per " + sheet.per + ": " + text;
   if (const std::string once = hardware_text(sheet.shared, sheet.shared_registers); !once.empty())
-    text += (text.empty() ? "" : "; once: ") + once;
+    text += (text.empty() ? "" : ". Once: ") + once;
   if (text.empty()) return sheet.cost;
-  return text + (sheet.cost.empty() ? "." : "; " + sheet.cost);
+  return text + (sheet.cost.empty() ? "." : ". " + sheet.cost);
 }
 
 std::string path_text(const Stage& stage) {

@@ -20,7 +20,7 @@ constexpr auto kWords = std::to_array<Words>({
     {"compare", "comparator", "comparators", "{0}"},
     {"equal", "equality comparator", "equality comparators", "{0}"},
     {"magnitude", "magnitude", "magnitudes", "{0}"},
-    {"maximum", "maximum or minimum", "maxima or minima", "{0}"},
+    {"maximum", "maximum", "maxima", "{0}"},
     {"mux", "mux", "muxes", "{1} : 1 x {0}"},
     {"multiply", "multiply", "multiplies", "{0} x {1}"},
     {"square", "square", "squares", "{0}"},
@@ -49,6 +49,39 @@ std::string text_of(const Operator& one) { return words(one.kind).one + (" " + w
 std::string counted(const Operator& one) {
   if (one.count == 1) return text_of(one);
   return fmt::format("{} {} {}", one.count, words(one.kind).many, widths(one));
+}
+
+std::string by_kind(std::span<const Operator> operators) {
+  std::vector<Operator> sums;
+  for (Operator one : operators) {
+    // Random logic has no width: its gates add up.
+    if (one.kind == OperatorKind::kLogic) one = {one.kind, one.a * one.count};
+    if (const auto same = std::find_if(sums.begin(), sums.end(),
+                                       [&](const Operator& other) {
+                                         return one.kind == OperatorKind::kLogic &&
+                                                other.kind == one.kind;
+                                       });
+        same != sums.end())
+      same->a += one.a;
+    else
+      sums.push_back(one);
+  }
+  sums = summed(sums);
+  std::string text;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const OperatorKind kind = sums[i].kind;
+    const auto is_kind = [&](const Operator& other) { return other.kind == kind; };
+    if (std::any_of(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(i), is_kind)) continue;
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", words(kind).one);
+    const char* before = " ";
+    for (const Operator& one : sums) {
+      if (!is_kind(one)) continue;
+      text += before + widths(one);
+      if (one.count > 1) text += fmt::format(" ({})", one.count);
+      before = ", ";
+    }
+  }
+  return text;
 }
 
 std::vector<Operator> summed(std::span<const Operator> operators) {

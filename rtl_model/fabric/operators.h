@@ -85,6 +85,8 @@ const char* name_of(OperatorKind kind);  // "multiply_constant": the key in tool
 // "2 multiplies 23 x 23"; without the count "multiply 23 x 23".
 std::string counted(const Operator& one);
 std::string text_of(const Operator& one);
+// "add 38 (28), 41; multiply 23 x 23 (2)": equal ones with their number in brackets.
+std::string by_kind(std::span<const Operator> operators);
 // Equal operators in one, in the order of their first; without those of count 0 (not built).
 std::vector<Operator> summed(std::span<const Operator> operators);
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/memory_port.h"
 
 namespace deburr::tb {
@@ -76,7 +77,8 @@ MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, in
   if (width > 0) f.logical_bits_at_frame_width = memory.bits_at(static_cast<std::uint64_t>(width));
   f.physical_bits = memory.physical_bits();
   f.register_bits = memory.register_bits();
-  f.owner = owner_of(memory).basename();
+  const sc_core::sc_object& owner = owner_of(memory);
+  f.owner = dynamic_cast<const rtl::Engine*>(&owner) ? "others" : owner.basename();
   f.read_ports = memory.shape().read_ports + memory.shape().shared_ports;
   f.write_ports = memory.shape().write_ports + memory.shape().shared_ports;
   if (const auto* ported = dynamic_cast<const rtl::PortedMemory*>(&memory)) {

@@ -133,7 +133,9 @@ TEST(Datasheets, CostSentenceCountsOperatorsOfClocksAndCopies) {
                   .operators = {rtl::op::add(8), rtl::op::mux(8, 4)},
                   .longest = {rtl::op::add(8), rtl::op::mux(8, 4), rtl::op::mux(8, 1)},
                   .registers = 8},
-                 {.clock = "5, 6", .work = "product", .operators = {rtl::op::multiply(8, 9)}}},
+                 {.clock = "5, 6",
+                  .work = "product",
+                  .operators = {rtl::op::multiply(8, 9), rtl::op::logic(6)}}},
       .copies = 2,
       .per = "lane",
       .shared = {rtl::op::compare(5)},
@@ -142,10 +144,12 @@ TEST(Datasheets, CostSentenceCountsOperatorsOfClocksAndCopies) {
   EXPECT_THAT(rtl::datasheets_markdown(std::vector{adder}),
               testing::HasSubstr("| 2-4 | sum and choice | add 8, mux 4 : 1 x 8 |"));
   EXPECT_THAT(rtl::datasheets_markdown(std::vector{adder}),
-              testing::HasSubstr("Cost: per lane: 5 adds 8, 3 muxes 4 : 1 x 8, 2 multiplies 8 x 9, "
-                                 "33 flip-flops; once: comparator 5, 3 flip-flops; a FIFO.\n"));
-  EXPECT_EQ(operators_of(adder), (std::vector{10 * rtl::op::add(8), 6 * rtl::op::mux(8, 4),
-                                              4 * rtl::op::multiply(8, 9), rtl::op::compare(5)}));
+              testing::HasSubstr("Cost: per lane: add 8 (5); mux 4 : 1 x 8 (3); multiply 8 x 9 "
+                                 "(2); logic 12 gates; 33 flip-flops. Once: comparator 5; 3 "
+                                 "flip-flops. a FIFO.\n"));
+  EXPECT_EQ(operators_of(adder),
+            (std::vector{10 * rtl::op::add(8), 6 * rtl::op::mux(8, 4), 4 * rtl::op::multiply(8, 9),
+                         4 * rtl::op::logic(6), rtl::op::compare(5)}));
   EXPECT_EQ(registers_of(adder), 69u);
 }
 
