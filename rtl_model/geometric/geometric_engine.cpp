@@ -231,7 +231,9 @@ spec::geometric::Work GeometricEngine::work() const {
 }
 
 std::vector<Datasheet> GeometricEngine::datasheets() const {
-  return geometric::datasheets(parameters_);
+  std::vector<Datasheet> sheets = geometric::datasheets(parameters_);
+  sheets.push_back(MemoryPort::datasheet(port_, request_tag_bits(parameters_)));
+  return sheets;
 }
 
 }  // namespace deburr::rtl::geometric

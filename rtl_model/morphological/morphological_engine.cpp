@@ -7,6 +7,16 @@
 #include "spec/morphological/check_build.h"
 
 namespace deburr::rtl::morphological {
+namespace {
+
+// With storage = memory.
+MemoryPortParameters port_of(const spec::morphological::Parameters& p) {
+  MemoryPortParameters port;
+  port.outstanding = 2 * static_cast<std::uint32_t>(p.memory_outstanding);
+  return port;
+}
+
+}  // namespace
 
 MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, ClockDomain& clock,
                                          const spec::morphological::Parameters& parameters)
@@ -119,8 +129,7 @@ MorphologicalEngine::MorphologicalEngine(const sc_core::sc_module_name& name, Cl
     (*blender.guards_in)(text_guard->guards());
   }
   if (parameters_.storage == spec::morphological::Storage::kMemory) {
-    MemoryPortParameters port;
-    port.outstanding = 2 * static_cast<std::uint32_t>(parameters_.memory_outstanding);
+    const MemoryPortParameters port = port_of(parameters_);
     memory_port = std::make_unique<MemoryPort>("memory_port", clock, port);
     requests_ = std::make_unique<Link<MemoryRequest>>(
         "requests", 2, request_shape(port, 32, PixelStore::kTagBits));
@@ -162,7 +171,10 @@ bool MorphologicalEngine::idle() const {
 }
 
 std::vector<Datasheet> MorphologicalEngine::datasheets() const {
-  return morphological::datasheets(parameters_);
+  std::vector<Datasheet> sheets = morphological::datasheets(parameters_);
+  if (memory_port)
+    sheets.push_back(MemoryPort::datasheet(port_of(parameters_), PixelStore::kTagBits));
+  return sheets;
 }
 
 spec::morphological::Work MorphologicalEngine::work() const {
