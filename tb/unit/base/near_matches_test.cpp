@@ -37,7 +37,11 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
                                           "work.level_unit_two_levels",
                                           "unit.bypass",
                                           "memory.bytes_per_cycle",
-                                          "units.run_extractor.stalls.descriptors"};
+                                          "units.run_extractor.stalls.descriptors",
+                                          "geometric/lookup/depth/hit",
+                                          "geometric/rejection/size",
+                                          "morphological/bypass/beside/left",
+                                          "morphological/bypass-border/left/bypassed"};
   for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
            {"run.truth", "run.reference"},
            {"frame.truth", "frame.reference"},
@@ -49,11 +53,16 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
            {"work.level_two_levels", "work.level_unit_two_levels"},
            {"unit.leave", "unit.bypass"},
            {"memory.bytes_per_clock", "memory.bytes_per_cycle"},
-           {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"}}) {
+           {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"},
+           {"geometric/look-up/depth/hit", "geometric/lookup/depth/hit"},
+           {"geometric/refusal/size", "geometric/rejection/size"},
+           {"morphological/left/beside/left", "morphological/bypass/beside/left"},
+           {"morphological/leave-border/left/left", "morphological/bypass-border/left/bypassed"}}) {
     EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
   }
   EXPECT_EQ(renamed("texture.cache.bites", known), std::nullopt);
   EXPECT_EQ(renamed("texture.axis_clocksmith", known), std::nullopt);
+  EXPECT_EQ(with_current_words("geometric/pair-look-up/*"), "geometric/pair-lookup/*");
 }
 
 TEST(DidYouMean, FormatsSuggestions) {
