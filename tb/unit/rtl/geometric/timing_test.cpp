@@ -628,7 +628,8 @@ TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
   for (int i = 0; i < 9; ++i) b.ends.source.add(DepthBench::column(4, i));
   finish(b, b.ends, 9);
   EXPECT_EQ(b.unit.misses.value(), 72u);
-  // The next group starts when the previous one has released its entries: M + 6 and eight lines.
+  // A group starts when the previous one has released its entries: after M + 6 cycles, and one
+  // cycle per line.
   EXPECT_LE(spread(b.ends), 8u * (26 + 8 + 8));
 }
 
