@@ -38,10 +38,10 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
                                           "unit.bypass",
                                           "memory.bytes_per_cycle",
                                           "units.run_extractor.stalls.descriptors",
-                                          "geometric/lookup/depth/hit",
-                                          "geometric/rejection/size",
-                                          "morphological/bypass/beside/left",
-                                          "morphological/bypass-border/left/bypassed"};
+                                          "bins/lookup/depth/hit",
+                                          "bins/rejection/size",
+                                          "bins/bypass/beside/left",
+                                          "bins/bypass-border/left/bypassed"};
   for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
            {"run.truth", "run.reference"},
            {"frame.truth", "frame.reference"},
@@ -54,15 +54,16 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
            {"unit.leave", "unit.bypass"},
            {"memory.bytes_per_clock", "memory.bytes_per_cycle"},
            {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"},
-           {"geometric/look-up/depth/hit", "geometric/lookup/depth/hit"},
-           {"geometric/refusal/size", "geometric/rejection/size"},
-           {"morphological/left/beside/left", "morphological/bypass/beside/left"},
-           {"morphological/leave-border/left/left", "morphological/bypass-border/left/bypassed"}}) {
+           {"bins/look-up/depth/hit", "bins/lookup/depth/hit"},
+           {"bins/refusal/size", "bins/rejection/size"},
+           {"bins/left/beside/left", "bins/bypass/beside/left"},
+           {"bins/leave-border/left/left", "bins/bypass-border/left/bypassed"}}) {
     EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
   }
   EXPECT_EQ(renamed("texture.cache.bites", known), std::nullopt);
   EXPECT_EQ(renamed("texture.axis_clocksmith", known), std::nullopt);
-  EXPECT_EQ(with_current_words("geometric/pair-look-up/*"), "geometric/pair-lookup/*");
+  EXPECT_EQ(with_current_words("bins/pair-look-up/*"), "bins/pair-lookup/*");
+  EXPECT_EQ(with_current_words("bins/left/*"), "bins/bypass/*");
 }
 
 TEST(DidYouMean, FormatsSuggestions) {
