@@ -817,7 +817,7 @@ TEST(WeightCombiner, NeighbouringBlockHasElevenBits) {
   EXPECT_EQ(weights_at(b, 4096, 0)[2], 9);
 }
 
-// A group of two blocks is one group of its line.
+// A group with pixels of two blocks counts as one group of its line.
 TEST(WeightCombiner, GroupOfTwoBlocksCountsOnceInTheLatency) {
   CombinerBench b;
   b.edge_latency.leave(0, 2);
