@@ -407,6 +407,10 @@ class Platform(Scratch):
         said, shown = self.after_installing("howto/use_in_my_platform")
         self.assertEqual(not_printed(shown, said), [])
         self.assertRegex(shown, r"^PASS picture ")
+        page = (PREFIX / "share/deburr/docs/howto/use_in_my_platform.md").read_text(encoding="utf-8")
+        lines = [line.strip() for line in (EXAMPLES / "platform/main.cpp").read_text(encoding="utf-8").splitlines()]
+        quoted = re.search(r"^```cpp\n(.*?)^```", page, re.M | re.S)[1]
+        self.assertEqual([line for line in quoted.splitlines() if line.strip() not in lines], [])
         program = self.folder / "build/platform"
         said = alone(program, "--out", "picture.ppm", cwd=self.folder)
         self.assertIn("PASS picture", said)

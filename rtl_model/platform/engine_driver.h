@@ -49,7 +49,7 @@ class EngineDriver {
       : registers_(registers), layout_(layout) {}
   ~EngineDriver() = default;
 
-  // SimulationError while the engine is busy and would ignore writes.
+  // Throws SimulationError while the engine is busy, since it would ignore writes.
   void require_idle(std::string_view doing);
   // Throws ConfigError, prefixed with the engine's name.
   [[noreturn]] void reject(const std::string& text) const;

@@ -126,7 +126,8 @@ std::uint32_t GroupFormer::emit_within(std::uint32_t most, LineGroup& group) {
     const Waiting& waiting = buffer_[at];
     std::array<std::uint8_t, 4> index{};
     if (waiting.lines != 0) add(waiting, lines, index, exceeded);
-    // What the oldest request exceeds by itself stays exceeded, so it leaves alone.
+    // If the oldest request exceeds a limit by itself, `exceeded` stays set, and the group has only
+    // this request.
     if (n != 0 && exceeded.any()) break;
     group.at[n] = waiting.request;
     group.at[n].index = index;

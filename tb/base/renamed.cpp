@@ -41,6 +41,7 @@ constexpr std::array kWords{Pair{"clocks", "cycles"},
                             Pair{"bytes_a_blended_pixel", "bytes_per_blended_pixel"},
                             Pair{"look_up", "lookup"},
                             Pair{"look_ups", "lookups"},
+                            Pair{"look-up", "lookup"},
                             Pair{"most_outstanding", "max_outstanding"},
                             Pair{"most_waiting", "max_waiting"},
                             Pair{"record", "descriptor"},
@@ -56,21 +57,18 @@ constexpr std::array kWords{Pair{"clocks", "cycles"},
                             Pair{"idealised", "not_implementable"},
                             Pair{"window_cycles", "interval_cycles"},
                             Pair{"windows", "intervals"},
-                            Pair{"buckets", "signatures"}};
+                            Pair{"buckets", "signatures"},
+                            Pair{"refusal", "rejection"},
+                            Pair{"left/beside", "bypass/beside"},
+                            Pair{"left/half", "bypass/half"},
+                            Pair{"left/marked", "bypass/marked"},
+                            Pair{"left/*", "bypass/*"},
+                            Pair{"bottom/left", "bottom/bypassed"},
+                            Pair{"left/left", "left/bypassed"},
+                            Pair{"right/left", "right/bypassed"},
+                            Pair{"top/left", "top/bypassed"}};
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
-
-std::string with_words_of_today(std::string name) {
-  for (const auto& [before, now] : kWords) {
-    for (std::size_t at = name.find(before); at != std::string::npos;
-         at = name.find(before, at + now.size())) {
-      const std::size_t end = at + before.size();
-      if ((at > 0 && is_word(name[at - 1])) || (end < name.size() && is_word(name[end]))) continue;
-      name.replace(at, before.size(), now);
-    }
-  }
-  return name;
-}
 
 // Whether `now` is `before` with renamed instances, compared part by part.
 bool is_renamed(std::string_view before, std::string_view now) {
@@ -93,8 +91,20 @@ bool is_renamed(std::string_view before, std::string_view now) {
 
 }  // namespace
 
+std::string with_current_words(std::string name) {
+  for (const auto& [before, now] : kWords) {
+    for (std::size_t at = name.find(before); at != std::string::npos;
+         at = name.find(before, at + now.size())) {
+      const std::size_t end = at + before.size();
+      if ((at > 0 && is_word(name[at - 1])) || (end < name.size() && is_word(name[end]))) continue;
+      name.replace(at, before.size(), now);
+    }
+  }
+  return name;
+}
+
 std::optional<std::string> renamed(std::string_view name, const std::vector<std::string>& known) {
-  const std::string today = with_words_of_today(std::string(name));
+  const std::string today = with_current_words(std::string(name));
   const auto found = std::find_if(known.begin(), known.end(),
                                   [&](const std::string& k) { return is_renamed(today, k); });
   return found == known.end() || *found == name ? std::nullopt : std::optional(*found);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names changed in version 0.4.0: parameters, keys of result.json, instances and registers.
+// Names changed in version 0.4.0: parameters, keys of result.json, instances, registers and
+// coverage bins.
 #pragma once
 
 #include <optional>
@@ -9,8 +10,10 @@
 
 namespace deburr::tb {
 
-// The current name, among `known`, of a parameter, key, instance or register called `name` before
-// 0.4.0; empty if none.
+// `name` with each renamed word replaced, such as a glob of coverage bins.
+std::string with_current_words(std::string name);
+
+// The current name, among `known`, of what was called `name` before 0.4.0; empty if none.
 std::optional<std::string> renamed(std::string_view name, const std::vector<std::string>& known);
 
 }  // namespace deburr::tb

@@ -28,8 +28,8 @@ std::string wrapped(std::string_view text, std::size_t columns, std::size_t inde
 inline constexpr std::size_t kAfterLabel = 12;  // "rate        "
 void print_wrapped(std::string_view text, std::size_t indent = kAfterLabel);
 
-// A table row that is too wide for one line: its first cell, and the others below it. `titles`: of
-// the columns; empty cells are omitted.
+// A table row that is too wide for one line: its first cell, and the others below it. `titles`
+// are those of the columns; empty cells are omitted.
 std::string row_in_lines(const std::vector<std::string>& row,
                          const std::vector<std::string>& titles, std::size_t columns);
 

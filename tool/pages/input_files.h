@@ -37,7 +37,7 @@ std::string different_inputs(const nlohmann::ordered_json& a, const nlohmann::or
 class InputFiles {
  public:
   const std::string& content(const std::filesystem::path& file);
-  // Of several files, under one key.
+  // The contents of several files, in their order.
   std::vector<std::string> contents(const std::vector<std::filesystem::path>& files);
   // FileError if one of the files has changed since its first use.
   void reject_changed(const std::vector<std::filesystem::path>& files);

@@ -20,6 +20,7 @@
 #include "spec/error.h"
 #include "tb/base/file.h"
 #include "tb/base/near_matches.h"
+#include "tb/base/renamed.h"
 #include "tb/base/yaml_file.h"
 #include "tb/run/parameter_set.h"
 #include "tool/run/engine.h"
@@ -349,11 +350,18 @@ class TestplanFile {
       yaml_.fail(node, fmt::format("'{}' is not a glob: * matches any text and ? any character; [, "
                                    "{{, ! and \\ are not supported",
                                    glob));
-    if (std::none_of(bins.begin(), bins.end(),
-                     [&](const std::string& bin) { return rtl::glob_match(glob, bin); }))
-      yaml_.fail(node,
-                 fmt::format("no bin of {} engines matches '{}'{} (docs/reference/coverage.md)",
-                             whose, glob, tb::did_you_mean(tb::near_matches(glob, bins))));
+    const auto matches = [&](const std::string& pattern) {
+      return std::any_of(bins.begin(), bins.end(),
+                         [&](const std::string& bin) { return rtl::glob_match(pattern, bin); });
+    };
+    if (!matches(glob)) {
+      const std::string now = tb::with_current_words(glob);
+      yaml_.fail(
+          node,
+          fmt::format(
+              "no bin of {} engines matches '{}'{} (docs/reference/coverage.md)", whose, glob,
+              tb::did_you_mean(matches(now) ? std::vector{now} : tb::near_matches(glob, bins))));
+    }
     return glob;
   }
 

@@ -52,7 +52,7 @@ SlurmStatus ask_slurm(const SlurmJob& job);
 // Prevents queued points from being run twice: FileError while the most recently submitted job has
 // tasks. A finished job is forgotten.
 void reject_while_submitted(const SweepPlace& place);
-// Returns when none of its tasks is queued or running, or kInterruptedExit.
+// Waits until no task of the job is queued or running. Returns kInterruptedExit if interrupted.
 int wait_for(const SlurmJob& job);
 
 }  // namespace deburr::tool

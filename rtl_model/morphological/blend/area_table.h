@@ -46,9 +46,9 @@ class AreaTable {
   static std::uint32_t tiles_of(spec::morphological::AreaSource layout);
 
   void address_roots(Cycle cycle, std::size_t reader, const Query& query);
-  // In the cycle in which the roots arrive.
+  // Called in the cycle in which the roots arrive.
   void address_entries(Cycle cycle, std::size_t reader, Query& query);
-  // In the cycle in which the entries arrive.
+  // Called in the cycle in which the entries arrive.
   Weights weights(Cycle cycle, std::size_t reader, const Query& query);
 
  private:

@@ -289,7 +289,7 @@ void check_views(const char* which, Half half) {
   check_presets(fmt::format("{}, other meshes", which).c_str(), others, 2);
 }
 
-TEST(Presets, GainOnSelectionViews) { check_views("one half", Half::kChosenBy); }
+TEST(Presets, GainOnTuningViews) { check_views("one half", Half::kChosenBy); }
 TEST(Presets, GainOnHeldOutViews) { check_views("the other", Half::kHeldOut); }
 
 // First rendered after crease_depth = 3 was chosen with views of both halves.

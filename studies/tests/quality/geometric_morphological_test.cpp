@@ -358,7 +358,7 @@ void check_followers(const std::map<std::string, Gains>& gains) {
 }
 
 // The views that the configuration was chosen on.
-TEST(Followers, LoseNothingOnSelectionViews) {
+TEST(Followers, LoseNothingOnTuningViews) {
   DEBURR_REQUIRE_DATA(data);
   check_followers(gains_of_followers(Half::kChosenBy, data));
 }

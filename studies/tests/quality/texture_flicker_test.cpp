@@ -168,7 +168,8 @@ TEST_P(TextureFlickerOnPhotographs, RollIsWithinTenPercentOfTheEllipse) {
     EXPECT_LE(roll[kEightCeil].mean, 2.5);
     EXPECT_LE(biased[kFourAny].mean, 2.5);
   } else {
-    // Flicker of the picture itself (docs/reference/texture/index.md, "Choosing rules").
+    // These photographs flicker with every footprint (docs/reference/texture/index.md, "Choosing
+    // rules").
     EXPECT_GT(roll[kEllipseCeil].mean, 2.5);
   }
 }

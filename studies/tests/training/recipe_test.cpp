@@ -28,7 +28,7 @@ TEST(Recipe, MatchesTheRoms) {
 }
 
 // Version, options and configuration.
-TEST(Recipe, MatchesThisTrainer) {
+TEST(Recipe, StoredTextMatchesTrainer) {
   EXPECT_EQ(recipe_text(Recipe(), FrameOptions(), frames_of_recipe(kept())), kept());
 }
 

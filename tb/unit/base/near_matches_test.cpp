@@ -37,7 +37,11 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
                                           "work.level_unit_two_levels",
                                           "unit.bypass",
                                           "memory.bytes_per_cycle",
-                                          "units.run_extractor.stalls.descriptors"};
+                                          "units.run_extractor.stalls.descriptors",
+                                          "bins/lookup/depth/hit",
+                                          "bins/rejection/size",
+                                          "bins/bypass/beside/left",
+                                          "bins/bypass-border/left/bypassed"};
   for (const auto& [before, now] : std::vector<std::pair<std::string, std::string>>{
            {"run.truth", "run.reference"},
            {"frame.truth", "frame.reference"},
@@ -49,11 +53,17 @@ TEST(Renamed, OldNameHasExactlyOneMatch) {
            {"work.level_two_levels", "work.level_unit_two_levels"},
            {"unit.leave", "unit.bypass"},
            {"memory.bytes_per_clock", "memory.bytes_per_cycle"},
-           {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"}}) {
+           {"units.extractor.stalls.records", "units.run_extractor.stalls.descriptors"},
+           {"bins/look-up/depth/hit", "bins/lookup/depth/hit"},
+           {"bins/refusal/size", "bins/rejection/size"},
+           {"bins/left/beside/left", "bins/bypass/beside/left"},
+           {"bins/leave-border/left/left", "bins/bypass-border/left/bypassed"}}) {
     EXPECT_THAT(near_matches(before, known), testing::ElementsAre(now));
   }
   EXPECT_EQ(renamed("texture.cache.bites", known), std::nullopt);
   EXPECT_EQ(renamed("texture.axis_clocksmith", known), std::nullopt);
+  EXPECT_EQ(with_current_words("bins/pair-look-up/*"), "bins/pair-lookup/*");
+  EXPECT_EQ(with_current_words("bins/left/*"), "bins/bypass/*");
 }
 
 TEST(DidYouMean, FormatsSuggestions) {

@@ -48,7 +48,7 @@ TEST(MemoryPort, LatencyIsExact) {
         return fmt::format("{} {}x{}", s.sink.cycles()[0], s.port.latency.count(),
                            s.port.latency.max());
       });
-      // Pushed in 0, popped in 1.
+      // The request is pushed in cycle 0 and popped in cycle 1.
       EXPECT_EQ(text,
                 fmt::format("{} 1x{}", 1 + rtl::MemoryPort::datasheet().latency.cycles + latency,
                             latency + 1))

@@ -82,7 +82,7 @@ struct Vcd {
 
 std::uint64_t number(const std::string& binary) { return std::stoull(binary, nullptr, 2); }
 
-TEST(Trace, ShowsWhatHappened) {
+TEST(Trace, ShowsFifoContentsAndActivityPerCycle) {
   const std::string file = testing::TempDir() + "trace.vcd";
   Pipeline p(100);
   std::vector<std::uint32_t> occupancy;

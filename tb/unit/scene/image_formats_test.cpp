@@ -534,7 +534,7 @@ TEST(ImageFormats, PartImageLiesAtItsPosition) {
               HasSubstr("9000 x 2 pixels, the limit is 8192"));
 }
 
-TEST(ImageFormats, DepthIsInfiniteOutsidePartImage) {
+TEST(ImageFormats, DepthIsInfiniteOutsideDataWindow) {
   const TemporaryFolder folder;
   ReadReport report;
   const DepthImage depth = read_depth(

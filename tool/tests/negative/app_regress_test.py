@@ -99,6 +99,9 @@ class Testplans(CommandTest):
         self.reject(HEAD + "    coverage: ['texture/cash/hit']\n",
                     "t.yaml:9: no bin of the feature's engines matches 'texture/cash/hit'",
                     "did you mean 'texture/cache/hit'")
+        self.reject((HEAD + "    coverage: ['geometric/look-up/*']\n").replace("engine: texture", "engine: geometric"),
+                    "t.yaml:9: no bin of the feature's engines matches 'geometric/look-up/*'",
+                    "did you mean 'geometric/lookup/*'?")
         self.reject(HEAD + "    coverage: ['morphological/*']\n",
                     "t.yaml:9: no bin of the feature's engines matches 'morphological/*'")
 

@@ -342,7 +342,7 @@ TEST(Statistics, ListTheKeysOfAFullResult) {
 }
 
 // A value that is not a finite number is null, never a string; a flag gives the reason.
-TEST_F(Directory, IdenticalPicturesAreNullInFileAndInfiniteWhenRead) {
+TEST_F(Directory, PsnrOfIdenticalPicturesIsNullInFileAndInfiniteWhenRead) {
   std::ofstream(path_ / "result.json") << to_json(sample_result()).dump();
   const Json quality = Json::parse(read_file(path_ / "result.json", 1 << 20))["quality"];
   EXPECT_EQ(quality["psnr_db"], 41.25);
@@ -656,7 +656,7 @@ TEST_F(Page, ShowsUnimplementableMemory) {
 
 // It is made from the written values, not from the values read back; readers get other types, and
 // null.
-TEST_F(Page, MatchesTheFile) {
+TEST_F(Page, ReportOfResultEqualsReportOfItsFile) {
   Result result = full_result();
   result.work.push_back({"unbounded", std::numeric_limits<double>::infinity(), "", "No end."});
   result.work.push_back({"undefined", std::numeric_limits<double>::quiet_NaN(), "", "0 / 0."});
@@ -1009,12 +1009,12 @@ TEST(Bottleneck, NamesTheDeepestCauseOfTheLoss) {
        {unit("luma_unit", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}})},
        "pixel_store",
        "memory"},
-      {"less than half as much further down the pipe is not what counts",
+      {"a stall of less than half further down the pipe does not count",
        {unit("luma_unit", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}}),
         unit("line_unit_h", 700, {{"interval", 194}})},
        "pixel_store",
        "memory"},
-      {"half as much is",
+      {"a stall of half counts",
        {unit("luma_unit", 600, {{"downstream", 390}}), unit("pixel_store", 610, {{"memory", 390}}),
         unit("line_unit_h", 700, {{"interval", 195}})},
        "line_unit_h",

@@ -182,7 +182,7 @@ TEST_F(Life, DirectoryBelongsToOneRun) {
   EXPECT_EQ(fs::exists(second.draft()), true);
 }
 
-TEST_F(Life, NamesTheOwner) {
+TEST_F(Life, ClaimFileNamesOwner) {
   RunDirectory first(path_), second(path_);
   first.claim("deburr run x --seed 3", kNames, IfTaken::kReject);
   const nlohmann::json claim =

@@ -107,7 +107,7 @@ TEST(Crossings, TouchingFacesDoNotCross) {
   EXPECT_TRUE(in_one_plane.crossings().empty());
 }
 
-TEST(Crossings, FacesWithACommonPlaceAreNeighbours) {
+TEST(Crossings, FacesWithACommonVertexAreNeighbours) {
   Soup soup;
   const auto a = soup.place({0, 0, 0}), b = soup.place({2, 0, 1}), c = soup.place({2, 0, -1}),
              d = soup.place({2, 1, 0}), e = soup.place({2, -1, 0});

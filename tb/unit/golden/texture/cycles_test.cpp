@@ -77,7 +77,7 @@ TEST(Cycles, OneFragmentTakesTheLatencyOfTheUnit) {
   EXPECT_EQ(cycles(p, {{kInvalid}}), 30u + 6 + 3 + 2 + 1);
 }
 
-TEST(Cycles, AFragmentTakesItsRequestsOrTheAxisCycles) {
+TEST(Cycles, FragmentTakesMaximumOfRequestsAndAxisCycles) {
   Parameters p = narrow();
   p.axes = spec::texture::Axes::kEight;
   for (const int axis_cycles : {1, 2, 4}) {
@@ -475,7 +475,7 @@ TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
   }
 }
 
-// The bits that the golden model gives with each request.
+// Flags of each request: which lines are turned, validity, and the last of its fragment.
 TEST(Cycles, RequestsHaveTheRowsOfTheirTexelsAndTheEndOfTheirFragment) {
   Parameters p = narrow();
   for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {

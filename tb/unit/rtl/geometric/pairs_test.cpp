@@ -168,7 +168,7 @@ TEST(PairFetch, DroppedEdgesIgnoreABlockedOutput) {
   b.clock.run_until([&] { return b.unit.invalid_edges.value() == 3; }, 1000);
   b.clock.run(5);
   EXPECT_EQ(b.taken(), "0-1 6-7 8-9 10-11 ");
-  // The link has room from the cycle after the sink's first one.
+  // The sink's first take in cycle `from` + 100 frees an entry of the link one cycle later.
   EXPECT_EQ(b.ends.sink.taken[3].cycle, from + 100 + 2);
   EXPECT_EQ(stalls(b.unit, "downstream"), 101u - 7);
 }

@@ -56,11 +56,11 @@ struct ScreenBench : Frame {
     token.depth[0] = depth;
     return token;
   }
-  // Inside line (u, v) of coarse depth.
+  // A candidate inside the line (u, v) of coarse depth.
   static CandidateToken inside(std::uint32_t u, std::uint32_t v) {
     return pixel(64 * u + 13, 32 * v + 13, kUp);
   }
-  // Between that line and the next one to the right.
+  // A candidate whose neighbour is in the next line to the right.
   static CandidateToken across(std::uint32_t u, std::uint32_t v) {
     return pixel(64 * u + 63, 32 * v + 13, kRight);
   }

@@ -628,7 +628,8 @@ TEST(DepthTest, EightLinesFitIntoTheFewestFills) {
   for (int i = 0; i < 9; ++i) b.ends.source.add(DepthBench::column(4, i));
   finish(b, b.ends, 9);
   EXPECT_EQ(b.unit.misses.value(), 72u);
-  // The next group starts when the previous one has released its entries: M + 6 and eight lines.
+  // A group starts when the previous one has released its entries: after M + 6 cycles, and one
+  // cycle per line.
   EXPECT_LE(spread(b.ends), 8u * (26 + 8 + 8));
 }
 
@@ -816,7 +817,7 @@ TEST(WeightCombiner, NeighbouringBlockHasElevenBits) {
   EXPECT_EQ(weights_at(b, 4096, 0)[2], 9);
 }
 
-// A group of two blocks is one group of its line.
+// A group with pixels of two blocks counts as one group of its line.
 TEST(WeightCombiner, GroupOfTwoBlocksCountsOnceInTheLatency) {
   CombinerBench b;
   b.edge_latency.leave(0, 2);

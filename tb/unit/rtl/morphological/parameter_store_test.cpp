@@ -253,7 +253,7 @@ TEST(FrameConfiguration, ThresholdsMatchTheirRegisters) {
             (std::vector<std::uint32_t>{0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFFFF, 0xFFFF}));
 }
 
-TEST(FrameConfiguration, SizesInBeatsAndRows) {
+TEST(FrameConfiguration, BeatsAndRowsFollowFrameSize) {
   struct Row {
     int lanes_code, width, height;
     std::uint32_t beats, rows;

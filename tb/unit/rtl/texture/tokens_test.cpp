@@ -40,7 +40,7 @@ TEST(TextureRtlTokens, RandomReplacementStoresNoOrder) {
   EXPECT_GT(stores, 0);
 }
 
-// By half a tile of 64 bytes, or half a line if that is shorter.
+// A turned line is rotated by half a tile of 64 bytes, or by half a line if that is shorter.
 TEST(TextureRtlTokens, LinesTurnByHalfTile) {
   EXPECT_EQ(turn_bytes(32), 16U);
   EXPECT_EQ(turn_bytes(64), 32U);

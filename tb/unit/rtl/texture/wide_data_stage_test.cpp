@@ -313,8 +313,8 @@ TEST(TextureRtlWideDataStage, WireReportsHeldOutput) {
   EXPECT_EQ(b.stall.read(6), SlotStall::kOutput);
 }
 
-// A read of a slot returns the word from before a write of the same cycle, the texel that missed
-// the new line's.
+// A read of a slot in the cycle of a write returns the old line. The texel that missed gets the new
+// line.
 TEST(TextureRtlWideDataStage, ReadsOldWordOfLineThatIsReplaced) {
   StageBench b;
   b.arrive(1);

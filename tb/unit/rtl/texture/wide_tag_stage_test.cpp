@@ -245,13 +245,13 @@ std::uint64_t misses_of(const std::vector<std::vector<TexelToken>>& groups) {
 TEST(TextureRtlWideTagStage, OlderLineOfGroupIsEvicted) {
   EXPECT_EQ(misses_of({{in_line(kA), in_line(kC)}, {in_line(kE)}, {in_line(kA)}}), 4u);
 }
-TEST(TextureRtlWideTagStage, UseOfLaterGroupCounts) {
+TEST(TextureRtlWideTagStage, UseByLaterGroupKeepsLine) {
   EXPECT_EQ(
       misses_of(
           {{in_line(kA), in_line(kC)}, {in_line(kC), in_line(kA)}, {in_line(kE)}, {in_line(kA)}}),
       3u);
 }
-TEST(TextureRtlWideTagStage, SecondUseOfGroupCounts) {
+TEST(TextureRtlWideTagStage, SecondUseInGroupKeepsLine) {
   EXPECT_EQ(misses_of({{in_line(kA), in_line(kC), in_line(kA)}, {in_line(kE)}, {in_line(kA)}}), 3u);
 }
 TEST(TextureRtlWideTagStage, LineMayBeEvictedBeforeFirstUseOfGroup) {

@@ -43,7 +43,7 @@ void PosteriserMeter::collect_headline(Result& result, std::uint64_t delivered,
   result.throughput = ratio(number(delivered), number(result.cycles));
   result.throughput_unit = "pixel/clk";
   result.throughput_bound = link_depth > 1 ? 1 : 0.5;
-  result.throughput_bound_meaning = "A pixel a clock; every other clock by links of depth 1.";
+  result.throughput_bound_meaning = "One pixel per cycle; half of it with links of depth 1.";
   result.bottleneck = find_bottleneck(result.units, figure("levels"));
 }
 
