@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -124,7 +123,7 @@ tb::UnitCost links_of(const tb::Result& result, const Primitives& p) {
   return cost;
 }
 
-// Rows of docs/measurements/cost.json: RTL of the texture unit at width 1.
+// Rows of docs/measurements/cost.json, of the engine that has RTL.
 class MappedRows {
  public:
   static const MappedRows& embedded() {
@@ -133,9 +132,8 @@ class MappedRows {
   }
 
   const Json* of(const Part& part, const tb::Result& result, const ParameterValue& value) const {
-    for (const auto& [name, only] : kOnly)
-      if (const Json given = value(name); !given.is_null() && given != Json::parse(only))
-        return nullptr;
+    for (const auto& [name, only] : only_.items())
+      if (value(engine_ + name) != only) return nullptr;
     std::uint64_t in_data = 0;
     for (const tb::LinkShape& link : result.link_shapes)
       if (link.consumer == part.name) in_data += link.bits;
@@ -143,21 +141,22 @@ class MappedRows {
       if (row["unit"] != part.unit || !row["osu018"].is_object()) continue;
       bool same = true;
       for (const auto& [name, wanted] : row["parameters"].items())
-        same = same && (name == "in_data" ? Json(in_data) : value("texture." + name)) == wanted;
+        same = same && (name == "in_data" ? Json(in_data) : value(engine_ + name)) == wanted;
       if (same) return &row["osu018"];
     }
     return nullptr;
   }
 
  private:
-  // Other values have no RTL.
-  static constexpr auto kOnly =
-      std::to_array<std::pair<const char*, const char*>>({{"texture.width", "1"},
-                                                          {"texture.blend", "\"sample\""},
-                                                          {"texture.derivatives", "\"fine\""}});
+  explicit MappedRows(std::string_view text) {
+    const Json json = Json::parse(text);
+    engine_ = json.at("engine").get<std::string>() + ".";
+    only_ = json.at("only");
+    units_ = json.at("units");
+  }
 
-  explicit MappedRows(std::string_view text) : units_(Json::parse(text).at("units")) {}
-
+  std::string engine_;  // prefix of its parameters
+  Json only_;           // values without which there is no RTL
   Json units_;
 };
 

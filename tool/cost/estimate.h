@@ -19,7 +19,7 @@ inline constexpr double kUnitRange = 0.35;  // gates of a unit, four units of fi
 inline constexpr double kSumRange = 0.20;   // gates of an engine
 inline constexpr double kPathRange = 0.25;  // ns
 
-// The value of a parameter ("texture.cache.bytes"), null if there is none.
+// The value of a parameter ("ENGINE.NAME"), null if there is none.
 using ParameterValue = std::function<nlohmann::ordered_json(std::string_view)>;
 
 // From the sheets, memories and links of the result.
