@@ -67,10 +67,9 @@ class EngineTestbench {
   // misses. Runs with the same values of these, the same configuration and the same inputs share
   // one golden result.
   virtual std::vector<std::string_view> built_for_golden() const { return {}; }
-  // Every counter, stall cause, fault and part of the hardware of a run with the parameters' current
-  // values, for docs/reference/statistics.md and the cost of a build.
-  // It elaborates the environment, so call it at most once per process and not in a process that
-  // runs a simulation.
+  // Every counter, stall cause, fault and part of the hardware of a run with the parameters'
+  // current values, for docs/reference/statistics.md and the cost of a build. It elaborates the
+  // environment, so call it at most once per process and not in a process that runs a simulation.
   virtual void describe_statistics(Result& result) = 0;
   virtual rtl::RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }
