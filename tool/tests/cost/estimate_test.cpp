@@ -167,8 +167,11 @@ TEST(Estimate, CountsControlOfFifosAndSlotsOfLinks) {
 TEST(Estimate, MappedRowCountsForItsParametersOnly) {
   tb::Result result;
   result.sheets = {{"texture_miss_queue", {.unit = "MissQueue"}}};
-  std::map<std::string, Json, std::less<>> given = {
-      {"texture.width", 1}, {"texture.cache.line_bytes", 64}, {"texture.cache.outstanding", 64}};
+  std::map<std::string, Json, std::less<>> given = {{"texture.width", 1},
+                                                    {"texture.blend", "sample"},
+                                                    {"texture.derivatives", "fine"},
+                                                    {"texture.cache.line_bytes", 64},
+                                                    {"texture.cache.outstanding", 64}};
   const auto basis = [&] {
     const tb::Cost cost = estimate(result, [&](std::string_view name) {
       const auto found = given.find(name);
