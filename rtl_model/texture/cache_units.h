@@ -10,7 +10,9 @@
 #include <systemc>
 #include <vector>
 
+#include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/lookups.h"
+#include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/unit.h"
 #include "rtl_model/texture/tag_store.h"
 #include "rtl_model/texture/tokens.h"
@@ -77,6 +79,11 @@ class TagUnit : public Unit, public Lookups {
 // DataStage, or WideDataStage.
 class DataUnit : public Unit {
  public:
+  void reset() override {
+    started_ = waits_ = false;
+    issued_ = nullptr;
+  }
+
   Counter lines_written{"lines_written", "lines", "fills written to the data banks"};
   Counter conflicts;
 
@@ -90,7 +97,33 @@ class DataUnit : public Unit {
         bank_conflict_(declare_stall("bank_conflict", "the request reads more words of one bank")) {
   }
 
+  // Stage 2: passes on what waits. Returns false if it has to wait longer.
+  template <class Texels>
+  bool push(Cycle cycle, Out<Texels>& texels_out, const Texels& waiting) {
+    if (waits_ && !texels_out.can_push(cycle)) return false;
+    if (issued_) issued_->check(cycle, issued_word_, issued_at_);
+    issued_ = nullptr;
+    if (waits_) texels_out.push(cycle, waiting);
+    waits_ = false;
+    return true;
+  }
+  // All words of a cycle arrive together, so one of them is enough for the check.
+  void issue(Cycle cycle, ReadPort<void>& port, std::uint64_t word) {
+    port.read(cycle, word);
+    issued_ = &port;
+    issued_word_ = word;
+    issued_at_ = cycle;
+  }
+
   Activity wait_fill_, write_fill_, bank_conflict_;
+  bool started_ = false;  // with the request or group in stage 1
+  bool waits_ = false;    // texels in stage 2
+
+ private:
+  // Check only, no hardware: one of the words read last, and when.
+  const ReadPort<void>* issued_ = nullptr;
+  std::uint64_t issued_word_ = 0;
+  Cycle issued_at_ = 0;
 };
 
 }  // namespace deburr::rtl::texture

@@ -39,13 +39,7 @@ DataStage::DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
 // Last stage first.
 Activity DataStage::work(Cycle cycle) {
   const bool waits = waits_;
-  if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  if (issued_) issued_->check(cycle, issued_word_, issued_at_);
-  issued_ = nullptr;
-  if (waits) {
-    texels_out.push(cycle, waiting_);
-    waits_ = false;
-  }
+  if (!push(cycle, texels_out, waiting_)) return kStalledDownstream;
   if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
   const CacheToken& request = requests_in.front(cycle);
   if (request.ticket.valid && (request.fills != 0 || started_ || !read_at_once(cycle, request)))
@@ -109,7 +103,7 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
       (meet(a) || meet(b) || meet(c) || meet(d) || meet(e) || meet(f)))
     return false;
   // Texels in the same word need one read.
-  issue(cycle, 0, word[0]);
+  issue(cycle, reads_[0], word[0]);
   if (a != 0) reads_[1].read(cycle, word[1]);
   if (b != 0 && d != 0) reads_[2].read(cycle, word[2]);
   if (c != 0 && e != 0 && f != 0) reads_[3].read(cycle, word[3]);
@@ -121,17 +115,9 @@ inline bool DataStage::read_at_once(Cycle cycle, const CacheToken& request) {
 void DataStage::read(Cycle cycle, const CacheToken& request, int pass) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (schedule_.pass[i] != pass) continue;
-    if (!schedule_.again[i]) issue(cycle, i, request.place[i] >> 2);
+    if (!schedule_.again[i]) issue(cycle, reads_[i], request.place[i] >> 2);
     waiting_.texel[i] = load_word(&bytes_[request.place[i]]);
   }
-}
-
-// All words of a cycle arrive together, so one of them is enough for the check.
-inline void DataStage::issue(Cycle cycle, std::size_t port, std::uint64_t word) {
-  reads_[port].read(cycle, word);
-  issued_ = &reads_[port];
-  issued_word_ = word;
-  issued_at_ = cycle;
 }
 
 void DataStage::write_fill(Cycle cycle, const CacheToken& request) {
@@ -161,11 +147,6 @@ inline void DataStage::finish(Cycle cycle, const CacheToken& request) {
   waits_ = true;
   requests_in.pop(cycle);
   started_ = false;
-}
-
-void DataStage::reset() {
-  started_ = waits_ = false;
-  issued_ = nullptr;
 }
 
 Datasheet DataStage::datasheet(const spec::texture::Parameters& p) {

@@ -46,7 +46,6 @@ class DataStage final : public DataUnit {
     if (line_used_out.driven() && line_used_ != cycle) line_used_out.drive(cycle, false);
     return activity;
   }
-  void reset() override;
 
   static Datasheet datasheet(const spec::texture::Parameters& parameters = {});
 
@@ -62,7 +61,6 @@ class DataStage final : public DataUnit {
   Activity advance(Cycle cycle, const CacheToken& request);
   bool read_at_once(Cycle cycle, const CacheToken& request);
   void read(Cycle cycle, const CacheToken& request, int pass);
-  void issue(Cycle cycle, std::size_t port, std::uint64_t word);
   void write_fill(Cycle cycle, const CacheToken& request);
   void finish(Cycle cycle, const CacheToken& request);
 
@@ -75,16 +73,10 @@ class DataStage final : public DataUnit {
   WritePort<void> write_{banks_, "fill"};
   std::vector<std::uint8_t> bytes_;  // content of the banks, word by word
   // Registers of the request in stage 1.
-  bool started_ = false;
   Schedule schedule_{};
   int passes_done_ = 0, fills_done_ = 0;
   Cycle line_used_ = kNever;  // last cycle in which a line was written
-  // Check only, no hardware: one of the words read last, and when.
-  const ReadPort<void>* issued_ = nullptr;
-  std::uint64_t issued_word_ = 0;
-  Cycle issued_at_ = 0;
   // The request in stage 2.
-  bool waits_ = false;
   TexelQuadToken waiting_{};
 };
 

@@ -4,9 +4,10 @@
 // coordinates and in texels of level 0.
 //
 // Position  First unit of the AddressUnit.
-// Interval  One covered lane; above width 1 the next covered lanes of one quad, at most
-// `fragments`. Stalls    downstream  The whole unit stalls. Takes no quad while CONTROL.enable is
-// 0. Note      The model computes everything in stage 1, then delays. Source    Paper 2.2 (1).
+// Interval  One covered lane; above width 1 the next ones of a quad, at most `fragments`.
+// Stalls    downstream  The whole unit stalls. Takes no quad while CONTROL.enable is 0.
+// Note      The model computes everything in stage 1, then delays.
+// Source    Paper 2.2 (1).
 #pragma once
 
 #include <cstddef>

@@ -74,13 +74,7 @@ Activity WideDataStage::tick(Cycle cycle) {
 // Last stage first.
 inline Activity WideDataStage::work(Cycle cycle) {
   const bool waits = waits_;
-  if (waits && !texels_out.can_push(cycle)) return kStalledDownstream;
-  if (issued_) issued_->check(cycle, issued_word_, issued_at_);
-  issued_ = nullptr;
-  if (waits) {
-    texels_out.push(cycle, waiting_);
-    waits_ = false;
-  }
+  if (!push(cycle, texels_out, waiting_)) return kStalledDownstream;
   if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
   const CacheGroup& group = requests_in.front(cycle);
   if (!started_ && !read_at_once(cycle, group)) schedule(group);
@@ -138,22 +132,14 @@ inline bool WideDataStage::read_at_once(Cycle cycle, const CacheGroup& group) {
     return (base[k] >> line_log2_) * words_a_line_ |
            (static_cast<std::uint32_t>(std::countr_zero(banks)) & (words_a_line_ - 1));
   };
-  if (twice != 0) issue(cycle, 1, 0, first_word(line_twice, words[line_twice] & twice));
-  if (once != 0) issue(cycle, 0, 0, first_word(line_once, words[line_once]));
+  if (twice != 0)
+    issue(cycle, copies_[1]->reads[0], first_word(line_twice, words[line_twice] & twice));
+  if (once != 0) issue(cycle, copies_[0]->reads[0], first_word(line_once, words[line_once]));
   started_ = true;
   passes_ = passes_done_ = 0;
   next_line_ = 0;
   fills_left_ = fills;
   return true;
-}
-
-// All words of a cycle arrive together, so one of them is enough for the check.
-inline void WideDataStage::issue(Cycle cycle, std::size_t copy, std::size_t port,
-                                 std::uint64_t word) {
-  issued_ = &copies_[copy]->reads[port];
-  issued_word_ = word;
-  issued_at_ = cycle;
-  copies_[copy]->reads[port].read(cycle, word);
 }
 
 // Pass and port of each texel that hits.
@@ -200,7 +186,7 @@ void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
   for (std::uint32_t i = 0; i < hits_; ++i) {
     const Read& read = schedule_[i];
     if (read.pass != pass) continue;
-    if (read.first) issue(cycle, read.copy, ports[read.copy]++, read.place >> 2);
+    if (read.first) issue(cycle, copies_[read.copy]->reads[ports[read.copy]++], read.place >> 2);
     texel(read.texel) = load_word(&bytes_[read.place]);
   }
 }
@@ -255,9 +241,8 @@ inline void WideDataStage::finish(Cycle cycle, const CacheGroup& group) {
 }
 
 void WideDataStage::reset() {
-  started_ = waits_ = false;
+  DataUnit::reset();
   stall_ = SlotStall::kNone;
-  issued_ = nullptr;
 }
 
 Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {

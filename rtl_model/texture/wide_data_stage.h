@@ -6,9 +6,8 @@
 // Banks     Lines are in B line banks by the low bits of the line number, and a line bank has a
 //           bank for each word of a line. A bank of words is read R times per cycle (a copy per
 //           read) and written once; so up to D fills of a cycle are for different line banks.
-// Order     As in the DataStage: bank passes first, writes from the cycle of the last pass on,
-// banks
-//           are read-first, texels that missed come from the fill.
+// Order     As in the DataStage: bank passes first, writes from the cycle of the last pass on.
+//           Banks are read-first; texels that missed come from the fill.
 // Stalls    wait_fill, write_fill, bank_conflict, downstream: as in the DataStage.
 // Output    Registers: `lines_used_out`, the lines written in the previous cycle; `stall_out`, the
 //           stall of the cycle before.
@@ -73,7 +72,6 @@ class WideDataStage final : public DataUnit {
   std::uint32_t write_fills(Cycle cycle, const CacheGroup& group);
   void write_fill(Cycle cycle, const CacheGroup& group, std::size_t line, std::uint32_t port);
   void finish(Cycle cycle, const CacheGroup& group);
-  void issue(Cycle cycle, std::size_t copy, std::size_t port, std::uint64_t word);
   std::uint32_t& texel(std::uint32_t number) { return waiting_.at[number / 4].texel[number % 4]; }
 
   FillBuffer::Reader fills_;
@@ -84,17 +82,11 @@ class WideDataStage final : public DataUnit {
   std::vector<Bank> banks_;
   std::uint64_t group_ = 0;  // number of the group
   // Registers of the group in stage 1.
-  bool started_ = false;
   std::array<Read, kMostTexels> schedule_{};
   std::uint32_t hits_ = 0, passes_ = 0, passes_done_ = 0;
   std::uint32_t next_line_ = 0, fills_left_ = 0;
   SlotStall stall_ = SlotStall::kNone;  // of the previous cycle
-  // Check only, no hardware: one of the words read last, and when.
-  const ReadPort<void>* issued_ = nullptr;
-  std::uint64_t issued_word_ = 0;
-  Cycle issued_at_ = 0;
   // The group in stage 2.
-  bool waits_ = false;
   TexelQuadGroup waiting_{};
 };
 

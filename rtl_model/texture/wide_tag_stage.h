@@ -4,9 +4,8 @@
 //
 // Position  GroupFormer -> WideTagStage -> WideLatencyFifo and MissQueue.
 // Interval  1 if the group misses at most A lines: max(1, misses / A) cycles.
-// Order     Every use of a line by a request counts, in the order of the requests: so replacement
-// is
-//           that of width 1. The model makes all lookups of a group in its first cycle in stage 2;
+// Order     Every use of a line by a request counts, in the order of the requests, so replacement
+//           is that of width 1. All lookups of a group are made in its first cycle in stage 2;
 //           nothing sees the tags before its last one, in which the lookups are counted.
 // Stalls    allocate         More lines to allocate.
 //           miss_queue_full  The group misses and the MissQueue is not ready.

@@ -98,8 +98,7 @@ inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
      }},
     {{"cache.line_banks", "cache.bytes", "cache.line_bytes"},
      "must leave 16 lines per bank, or at most 64 banks of words: more and smaller ones of SRAM "
-     "are "
-     "not built",
+     "are not built",
      [](const Parameters& p) {
        return p.cache_bytes / p.cache_line_bytes >= 16 * p.cache_line_banks ||
               p.cache_line_banks * p.cache_line_bytes / 4 <= 64;

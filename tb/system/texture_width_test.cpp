@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cycles of the texture unit at every width: equal to those of the predictor, with the fills and
 // colours of width 1 (docs/reference/texture/width.md).
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -70,26 +71,30 @@ CyclePrediction predicted(const SceneParameters& scene, const SamplerParameters&
 // colour: cycles of a run that the prediction does not count.
 constexpr std::uint64_t kAroundUnit = 2;
 
+void expect_prediction(const SceneParameters& scene, const SamplerParameters& sampler,
+                       const TextureRunOptions& options) {
+  const CyclePrediction expected = predicted(scene, sampler, options);
+  const TextureOutcome outcome =
+      forked<TextureOutcome>([&] { return simulate(scene, sampler, options); });
+  EXPECT_EQ(outcome.mismatches, 0u);
+  EXPECT_EQ(outcome.fills, expected.fills);
+  EXPECT_EQ(outcome.cycles, expected.cycles + kAroundUnit);
+  EXPECT_EQ(outcome.slots, expected.slots);
+  EXPECT_EQ(outcome.all_slots, expected.slots.all());
+  EXPECT_EQ(outcome.output_slots, 0u);
+}
+
 class Width : public testing::TestWithParam<std::tuple<Build, const char*>> {};
 
 TEST_P(Width, CyclesEqualPrediction) {
   const auto& [build, source] = GetParam();
   for (const auto& [latency, bytes] : {std::pair{100, 64}, {20, 64}, {60, 16}}) {
+    SCOPED_TRACE(std::to_string(latency) + " cycles, " + std::to_string(bytes) + " bytes");
     TextureRunOptions options;
     options.texture = parameters(build);
     options.memory.latency = latency;
     options.memory.bytes_per_cycle = bytes;
-    const SceneParameters scene = picture(source, 96);
-    const CyclePrediction expected = predicted(scene, {}, options);
-    const TextureOutcome outcome =
-        forked<TextureOutcome>([&] { return simulate(scene, {}, options); });
-    EXPECT_EQ(outcome.mismatches, 0u);
-    EXPECT_EQ(outcome.fills, expected.fills);
-    EXPECT_EQ(outcome.cycles, expected.cycles + kAroundUnit)
-        << "latency " << latency << ", " << bytes << " bytes per cycle";
-    EXPECT_EQ(outcome.slots, expected.slots);
-    EXPECT_EQ(outcome.all_slots, expected.slots.all());
-    EXPECT_EQ(outcome.output_slots, 0u);
+    expect_prediction(picture(source, 96), {}, options);
   }
 }
 
@@ -100,6 +105,87 @@ INSTANTIATE_TEST_SUITE_P(Texture, Width,
                            return std::string(std::get<0>(p.param).name) + "_" +
                                   std::get<1>(p.param);
                          });
+
+// Turned lines, texels of one bank in one request, lines of two beats, few lines in flight: on the
+// ports of `wide` and on those of `narrow_ports`.
+struct Other {
+  const char* name;
+  void (*change)(TextureRunOptions&, SamplerParameters&, SceneParameters&);
+};
+const std::array kOthers = {
+    Other{"linear_layout",
+          [](TextureRunOptions&, SamplerParameters& sampler, SceneParameters& scene) {
+            sampler.layout = spec::texture::Layout::kLinear;
+            scene.texture_size = 63;
+          }},
+    Other{"texels_of_16_bits",
+          [](TextureRunOptions& options, SamplerParameters& sampler, SceneParameters&) {
+            sampler.layout = spec::texture::Layout::kLinear;
+            sampler.format = spec::texture::Format::kRgb565;
+            options.texture.cache_bytes = 2048;
+          }},
+    Other{"lines_of_128_bytes",
+          [](TextureRunOptions& options, SamplerParameters& sampler, SceneParameters&) {
+            sampler.layout = spec::texture::Layout::kLinear;
+            options.texture.cache_line_bytes = 128;
+          }},
+    Other{"lines_of_32_bytes", [](TextureRunOptions& options, SamplerParameters&,
+                                  SceneParameters&) { options.texture.cache_line_bytes = 32; }},
+    Other{"one_way",
+          [](TextureRunOptions& options, SamplerParameters&, SceneParameters&) {
+            options.texture.cache_ways = 1;
+            options.texture.cache_bytes = 2048;
+          }},
+    Other{"eight_in_flight",
+          [](TextureRunOptions& options, SamplerParameters&, SceneParameters&) {
+            options.texture.cache_outstanding = 8;
+            options.texture.cache_fifo_depth = 8;
+          }},
+    Other{"by_sample", [](TextureRunOptions& options, SamplerParameters&, SceneParameters&) {
+            options.texture.blend = Blend::kSample;
+            options.texture.axes = spec::texture::Axes::kEight;
+            options.texture.axis_cycles = 4;
+            options.texture.derivatives = spec::texture::Derivatives::kCoarse;
+          }}};
+
+class Others : public testing::TestWithParam<std::tuple<std::size_t, Other>> {};
+
+TEST_P(Others, CyclesEqualPrediction) {
+  const auto& [build, other] = GetParam();
+  TextureRunOptions options;
+  options.texture = parameters(kBuilds[build]);
+  SamplerParameters sampler;
+  SceneParameters scene = picture("object", 96);
+  other.change(options, sampler, scene);
+  expect_prediction(scene, sampler, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(Texture, Others,
+                         testing::Combine(testing::Values(std::size_t{2}, std::size_t{4}),
+                                          testing::ValuesIn(kOthers)),
+                         [](const auto& p) {
+                           return std::string(kBuilds[std::get<0>(p.param)].name) + "_" +
+                                  std::get<1>(p.param).name;
+                         });
+
+// The ports that follow from W and F.
+TEST(TextureWidth, MemoriesHavePortsOfTheirGroups) {
+  const std::string ports = forked_text([] {
+    Parameters p = parameters(kBuilds[5]);  // two fragments
+    p.log2 = spec::texture::Log2Rule::kExact;
+    p.kernel = spec::texture::Kernel::kTent;
+    p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+    rtl::ClockDomain clock("clock", sc_core::sc_time(1, sc_core::SC_NS));
+    const rtl::texture::TextureUnit unit("unit", clock, p);
+    std::string text;
+    for (const rtl::MemoryBase* memory : unit.memories())
+      text += std::string(memory->basename()) + " " + memory->ports() + "\n";
+    return text;
+  });
+  for (const char* const memory :
+       {"descriptors 4R1W", "table 8R", "reciprocal 2R", "srgb 48R", "weights 4R", "codes 12R"})
+    EXPECT_THAT(ports, testing::HasSubstr(std::string(memory) + "\n"));
+}
 
 }  // namespace
 }  // namespace deburr::tb::texture_width_test

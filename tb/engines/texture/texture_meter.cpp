@@ -22,7 +22,7 @@ void TextureMeter::collect(Result& result) const {
   add(result, "fragments", fragments, "fragment", "Colours delivered.");
   add(result, "bilinears", bilinears, "request", "Bilinear requests, one per sample and level.");
   add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",
-      "Cycles per fragment without stalls.");
+      "Cycles per fragment without stalls, times texture.width.");
   add(result, "misses_per_texel", ratio(number(lines), 4 * number(bilinears)), "line/texel",
       "Line fills per requested texel.");
   const double texel_hits = 100 - 100 * ratio(number(lines), 4 * number(bilinears));

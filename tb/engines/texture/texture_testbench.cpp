@@ -1,13 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_testbench.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "rtl_model/texture/datasheets.h"
 #include "rtl_model/texture/register_section.h"
 #include "spec/texture/check_build.h"
 #include "tb/engines/texture/texture_coverage.h"
 #include "tb/engines/texture/texture_environment.h"
+#include "tb/env/meter.h"
 
 namespace deburr::tb {
+namespace {
+
+class WideMeter : public Meter {
+ public:
+  WideMeter() : Meter("") {}
+  // Adds what only wide builds count.
+  void describe(Result& result, const rtl::Engine& wide) const {
+    Result all;
+    add_parts(all, wide, 0);
+    add_counters(all, wide);
+    const auto add_new = [](auto& known, auto& items, auto name) {
+      for (auto& item : items)
+        if (std::none_of(known.begin(), known.end(),
+                         [&](const auto& one) { return one.*name == item.*name; }))
+          known.push_back(std::move(item));
+    };
+    for (UnitCycles& unit : result.units)
+      for (UnitCycles& same : all.units)
+        if (same.name == unit.name) add_new(unit.stalls, same.stalls, &StallCycles::cause);
+    add_new(result.units, all.units, &UnitCycles::name);
+    add_new(result.work, all.work, &WorkItem::name);
+  }
+};
+
+}  // namespace
 
 void TextureTestbench::add_parameters(ParameterSet& set) {
   set.add("run", ParameterKind::kRun, lookup_trace_);
@@ -41,6 +70,10 @@ void TextureTestbench::describe_statistics(Result& result) {
   Simulation simulation({});
   TextureEnvironment environment(simulation, scene, {texture_, memory_});
   describe(simulation, environment, result);
+  const rtl::texture::TextureUnit wide(
+      "wide", simulation.clock(),
+      preset_parameters(texture_.preset, spec::texture::NamedBuild::kWide));
+  WideMeter().describe(result, wide);
   add_flicker(result, {}, {});
 }
 

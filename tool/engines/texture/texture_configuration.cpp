@@ -19,6 +19,10 @@ std::string source_of(const spec::texture::Parameters& values) {
   return fmt::format("preset {}",
                      spec::texture::kPresetNames[static_cast<std::size_t>(values.preset)]);
 }
+std::string build_of(const spec::texture::Parameters& values) {
+  return fmt::format("build {}",
+                     spec::texture::kNamedBuildNames[static_cast<std::size_t>(values.build)]);
+}
 
 }  // namespace
 
@@ -30,12 +34,14 @@ void apply_preset(tb::ParameterSet& set, const spec::texture::Parameters& values
     };
   };
   for_each_of(values.preset, imply_from(source_of(values)));
-  const auto build = spec::texture::kNamedBuildNames[static_cast<std::size_t>(values.build)];
-  for_each_of(values.build, imply_from(fmt::format("build {}", build)));
+  for_each_of(values.build, imply_from(build_of(values)));
 }
 
 std::string preset_label(const tb::ParameterSet& set, const spec::texture::Parameters& values) {
-  return with_changes(source_of(values), set, kTexturePrefix);
+  const bool narrow = values.build == spec::texture::NamedBuild::kNarrow;
+  return with_changes(
+      narrow ? source_of(values) : fmt::format("{}, {}", source_of(values), build_of(values)), set,
+      kTexturePrefix);
 }
 
 void reject_nothing_drawn(const tb::TextureScene& scene) {

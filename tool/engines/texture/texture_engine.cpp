@@ -225,7 +225,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     };
     return fmt::format(
         "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
-        "kernel {}; cache {} bytes, {} ways; memory latency {} clk{}{}",
+        "kernel {}, blend {}; width {}, cache {} bytes, {} ways; memory latency {} clk{}{}",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
             : "",
@@ -238,7 +238,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         name(texture_.footprint, spec::texture::kFootprintNames),
         name(texture_.log2, spec::texture::kLog2Names),
         name(texture_.count, spec::texture::kCountNames),
-        name(texture_.kernel, spec::texture::kKernelNames), texture_.cache_bytes,
+        name(texture_.kernel, spec::texture::kKernelNames),
+        name(texture_.blend, spec::texture::kBlendNames), texture_.width, texture_.cache_bytes,
         texture_.cache_ways, memory_.latency,
         counterpart_units_.empty() ? "" : "; in SystemVerilog: ",
         fmt::join(counterpart_units_, ", "));

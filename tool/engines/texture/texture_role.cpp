@@ -67,7 +67,8 @@ class TextureStage final : public DrawingStage {
     return tb::golden_frame(scene_, setup_.texture, error_range(setup_.memory)).image;
   }
   std::uint64_t cycles_bound() const override {
-    return environment_.unit().address.addresser.bilinears.value();
+    const auto width = static_cast<std::uint64_t>(setup_.texture.width);
+    return (environment_.unit().address.addresser.bilinears.value() + width - 1) / width;
   }
   void collect(tb::Result& result) const override {
     const rtl::Histogram& latency = environment_.unit().fragment_latency;
@@ -98,7 +99,7 @@ class TextureRole final : public PictureDrawer {
             "Texturing",
             "bilinears",
             "work.texture_bilinears",
-            "the texture unit's bilinears, one per cycle"};
+            "the texture unit's bilinears, texture.width per cycle"};
   }
   std::string_view caption() const override {
     return "textured: the frame buffer after the texture unit";

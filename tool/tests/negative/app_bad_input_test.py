@@ -253,6 +253,15 @@ class Configuration(CommandTest):
         self.expect(2, "run", "texture", *config, "--out", self.path("first"),
                     says="the results would overwrite the input")
 
+    def test_named_build_sets_what_is_not_given(self):
+        self.run_texture(0, "--set", "texture.build=lean", "--set", "texture.cache.lookups=8", "--set", "texture.blend=level")
+        configuration, title = self.manifest()["configuration"], self.manifest()["summary"]
+        self.assertEqual([configuration[f"texture.{name}"] for name in
+                          ("width", "fragments", "cache.lookups", "cache.allocations", "cache.line_banks",
+                           "cache.bank_reads", "cache.fill_writes")], [4, 4, 8, 2, 4, 2, 2])
+        self.assertIn("; preset deburr, build lean, changed: cache.lookups; ", title)
+        self.assertIn(", blend level; width 4, cache ", title)
+
     def test_manifest_of_other_defaults_is_applied(self):
         self.run_texture(0)
         manifest = self.manifest()

@@ -69,6 +69,14 @@ class Smoothing(unittest.TestCase):
         # Every marked pixel was blended by the first engine.
         self.assertLessEqual(marked["morphological_blender_bypassed_pixels"], work["geometric_resolver_blended_pixels"])
 
+    def test_wide_texture_unit_lowers_the_bound(self):
+        narrow, wide = (self.run_frame("--smoothing", "geometric", "--set", f"texture.build={build}")
+                        for build in ("narrow", "wide"))
+        bilinears = narrow["work"]["texture_bilinears"]
+        self.assertEqual(narrow["work"]["engine_cycles_bound"] - wide["work"]["engine_cycles_bound"],
+                         bilinears - (bilinears + 3) // 4)
+        self.assertLessEqual(wide["work"]["engine_cycles_bound"], wide["cycles"])
+
     def test_given_settings_are_kept(self):
         def configuration(*given):
             self.run_frame("--smoothing", "geometric-morphological", *given)
