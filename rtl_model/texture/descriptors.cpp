@@ -19,6 +19,41 @@ constexpr std::uint32_t kWordBits = 26 + 19 + 16 + 32 + spec::texture::kMaxLevel
 // Bits needed to number n > 0 things: lb n, rounded up.
 std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::bit_width(n - 1)); }
 
+// Counts from `first` in the bits of `field`, which need not be adjacent.
+std::vector<std::uint32_t> count_in(std::uint32_t field, std::uint32_t first, std::uint32_t size) {
+  std::vector<std::uint32_t> numbers(size);
+  std::uint32_t number = 0;
+  for (std::uint32_t& next : numbers) {
+    next = first + number;
+    number = (number - field) & field;
+  }
+  return numbers;
+}
+
+// Columns and rows of a level in tiles: in a tile by rows, tiles in Morton order. The low bits of
+// their numbers interleave, columns in the even bits, as many as the shorter side has; the
+// remaining bits are above.
+void tabulate_tiles(LevelGeometry& level, std::uint32_t base, std::uint32_t bytes) {
+  const std::uint32_t width = spec::texture::kTileWidth[bytes],
+                      height = spec::texture::kTileHeight[bytes];
+  const int shorter = std::min(ceil_log2((level.width + width - 1) / width),
+                               ceil_log2((level.height + height - 1) / height));
+  const std::uint32_t above = ~0U << 2 * shorter;
+  level.column = count_in((width - 1) * bytes | (0x5555'5555 | above) * spec::texture::kTileBytes,
+                          0, level.width);
+  level.row =
+      count_in((height - 1) * width * bytes | (0xAAAA'AAAA | above) * spec::texture::kTileBytes,
+               base, level.height);
+}
+
+void tabulate_rows(LevelGeometry& level, std::uint32_t base, std::uint32_t bytes) {
+  const std::uint32_t pitch = (level.width * bytes + 63) & ~63u;
+  level.column.resize(level.width);
+  for (std::uint32_t x = 0; x < level.width; ++x) level.column[x] = x * bytes;
+  level.row.resize(level.height);
+  for (std::uint32_t y = 0; y < level.height; ++y) level.row[y] = base + y * pitch;
+}
+
 }  // namespace
 
 std::span<const spec::RegisterInfo> register_table() {
@@ -86,20 +121,13 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   t.min_lod = static_cast<std::int32_t>(reg::lod_clamp::kMinLod.of(clamp) << 4);
   t.max_lod = static_cast<std::int32_t>(reg::lod_clamp::kMaxLod.of(clamp) << 4);
   const std::uint32_t bytes = spec::texture::kFormatBytes[format];
-  t.texel_log2 = ceil_log2(bytes);
-  const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
-                      tile_height = spec::texture::kTileHeight[bytes];
-  t.tile_width_log2 = ceil_log2(tile_width);
-  t.tile_height_log2 = ceil_log2(tile_height);
   for (std::uint32_t k = 0; k < levels; ++k) {
     LevelGeometry& g = t.level[k];
-    g.base = field(reg::kLevelBase + 4 * k);
     g.width = static_cast<std::uint16_t>(std::max(1, t.width >> k));
     g.height = static_cast<std::uint16_t>(std::max(1, t.height >> k));
-    g.pitch = (g.width * bytes + 63) & ~63u;
-    g.mixed_log2 = std::min(ceil_log2((g.width + tile_width - 1) / tile_width),
-                            ceil_log2((g.height + tile_height - 1) / tile_height));
-    valid = valid && g.base % spec::texture::kTileBytes == 0;
+    const std::uint32_t base = field(reg::kLevelBase + 4 * k);
+    (t.layout == spec::texture::Layout::kLinear ? tabulate_rows : tabulate_tiles)(g, base, bytes);
+    valid = valid && base % spec::texture::kTileBytes == 0;
   }
   t.valid = valid;
   return t;

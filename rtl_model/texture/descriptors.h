@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "rtl_model/fabric/control_registers.h"
 #include "rtl_model/fabric/datasheet.h"
@@ -26,23 +27,21 @@
 
 namespace deburr::rtl::texture {
 
-// One mip level.
+// One mip level. One that the descriptor lacks has one texel: requests in flight may select it
+// after a write while the unit is busy.
 struct LevelGeometry {
-  std::uint32_t base;           // U32, byte address
-  std::uint32_t pitch;          // U15, bytes per row, layout linear
-  std::uint16_t width, height;  // U13, texels
-  std::uint8_t mixed_log2;      // U4, interleaved bits of a tile number: lb of the tiles along the
-                                // shorter side, rounded up
+  std::uint16_t width = 1, height = 1;  // U13, texels
+  // The address of texel (x, y) is column[x] + row[y]. The model tabulates the two parts, which the
+  // hardware computes; rows include the base.
+  std::vector<std::uint32_t> column{0}, row{0};
 };
 
 // A decoded descriptor.
 struct TextureState {
   bool valid = false;
-  std::uint16_t width = 0, height = 0;                     // U13
-  std::uint8_t levels = 0;                                 // U4
-  std::uint8_t texel_log2 = 0;                             // U2, lb of the bytes per texel
-  std::uint8_t tile_width_log2 = 0, tile_height_log2 = 0;  // U2, texels
-  std::uint8_t max_count_log2 = 0;                         // U3, lb N_max
+  std::uint16_t width = 0, height = 0;  // U13
+  std::uint8_t levels = 0;              // U4
+  std::uint8_t max_count_log2 = 0;      // U3, lb N_max
   spec::texture::Format format{};
   spec::texture::Layout layout{};
   spec::texture::Wrap wrap_s{}, wrap_t{};

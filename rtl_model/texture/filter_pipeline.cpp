@@ -114,10 +114,13 @@ Activity FilterPipelineOf<Width>::tick(Cycle cycle) {
   if (auto* group = requests_.at(2))
     for (std::size_t i = 0; i < count_of(*group); ++i) filter(cycle, nth(*group, i), i);
   if (arrives) {
+    const auto& tokens = texels_in.take(cycle);
     auto& group = requests_.enter();
-    each(texels_in.take(cycle), group,
-         [](const TexelQuadToken& token, Request& request) { request.token = token; });
-    for (std::size_t i = 0; i < count_of(group); ++i) look_up(cycle, nth(group, i).token, i);
+    set_count(group, count_of(tokens));
+    for (std::size_t i = 0; i < count_of(tokens); ++i) {
+      nth(group, i).token = nth(tokens, i);
+      look_up(cycle, nth(tokens, i), i);
+    }
   }
   return kBusy;
 }
@@ -165,25 +168,26 @@ inline void FilterPipelineOf<Width>::lerp(Request& request, Unpack&& unpack) {
 }
 
 // The same for RGBA8: both columns of a row in one word, with 16 bits per channel. The sums are
-// exact, so the model may lerp vertically first.
+// exact, so the model may lerp vertically first. Then one multiplication of two columns by their
+// weights adds both products in its high half.
 template <class Width>
 inline void FilterPipelineOf<Width>::lerp_bytes(Request& request) {
-  constexpr std::uint64_t kBytes = 0x00FF'00FF'00FF'00FF;
+  constexpr std::uint64_t kBytes = 0x00FF'00FF'00FF'00FF, kColumns = 0x0000'FFFF'0000'FFFF;
   const FilterControl& control = request.token.control;
   const auto& texel = request.token.texel;
-  const std::uint32_t right = control.fraction_u, left = 256 - right;
+  const std::uint64_t right = control.fraction_u, left = 256 - right;
   const std::uint32_t down = control.fraction_v, up = 256 - down;
   const std::uint64_t upper = texel[0] | std::uint64_t{texel[1]} << 32,
                       lower = texel[2] | std::uint64_t{texel[3]} << 32;
   const std::uint64_t rb = (upper & kBytes) * up + (lower & kBytes) * down,
                       ga = (upper >> 8 & kBytes) * up + (lower >> 8 & kBytes) * down;
-  const auto spread = [](std::uint64_t low) {
-    return (low | low << 16) & Channels::kBoth * 0xFFFF;
+  const std::uint64_t weights = left << 32 | right;
+  const auto row = [weights](std::uint64_t pair) {
+    const std::uint64_t first = (pair & kColumns) * weights,
+                        second = (pair >> 16 & kColumns) * weights;
+    return first >> 32 | second >> 32 << 32;
   };
-  const auto column = [&](unsigned shift) {
-    return Channels{spread(rb >> shift & 0xFFFF'FFFF), spread(ga >> shift & 0xFFFF'FFFF)};
-  };
-  request.row = (column(0) * left + column(32) * right).rounded(4);
+  request.row = Channels{row(rb), row(ga)}.rounded(4);
 }
 
 // Stage 2. A fragment with an invalid descriptor has one sample of weight 0.

@@ -27,7 +27,6 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
                                    .write_ports = width_,
                                    .latency = 0,
                                    .content = "requests that wait for a group"}),
-      buffer_(std::size_t{2} * width_),
       banks_(bank_mask_ + 1) {
   for (std::uint32_t i = 0; i < width_; ++i) {
     oldest_.emplace_back(memory_, "oldest_" + std::to_string(i));
@@ -83,6 +82,8 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
 // few words per bank. Returns false if limits must be checked.
 inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
   std::uint32_t lines = 0, alike = 0;  // alike: 4 bits per line bank
+  std::array<std::uint32_t, spec::texture::kMostLookups> numbers{};
+  std::array<std::uint8_t, 64> newest{};  // 1 + index of the last line with these low bits
   std::uint32_t at = head_;
   for (std::uint32_t n = 0; n < most; ++n) {
     const Waiting& waiting = buffer_[at];
@@ -94,15 +95,15 @@ inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
     std::array<std::uint8_t, 4> of_group;
     for (std::uint32_t i = 0; i < waiting.lines; ++i) {
       const std::uint32_t line = waiting.line[i];
-      std::uint32_t k = lines;
-      while (k != 0 && group.line[k - 1] != line) --k;
+      std::uint32_t k = newest[line % newest.size()];
+      while (k != 0 && numbers[k - 1] != line) --k;
       if (k == 0) {
         const std::uint32_t place = 4 * (line & apart_mask_);
         if (lines == lookups_ || (alike >> place & 15) == alike_) return false;
         alike += 1u << place;
-        group.line[lines] = line;
-        group.turned[lines] = false;
+        numbers[lines] = line;
         k = ++lines;
+        newest[line % newest.size()] = static_cast<std::uint8_t>(k);
       }
       of_group[i] = static_cast<std::uint8_t>(k - 1);
     }
@@ -113,6 +114,8 @@ inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
   }
   group.count = static_cast<std::uint8_t>(most);
   group.lines = static_cast<std::uint8_t>(lines);
+  group.line = numbers;
+  group.turned.fill(false);
   return true;
 }
 

@@ -100,11 +100,11 @@ class GroupFormer final : public Unit {
   Memory<void> memory_;
   std::vector<ReadPort<void>> oldest_;
   std::vector<WritePort<void>> new_;
-  std::vector<Waiting> buffer_;            // a ring
-  std::uint32_t head_ = 0, buffered_ = 0;  // oldest request and number of requests
-  std::vector<Bank> banks_;                // of words
-  std::uint64_t group_ = 0;                // number of the group
-  Counter* cause_ = nullptr;               // why the latest group has fewer than W requests
+  std::array<Waiting, 2 * kMostInGroup> buffer_;  // a ring of 2 W entries
+  std::uint32_t head_ = 0, buffered_ = 0;         // oldest request and number of requests
+  std::vector<Bank> banks_;                       // of words
+  std::uint64_t group_ = 0;                       // number of the group
+  Counter* cause_ = nullptr;                      // why the latest group has fewer than W requests
   // Counters only: empty slots since the latest group, by cause; counted with the next group.
   bool started_ = false;
   std::uint64_t starved_since_ = 0;

@@ -122,17 +122,22 @@ void SampleWalkerOf<Width>::emit(Cycle cycle) {
   if constexpr (Width::kMost == 1) {
     if (step(walks_[0], out)) walking_ = 0;
   } else {
-    out.count = out.partial = 0;
-    do {
+    const std::size_t width = width_;
+    std::size_t count = 0;
+    unsigned partial = 0;
+    while (count < width && walking_ != 0) {
       auto& group = walks_[older_];
-      const bool last = step(group.at[fragment_], out.at[out.count++]);
+      Walk& walk = group.at[fragment_];
+      bool last = false;
+      while (count < width && !last) last = step(walk, out.at[count++]);
       if (!last || ++fragment_ != group.count) continue;
-      if (group.count < fragments_)
-        out.partial = static_cast<std::uint8_t>(out.partial | 1U << (out.count - 1));
+      if (group.count < fragments_) partial |= 1U << (count - 1);
       fragment_ = 0;
       older_ = (older_ + 1) % kWalking;
       --walking_;
-    } while (out.count < width_ && walking_ != 0);
+    }
+    out.count = static_cast<std::uint8_t>(count);
+    out.partial = static_cast<std::uint8_t>(partial);
   }
 }
 

@@ -14,30 +14,6 @@ using spec::texture::kCoordinateFractionBits;
 
 constexpr std::int64_t kOne = std::int64_t{1} << kCoordinateFractionBits;
 
-// The model packs the two columns (or rows) of a request into one word so that one operation
-// handles both.
-constexpr std::uint64_t kBoth = 0x1'0000'0001;
-constexpr std::uint64_t pair(std::int32_t first, std::int32_t second) {
-  return static_cast<std::uint32_t>(first) | std::uint64_t{static_cast<std::uint32_t>(second)}
-                                                 << 32;
-}
-constexpr std::uint32_t low(std::uint64_t pair) { return static_cast<std::uint32_t>(pair); }
-constexpr std::uint32_t high(std::uint64_t pair) { return static_cast<std::uint32_t>(pair >> 32); }
-// Masks of the low bits of both halves.
-constexpr auto kOnes = [] {
-  std::array<std::uint64_t, 16> table{};
-  for (unsigned bits = 0; bits < table.size(); ++bits) table[bits] = kBoth * ((1U << bits) - 1);
-  return table;
-}();
-
-// Spreads a 10-bit number to the even bits of a 20-bit number (wires).
-constexpr auto kSpread = [] {
-  std::array<std::uint32_t, 1024> table{};
-  for (std::uint32_t i = 0; i < table.size(); ++i)
-    for (unsigned bit = 0; bit < 10; ++bit) table[i] |= (i >> bit & 1) << (2 * bit);
-  return table;
-}();
-
 }  // namespace
 
 template <class Width>
@@ -101,7 +77,12 @@ inline void TexelAddresserOf<Width>::request(const TextureState& texture, const 
              y = scale(sample.t, level.height, texture.wrap_t, sample.linear);
   control.fraction_u = x.fraction;
   control.fraction_v = y.fraction;
-  address(texture, level, x.texels, y.texels, out);
+  // Stage 5.
+  const std::uint32_t left = level.column[x.first], right = level.column[x.second],
+                      upper = level.row[y.first], lower = level.row[y.second];
+  out.address = {upper + left, upper + right, lower + left, lower + right};
+  const bool rows = texture.layout == spec::texture::Layout::kLinear;
+  out.turned = {rows && y.first % 2 != 0, rows && y.second % 2 != 0};
 }
 
 // Stages 2 to 4 for one axis: wraps the coordinate, scales it to texels, splits it, and brings both
@@ -129,48 +110,14 @@ inline typename TexelAddresserOf<Width>::Axis TexelAddresserOf<Width>::scale(
   }
   const std::int32_t last = size - 1;
   if (first >= 0 && second <= last) [[likely]]
-    return {pair(first, second), fraction};
+    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second), fraction};
   const bool repeats = wrap == spec::texture::Wrap::kRepeat;
   const auto into_range = [&](std::int32_t x) {
-    if (x < 0) return repeats ? last : 0;
-    if (x > last) return repeats ? 0 : last;
-    return x;
+    if (x < 0) x = repeats ? last : 0;
+    if (x > last) x = repeats ? 0 : last;
+    return static_cast<std::uint32_t>(x);
   };
-  return {pair(into_range(first), into_range(second)), fraction};
-}
-
-// Stage 5.
-template <class Width>
-inline void TexelAddresserOf<Width>::address(const TextureState& texture,
-                                             const LevelGeometry& level, std::uint64_t x,
-                                             std::uint64_t y, TexelToken& out) {
-  std::uint64_t column, row;  // parts of the addresses: U28
-  const bool linear_layout = texture.layout == spec::texture::Layout::kLinear;
-  if (linear_layout) {
-    column = x << texture.texel_log2;
-    row = y * level.pitch;
-  } else {
-    // Tiles are in Morton order: the low `common` bits of their numbers interleave, columns in the
-    // even bits; the remaining bits are above.
-    const unsigned common = level.mixed_log2;
-    const std::uint64_t mixed = kOnes[common];
-    const auto tiles = [&](std::uint64_t at, unsigned tile_log2, unsigned place) {
-      const std::uint64_t tile =
-          at >> tile_log2;  // the second half shifts into the first one's top bits
-      const std::uint64_t interleaved = tile & mixed, above = (tile ^ interleaved) & kOnes[12];
-      return (kSpread[low(interleaved)] | std::uint64_t{kSpread[high(interleaved)]} << 32)
-                 << place |
-             above << common;
-    };
-    const unsigned width_log2 = texture.tile_width_log2, height_log2 = texture.tile_height_log2;
-    column = tiles(x, width_log2, 0) << 6 | (x & kOnes[width_log2]) << texture.texel_log2;
-    row = tiles(y, height_log2, 1) << 6 | (y & kOnes[height_log2])
-                                              << (width_log2 + texture.texel_log2);
-  }
-  const std::uint32_t upper = level.base + low(row), lower = level.base + high(row);
-  out.address = {upper + low(column), upper + high(column), lower + low(column),
-                 lower + high(column)};
-  out.turned = {linear_layout && (low(y) & 1), linear_layout && (high(y) & 1)};
+  return {into_range(first), into_range(second), fraction};
 }
 
 template <class Width>

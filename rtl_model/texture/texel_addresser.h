@@ -4,8 +4,8 @@
 // Position  SampleWalker -> TexelAddresser; last unit of the AddressUnit.
 // Stalls    downstream  The whole unit stalls.
 // Method    Address = base + column part + row part, so four texels need two column parts, two row
-//           parts and four three-input adders; sums wrap. The model computes everything in stage 1,
-//           then delays.
+//           parts and four three-input adders; sums wrap. The model reads the parts from the
+//           tables of the level, computes everything in stage 1, then delays.
 // Source    Paper 2.2 (3) and (4); layouts are ours.
 #pragma once
 
@@ -51,8 +51,8 @@ class TexelAddresserOf : public TexelAddresserBase {
   static constexpr int kStages = 5;
   // Two adjacent texels along one axis.
   struct Axis {
-    std::uint64_t texels;   // U12 each, in range; the first in the low half
-    std::uint8_t fraction;  // U0.8
+    std::uint32_t first, second;  // U12, in range
+    std::uint8_t fraction;        // U0.8
   };
   [[gnu::always_inline]] void enter(Cycle cycle,
                                     const typename Width::template Requests<SampleToken>& samples);
@@ -60,8 +60,6 @@ class TexelAddresserOf : public TexelAddresserBase {
                                       TexelToken& texels);
   static Axis scale(std::int64_t position, std::int32_t size, spec::texture::Wrap wrap,
                     bool linear);
-  static void address(const TextureState& texture, const LevelGeometry& level, std::uint64_t x,
-                      std::uint64_t y, TexelToken& texels);
 
   Descriptors::Reader descriptors_;
   std::optional<Descriptors::Reader> younger_;

@@ -63,10 +63,7 @@ inline void WideTagStage::read_sets(Cycle cycle) {
   out_.lines = group.lines;
   out_.at = group.at;
   out_.turned = group.turned;
-  for (std::size_t k = 0; k < group.lines; ++k) {
-    lines_[k] = {group.line[k], 0, 0, 0};
-    out_.missed[k] = false;
-  }
+  for (std::size_t k = 0; k < group.lines; ++k) lines_[k].number = group.line[k];
   // All sets are read in the same cycle, so one of them is enough for the checks.
   if (group.lines != 0) tags_.read(cycle, 0, group.line[0]);
 }
@@ -102,16 +99,18 @@ inline void WideTagStage::look_up(Cycle cycle) {
       line.uses = 1;
       line.slot = tags_.find(line.number);
       out_.missed[k] = line.slot == TagStore::kAbsent;
-      if (out_.missed[k]) return allocate(k);
-      line.fill = fill_number_[line.slot];
-      out_.turned[k] = tags_.turned(line.slot);
-      tags_.use(line.slot);
+      if (out_.missed[k]) {
+        allocate(k);
+      } else {
+        line.fill = fill_number_[line.slot];
+        out_.turned[k] = tags_.turned(line.slot);
+        tags_.use(line.slot);
+      }
+      // Way and set are swapped, so that the low bits select the line bank.
+      out_.slot[k] = static_cast<std::uint16_t>((line.slot & way_mask_) << set_log2_ |
+                                                line.slot >> ways_log2_);
     });
   }
-  // Way and set are swapped, so that the low bits select the line bank.
-  for (std::size_t k = 0; k < out_.lines; ++k)
-    out_.slot[k] = static_cast<std::uint16_t>((lines_[k].slot & way_mask_) << set_log2_ |
-                                              lines_[k].slot >> ways_log2_);
   tags_.commit(cycle);
   left_ = missed_.count == 0 ? 0 : (missed_.count - 1) / allocations_;
 }
@@ -125,14 +124,19 @@ void WideTagStage::allocate(std::size_t k) {
   missed_.line[missed_.count++] = line.number;
 }
 
-// In the cycle in which the group leaves. A line that missed is under way for its further uses.
+// In the cycle in which the group leaves.
 inline void WideTagStage::count_uses(Cycle cycle) {
   requests += valid_requests_;
+  misses += missed_.count;
+  std::uint64_t uses = 0, in_flight = 0;
   for (std::size_t k = 0; k < out_.lines; ++k) {
     const Line& line = lines_[k];
-    misses += out_.missed[k];
-    (line.fill > used_ ? merged : hits) += line.uses - out_.missed[k];
+    uses += line.uses;
+    if (line.fill > used_) in_flight += line.uses;
   }
+  // A line that missed is in flight.
+  hits += uses - in_flight;
+  merged += in_flight - missed_.count;
   if (observer) [[unlikely]]
     report_uses(cycle);
 }

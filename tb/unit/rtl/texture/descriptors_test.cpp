@@ -70,7 +70,7 @@ TEST(TextureRtlDescriptors, FollowEveryRegister) {
     EXPECT_EQ(read.read(++cycle, handle).bias, 3 * 16) << +handle;
     store.bus.write(at + reg::kLevelBase + 4 * (spec::texture::kMaxLevels - 1), 64);
     store.bus.write(at + reg::kLevelBase + 8, 128);
-    EXPECT_EQ(read.read(++cycle, handle).level[2].base, 128u) << +handle;
+    EXPECT_EQ(read.read(++cycle, handle).level[2].row.front(), 128u) << +handle;
   }
 }
 
