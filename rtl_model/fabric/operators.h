@@ -6,6 +6,7 @@
 //   .longest = {op::multiply(23, 23)}
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -40,7 +41,8 @@ struct Operator {
   friend bool operator==(const Operator&, const Operator&) = default;
 };
 
-constexpr Operator operator*(std::uint64_t count, Operator one) {
+template <std::integral Count>
+constexpr Operator operator*(Count count, Operator one) {
   one.count *= static_cast<std::uint32_t>(count);
   return one;
 }
