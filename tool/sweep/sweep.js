@@ -98,9 +98,16 @@
   function linesOfFronts(x, y, across, up, colour, groups) {
     if (!goals.includes(x.name) || !goals.includes(y.name) || x === y) return [];
     const same = frontAxes.length === 1 && frontAxes[0] === colour.axis;
+    const cost = (c, p) => c.value(p) * (data.objectives.find((o) => o.metric === c.name).maximise ? -1 : 1);
+    // With further objectives, only the points that are best in these two.
+    const best = (points) => {
+      let least = Infinity;
+      return points.sort((a, b) => cost(x, a) - cost(x, b) || cost(y, a) - cost(y, b))
+        .filter((p) => cost(y, p) < least && ((least = cost(y, p)), true));
+    };
     return [...fronts].map(([where, points], i) => ({
       label: `front${where === '' ? '' : ' of ' + where}`,
-      data: points.map((p) => ({x: across(p), y: up(p), point: p})).sort((a, b) => a.x - b.x || a.y - b.y),
+      data: best([...points]).map((p) => ({x: across(p), y: up(p), point: p})),
       showLine: true, pointRadius: 0, pointHitRadius: 0, borderWidth: 1.5,
       borderColor: same ? palette[groups.indexOf(points[0].at[colour.axis])] ?? ink : ink,
       backgroundColor: 'transparent', borderDash: same ? [] : dashes[i % dashes.length],
