@@ -74,5 +74,5 @@ def gates_morphological(f):
 
 @recipe("gates-geometric")
 def gates_geometric(f):
-    return front(f, "geometric", [f"geometric.{name}" for name in ("edge_lanes", "resolve_lanes", "walkers",
-                                                                   "pipelined", "dividers")] + ["caches"], "psnr_edge")
+    return front(f, "geometric", [f"geometric.{name}" for name in ("edge_lanes", "resolve_lanes", "pipelined",
+                                                                   "dividers")] + ["caches"], "psnr_edge")

@@ -169,7 +169,8 @@
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));
       const means = effect.means.map((m) => m[1]);
-      const span = Math.max(...means) - Math.min(...means);
+      const most = Math.max(...means), least = Math.min(...means);
+      const span = most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)) ? most - least : 0;  // not rounding
       element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
       const frame = element('div', undefined, box, 'chart');
       frame.style.height = '150px';
