@@ -49,3 +49,30 @@ def preset_of_frames(f):
                 for scene in ("cylinders", "road")]
         yield [f"`{preset}`", spaced(runs[0]["memory_bits"]["total"]["physical"]), spaced(runs[0]["cycles"])] + [
             f"{run['quality']['psnr_edge_db']:.2f}; {run['change']['right_over_2_percent']:.2f}" for run in runs]
+
+
+def front(f, engine, axes, quality, only=None):
+    """A row per point of the front: values of the axes, quality, cycles, thousands of gates."""
+    for point in f.front(f"{engine}_gates"):
+        if all(point[axis] in values for axis, values in (only or {}).items()):
+            yield [point[axis] for axis in axes] + [f"{point[quality]:.2f}", spaced(point["cycles"]),
+                                                    spaced(round(point["gates"] / 1000))]
+
+
+@recipe("gates-texture")
+def gates_texture(f):
+    return front(f, "texture", ("texture.axes", "texture.footprint", "texture.build"), "psnr",
+                 {"texture.footprint": ["two_segment", "exact"], "texture.count": ["any"],
+                  "texture.cache.bytes": ["4096"], "texture.cache.ways": ["2"]})
+
+
+@recipe("gates-morphological")
+def gates_morphological(f):
+    return front(f, "morphological", [f"morphological.{name}" for name in ("preset", "lanes", "predictor_units")],
+                 "psnr_edge", {"morphological.storage": ["line_buffers"]})
+
+
+@recipe("gates-geometric")
+def gates_geometric(f):
+    return front(f, "geometric", [f"geometric.{name}" for name in ("edge_lanes", "resolve_lanes", "pipelined",
+                                                                   "dividers")] + ["caches"], "psnr_edge")

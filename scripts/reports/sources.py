@@ -88,6 +88,19 @@ class Sources:
             return json.loads((out / "result.json").read_text(encoding="utf-8"))
         return self._once(f"deburr run {line}", make)
 
+    def front(self, name):
+        """Points on the front of a ready sweep: dictionaries of axes and metrics, by gates."""
+        def make():
+            for action in ("run", "collect"):
+                self._call(f"deburr sweep {name} {action}",
+                           [self.build / "deburr", "sweep", self.root / f"sweeps/{name}.yaml", action, "--quiet"])
+            file = self.scratch / f"out/sweeps/{name}/collected.json"
+            return json.loads(file.read_text(encoding="utf-8"))
+        found = self._once(f"deburr sweep {name}", make)
+        names = [column["name"] for column in found["axes"] + found["metrics"]]
+        points = [dict(zip(names, point["at"] + point["values"])) for point in found["points"] if point.get("front")]
+        return sorted(points, key=lambda point: point["gates"])
+
     def papers(self, number):
         """The tables of a paper, by their titles."""
         def make():

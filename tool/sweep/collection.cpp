@@ -49,7 +49,7 @@ const nlohmann::json* find(const nlohmann::json& node, std::string_view key) {
   return nullptr;
 }
 
-const nlohmann::json* value_of(const nlohmann::json& result, const std::string& key) {
+const nlohmann::json* node_of(const nlohmann::json& result, const std::string& key) {
   if (!key.starts_with('/')) return find(result, key);
   try {
     const nlohmann::json::json_pointer pointer(key);
@@ -57,6 +57,12 @@ const nlohmann::json* value_of(const nlohmann::json& result, const std::string& 
   } catch (const nlohmann::json::exception&) {
     return nullptr;
   }
+}
+
+// A group that has a `value` stands for it (`cost.gates`).
+const nlohmann::json* value_of(const nlohmann::json& result, const std::string& key) {
+  const nlohmann::json* const node = node_of(result, key);
+  return node && node->is_object() && node->contains("value") ? &node->at("value") : node;
 }
 
 // The first key of the metric that the result lacks; empty: none.
@@ -199,6 +205,7 @@ class Collector {
       std::replace(key.begin(), key.end(), '/', '.');
     }
     const nlohmann::json meanings = result.value("meaning", nlohmann::json::object());
+    if (!meanings.contains(key)) key += ".value";
     const nlohmann::json entry = meanings.value(key, nlohmann::json::object());
     all_.metrics[metric].unit = entry.value("unit", "");
     if (key.starts_with("throughput.") && all_.metrics[metric].unit == kUnitOfThroughput)

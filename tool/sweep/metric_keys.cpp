@@ -16,7 +16,7 @@
 namespace deburr::tool {
 namespace {
 
-constexpr std::string_view kUnits = "units.*.", kStalls = "stalls.";
+constexpr std::string_view kUnits = "units.*.", kStalls = "stalls.", kValue = ".value";
 
 // One per line. Keys declared by the engine are listed by name.
 std::string described_keys(const std::string& name) {
@@ -27,6 +27,7 @@ std::string described_keys(const std::string& name) {
     const std::string_view key = statistic.name;
     if (!key.starts_with(kUnits)) {
       keys.emplace(key);
+      if (key.ends_with(kValue)) keys.emplace(key.substr(0, key.size() - kValue.size()));
       continue;
     }
     const std::string_view figure = key.substr(kUnits.size());

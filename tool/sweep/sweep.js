@@ -98,9 +98,16 @@
   function linesOfFronts(x, y, across, up, colour, groups) {
     if (!goals.includes(x.name) || !goals.includes(y.name) || x === y) return [];
     const same = frontAxes.length === 1 && frontAxes[0] === colour.axis;
+    const cost = (c, p) => c.value(p) * (data.objectives.find((o) => o.metric === c.name).maximise ? -1 : 1);
+    // With further objectives, only the points that are best in these two.
+    const best = (points) => {
+      let least = Infinity;
+      return points.sort((a, b) => cost(x, a) - cost(x, b) || cost(y, a) - cost(y, b))
+        .filter((p) => cost(y, p) < least && ((least = cost(y, p)), true));
+    };
     return [...fronts].map(([where, points], i) => ({
       label: `front${where === '' ? '' : ' of ' + where}`,
-      data: points.map((p) => ({x: across(p), y: up(p), point: p})).sort((a, b) => a.x - b.x || a.y - b.y),
+      data: best([...points]).map((p) => ({x: across(p), y: up(p), point: p})),
       showLine: true, pointRadius: 0, pointHitRadius: 0, borderWidth: 1.5,
       borderColor: same ? palette[groups.indexOf(points[0].at[colour.axis])] ?? ink : ink,
       backgroundColor: 'transparent', borderDash: same ? [] : dashes[i % dashes.length],
@@ -162,7 +169,8 @@
     for (const effect of effects) {
       const box = element('div', undefined, byId('effects'));
       const means = effect.means.map((m) => m[1]);
-      const span = Math.max(...means) - Math.min(...means);
+      const most = Math.max(...means), least = Math.min(...means);
+      const span = most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)) ? most - least : 0;  // not rounding
       element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
       const frame = element('div', undefined, box, 'chart');
       frame.style.height = '150px';

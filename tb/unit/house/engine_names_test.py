@@ -50,7 +50,7 @@ NAMED = {
             "tb/unit/golden/c/threads_test.cpp"],
         "Python provides its equations in real numbers, and tests call its Python functions": [
             "python/bindings/ideal_python.cpp"],
-        "generates the tables of its pages": ["scripts/reports/results.py"],
+        "generates the tables of its pages": ["scripts/reports/guides.py", "scripts/reports/results.py"],
         "an example in the help of a script": ["scripts/mutate"],
     },
     "morphological": {

@@ -222,7 +222,8 @@ class Surroundings(Sweeps):
             self.expect(2, "sweep", "s.yaml", action,
                         says="s.yaml:4: metric 'cycles': no result of 'texture' has the key 'cicles': did you mean 'cycles'")
         for key, near in (("units.filter_pipeline.buzy", "units.filter_pipeline.busy"), ("/units/filter_pipelne/busy", "units.filter_pipeline.busy"),
-                          ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears")):
+                          ("work.bilinear", "work.bilinears"), ("1 + work.bilinear", "work.bilinears"),
+                          ("cost.x", "cost.ns"), ("/cost/gates/valu", "cost.gates.value")):
             self.write("s.yaml", BASE + AXES + f"metrics: {{it: '{key}'}}\n")
             self.expect(2, "sweep", "s.yaml", "plan", says=("has the key", f"'{near}'"))
         self.write("s.yaml", BASE + AXES + "metrics: {psnr: quality.psnr_db}\n")

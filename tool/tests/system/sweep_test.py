@@ -148,6 +148,22 @@ objectives: {minimise: [kib, cycles_a_fragment]}
         self.search("limits.yaml", "--runs", str(POINTS), "--population", "8")
         self.assertEqual({row["point"] for row in self.rows("limits", command="search") if row["front"] == "1"}, front)
 
+    def test_front_of_cycles_and_gates(self):
+        """A second fragment per cycle costs gates and, with many samples per fragment, saves no cycle."""
+        self.write("gates.yaml", "engine: texture\nbase: {scene: {source: plane, width: 24, height: 24}, run.images: false}\n"
+                   "points:\n- {texture.width: 1, texture.fragments: 1}\n- {texture.width: 2, texture.fragments: 2}\n"
+                   "- {texture.width: 2, texture.fragments: 1}\n"
+                   "metrics: {cycles: cycles, gates: cost.gates, ns: cost.ns.value, sum: /cost/estimate/gates}\n"
+                   "limits: [ns > 0]\nobjectives: {minimise: [cycles, gates]}\n")
+        self.run_sweep("gates.yaml", "run")
+        said, rows, results = self.said("gates.yaml", "collect"), self.rows("gates"), self.results()
+        self.assertEqual([row["front"] for row in rows], ["1", "0", "1"])
+        self.assertRegex(said[0], r"^front .*, gates = [\d,]+ gate, ns = [\d.]+ ns, ")
+        for row in rows:
+            cost = results[row["point"]][1]["cost"]
+            self.assertEqual([float(row[name]) for name in ("gates", "ns", "sum")],
+                             [cost["gates"]["value"], cost["ns"]["value"], cost["estimate"]["gates"]])
+
     def test_small_front_is_printed(self):
         """Each point with its axes and metrics; larger fronts are only on the page. The same for a search."""
         text = SWEEP.replace("metrics: {", "metrics: {none: cycles / (work.fragments - work.fragments), ")
