@@ -97,11 +97,9 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
   const std::uint32_t format = f::kFormat.of(mode), wrap_s = f::kWrapS.of(mode),
                       wrap_t = f::kWrapT.of(mode), min_filter = f::kMinFilter.of(mode),
                       levels = f::kLevels.of(mode), max_count_log2 = f::kMaxCount.of(mode);
-  TextureState t;
-  t.width = static_cast<std::uint16_t>(reg::size::kWidth.of(size));
-  t.height = static_cast<std::uint16_t>(reg::size::kHeight.of(size));
-  const std::uint32_t longest = std::max(t.width, t.height);
-  bool valid = t.width >= 1 && t.height >= 1 && longest <= spec::texture::kMaxTextureSize &&
+  const std::uint32_t width = reg::size::kWidth.of(size), height = reg::size::kHeight.of(size),
+                      longest = std::max(width, height);
+  bool valid = width >= 1 && height >= 1 && longest <= spec::texture::kMaxTextureSize &&
                levels >= 1 && levels <= static_cast<std::uint32_t>(std::bit_width(longest)) &&
                format < spec::texture::kFormatNames.size() &&
                wrap_s < spec::texture::kWrapNames.size() &&
@@ -109,6 +107,9 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
                min_filter < spec::texture::kMinFilterNames.size() && max_count_log2 <= 4;
   if (!valid) return {};
 
+  TextureState t;
+  t.width = static_cast<std::uint16_t>(width);
+  t.height = static_cast<std::uint16_t>(height);
   t.levels = static_cast<std::uint8_t>(levels);
   t.format = static_cast<spec::texture::Format>(format);
   t.layout = static_cast<spec::texture::Layout>(f::kLayout.of(mode));
