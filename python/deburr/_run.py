@@ -105,6 +105,17 @@ class Run(Figures):
         return f"{entry['meaning']} [{entry['unit']}]" if entry.get("unit") else entry["meaning"]
 
 
+def cost(engine: str, **parameters: typing.Any) -> Figures:
+    """Returns the cost of the hardware that run() would build, without a run: `cost.gates.value`, `cost.ns`,
+    `cost.units.tag_stage.flip_flops`. Parameters as for run(); those of the run and its inputs have no effect."""
+    with tempfile.TemporaryDirectory(prefix="deburr_cost_") as folder:
+        words = [f"--set={name}={text}" for name, text in settings(str(engine), parameters, folder)]
+        answer = call("params", str(engine), "--cost", *words)
+    if answer["exit_code"] != 0:
+        raise RunError("\n".join([answer["outcome"], *answer["messages"]]), answer["exit_code"])
+    return Figures(answer["cost"])
+
+
 def run(engine: str, *, out: str | os.PathLike[str] | None = None, config: str | os.PathLike[str] | None = None,
         progress: bool = False, **parameters: typing.Any) -> Run:
     """Runs a cycle-accurate model against its golden model; returns a Run.

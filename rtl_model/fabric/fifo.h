@@ -47,6 +47,8 @@ class Fifo final : public MemoryBase {
   bool empty() const { return link_.empty(); }
   // Largest number of entries in use in a cycle, including one that is popped in it.
   std::optional<std::uint64_t> high_water() const override { return high_water_; }
+  std::uint64_t reads() const override { return link_.pops(); }
+  std::uint64_t writes() const override { return link_.pushes(); }
   // For a consumer in another unit, which binds its port to this link.
   Link<T>& link() { return link_; }
   std::vector<const sc_core::sc_object*> port_holders() const override {

@@ -131,6 +131,9 @@ class MemoryBase : public sc_core::sc_object {
   virtual void reset() {}
   // FIFOs only: most words in use in a cycle since reset, including one that leaves in it.
   virtual std::optional<std::uint64_t> high_water() const { return std::nullopt; }
+  // Accesses since reset, of all ports. Of a FIFO, the beats popped and pushed.
+  virtual std::uint64_t reads() const { return 0; }
+  virtual std::uint64_t writes() const { return 0; }
   // Checks that every declared port is used, since an unused port would still be counted in the
   // cost. The domain calls it at the end of elaboration.
   virtual void check_ports() const {}
@@ -165,9 +168,8 @@ class PortedMemory : public MemoryBase {
   void reset() override;
   void check_ports() const override;
   std::vector<const sc_core::sc_object*> port_holders() const override;
-  // Accesses since reset, of all ports.
-  std::uint64_t reads() const;
-  std::uint64_t writes() const;
+  std::uint64_t reads() const override;
+  std::uint64_t writes() const override;
 
  protected:
   template <class>

@@ -23,10 +23,10 @@ MemoryShape buffer_shape(const MemoryPortParameters& p) {
           .content = "lines received from memory, with their status"};
 }
 
-std::unique_ptr<const MemoryBase> make_gather_buffer(const MemoryPortParameters& p) {
+std::unique_ptr<PortBuffer> make_gather_buffer(const MemoryPortParameters& p) {
   if (p.max_write_lines == 1) return nullptr;
   const std::uint32_t bits = 8 * p.line_bytes;
-  return std::make_unique<const MemoryBase>(
+  return std::make_unique<PortBuffer>(
       "gather_buffer",
       MemoryShape{.words = p.max_write_lines,
                   .word_bits = bits,
@@ -169,9 +169,11 @@ Activity MemoryPort::work(Cycle cycle) {
         }
       }
       Transaction& t = *gathering_;
-      if (t.write)
+      if (t.write) {
         std::memcpy(t.data.data() + std::size_t{t.next_line++} * parameters_.line_bytes,
                     request.data.data(), parameters_.line_bytes);
+        if (gather_buffer) gather_buffer->count_word();
+      }
       requests_in.pop(cycle);
       if (completes) {
         gathering_ = nullptr;
@@ -377,6 +379,7 @@ bool MemoryPort::respond(Cycle cycle) {
   else
     response.data.fill(0);
   ++t->next_line;
+  if (!t->write) response_buffer.count_word();
   if (response.last) {
     // Nearly always the oldest transaction.
     for (std::deque<Transaction*>* list : {&in_flight_, &arrived_})

@@ -105,6 +105,19 @@ enum class ResponseEnd : std::uint8_t {
   kCall        // returns TLM_ACCEPTED and sends END_RESP forward
 };
 
+// A buffer whose words the port moves itself; each is written once and read once.
+class PortBuffer final : public MemoryBase {
+ public:
+  using MemoryBase::MemoryBase;
+  std::uint64_t reads() const override { return words_; }
+  std::uint64_t writes() const override { return words_; }
+  void reset() override { words_ = 0; }
+  void count_word() { ++words_; }
+
+ private:
+  std::uint64_t words_ = 0;
+};
+
 class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tlm_mm_interface {
  public:
   In<MemoryRequest> requests_in{"requests_in"};
@@ -119,9 +132,9 @@ class MemoryPort final : public Unit, public tlm::tlm_bw_transport_if<>, tlm::tl
   void reset() override;
 
   // Lines that have arrived and wait for the link, with their status.
-  const MemoryBase response_buffer;
+  PortBuffer response_buffer;
   // The write burst being gathered until it is sent. nullptr: writes are one line.
-  const std::unique_ptr<const MemoryBase> gather_buffer;
+  const std::unique_ptr<PortBuffer> gather_buffer;
 
   std::uint32_t in_flight() const;
   const MemoryPortParameters& parameters() const { return parameters_; }

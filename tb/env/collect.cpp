@@ -6,7 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "rtl_model/fabric/engine.h"
 #include "rtl_model/fabric/memory_port.h"
 
 namespace deburr::tb {
@@ -19,13 +18,21 @@ bool only_waits(const rtl::Unit& unit, std::string_view cause) {
          (cause == "memory" && dynamic_cast<const rtl::MemoryPort*>(&unit) != nullptr);
 }
 
-// The unit that holds the memory, or a port of it.
-const sc_core::sc_object& owner_of(const rtl::MemoryBase& memory) {
-  const sc_core::sc_object& parent = *memory.get_parent_object();
-  if (dynamic_cast<const rtl::Unit*>(&parent) != nullptr) return parent;
+// The unit in which the object lies, or null.
+const sc_core::sc_object* unit_around(const sc_core::sc_object* object) {
+  while (object != nullptr && dynamic_cast<const rtl::Unit*>(object) == nullptr)
+    object = object->get_parent_object();
+  return object;
+}
+
+// The unit in which the memory lies, or one that holds a port: of a FIFO, the consumer. Empty if an
+// engine holds it.
+std::string owner_of(const rtl::MemoryBase& memory) {
+  const sc_core::sc_object* owner = unit_around(&memory);
   for (const sc_core::sc_object* holder : memory.port_holders())
-    if (dynamic_cast<const rtl::Unit*>(holder) != nullptr) return *holder;
-  return parent;
+    if (unit_around(&memory) == nullptr && unit_around(holder) != nullptr)
+      owner = unit_around(holder);
+  return owner != nullptr ? owner->basename() : "";
 }
 
 }  // namespace
@@ -77,14 +84,11 @@ MemoryFigures memory_figures(std::string name, const rtl::MemoryBase& memory, in
   if (width > 0) f.logical_bits_at_frame_width = memory.bits_at(static_cast<std::uint64_t>(width));
   f.physical_bits = memory.physical_bits();
   f.register_bits = memory.register_bits();
-  const sc_core::sc_object& owner = owner_of(memory);
-  f.owner = dynamic_cast<const rtl::Engine*>(&owner) ? "others" : owner.basename();
+  f.owner = owner_of(memory);
   f.read_ports = memory.shape().read_ports + memory.shape().shared_ports;
   f.write_ports = memory.shape().write_ports + memory.shape().shared_ports;
-  if (const auto* ported = dynamic_cast<const rtl::PortedMemory*>(&memory)) {
-    f.reads = ported->reads();
-    f.writes = ported->writes();
-  }
+  f.reads = memory.reads();
+  f.writes = memory.writes();
   f.high_water = memory.high_water();
   f.not_implementable = memory.not_implementable();
   return f;

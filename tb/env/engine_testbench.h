@@ -67,10 +67,12 @@ class EngineTestbench {
   // misses. Runs with the same values of these, the same configuration and the same inputs share
   // one golden result.
   virtual std::vector<std::string_view> built_for_golden() const { return {}; }
-  // Every counter, stall cause, fault and part of the hardware of a run with the parameters'
-  // current values, for docs/reference/statistics.md and the cost of a build. It elaborates the
-  // environment, so call it at most once per process and not in a process that runs a simulation.
+  // Every counter, stall cause and fault of a run, for docs/reference/statistics.md. It elaborates
+  // the environment, so call it at most once per process and not in a process that runs a
+  // simulation.
   virtual void describe_statistics(Result& result) = 0;
+  // The hardware that a run with the parameters' current values builds, likewise.
+  virtual void describe_build(Result& result) { describe_statistics(result); }
   virtual rtl::RegisterSection registers() const { return {}; }
   virtual CoverageSection coverage() const { return {}; }
   virtual DatasheetSection datasheets() const { return {}; }

@@ -28,8 +28,8 @@ void Meter::add(Result& result, std::string_view name, const rtl::Unit& unit) co
 
 void Meter::add(Result& result, std::string_view name, const rtl::MemoryBase& memory,
                 int width) const {
-  result.memories.push_back(memory_figures(figure(name), memory, width));
-  result.memories.back().owner = figure(result.memories.back().owner);
+  MemoryFigures& added = result.memories.emplace_back(memory_figures(figure(name), memory, width));
+  added.owner = figure(added.owner.empty() ? name : added.owner);
 }
 
 namespace {

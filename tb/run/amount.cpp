@@ -31,4 +31,17 @@ std::string amount(double value, int digits) {
   return (value < 0 ? "-" : "") + grouped(std::stoull(text.substr(0, point))) + text.substr(point);
 }
 
+std::string rounded(double value) {
+  constexpr int kDigits = 3;
+  if (value <= 0) return "0";
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) + 1 - kDigits);
+  return amount(unit > 1 ? std::round(value / unit) * unit : value, kDigits);
+}
+
+std::string with_range(double low, double value, double high) {
+  if (value <= 0) return "-";
+  if (low == high) return rounded(value);
+  return fmt::format("{} ({} to {})", rounded(value), rounded(low), rounded(high));
+}
+
 }  // namespace deburr::tb

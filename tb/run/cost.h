@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,9 @@ struct Cost {
   Ranged gates;
   std::uint64_t flip_flops = 0, memory_bits = 0;
   Ranged ns, clock_mhz;
+  // Of a complete run, which is one frame: at clock_mhz above, and at that of the run.
+  std::optional<Ranged> frames_per_s;
+  double run_frames_per_s = 0;
   double yardstick_ratio = 0;  // ns over those of a 24 x 24 multiply
   std::string limited_by;      // "axis_unit stage 8", "axis_unit to out_data"
   Estimate estimate;

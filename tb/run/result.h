@@ -110,7 +110,7 @@ struct MemoryFigures {
   std::uint64_t register_bits = 0;  // flip-flops in addition to its words
   // Logical bits at the frame width of this run, if the size depends on the width.
   std::uint64_t logical_bits_at_frame_width = 0;
-  // Accesses since reset; the unit that holds it ("others": between units); accesses per cycle.
+  // Words read and written since reset; the unit that holds it, or its own name; ports.
   std::uint64_t reads = 0, writes = 0;
   std::string owner;
   std::uint64_t read_ports = 0, write_ports = 0;

@@ -103,8 +103,12 @@ void describe(const MemoryFigures& m, Visitor& v) {
           "Bits as built, with copies and the unused words of the last bank.");
   v.value("logical_bits_at_frame_width", m.logical_bits_at_frame_width, "bit",
           "logical_bits if built for the width of this frame.");
-  v.value("reads", m.reads, "word", "Words read, since the last reset.");
-  v.value("writes", m.writes, "word", "Words written, since the last reset.");
+  v.value("reads", m.reads, "word",
+          "Words read since the last reset; for a FIFO, entries popped. 0 for a table whose words "
+          "are all seen at once.");
+  v.value("writes", m.writes, "word",
+          "Words written since the last reset, without those loaded before the run; for a FIFO, "
+          "entries pushed.");
   if (v.has(m.register_bits != 0))
     v.value("register_bits", m.register_bits, "bit",
             "Additional flip-flops: output registers of a FIFO, arrived bits, and the bypass of an "
@@ -146,6 +150,11 @@ void describe(const Cost& cost, Visitor& v) {
   v.value("memory_bits", cost.memory_bits, "bit", "Bits of SRAM and ROM, as built.");
   describe("ns", cost.ns, "ns", "Longest path of all units.", v);
   describe("clock_mhz", cost.clock_mhz, "MHz", "Clock that the longest path allows.", v);
+  if (v.has(cost.frames_per_s.has_value())) {
+    describe("frames_per_s", cost.frames_per_s.value_or(Ranged{}), "frame/s",
+             "Frames like this one per second at that clock.", v);
+    v.value("run_frames_per_s", cost.run_frames_per_s, "frame/s", "The same at run.clock_mhz.");
+  }
   v.value("yardstick_ratio", cost.yardstick_ratio, "",
           "Longest path relative to a 24 x 24 multiply of the same technology.");
   v.value("limited_by", cost.limited_by, "", "Unit and stage with the longest path.");

@@ -38,14 +38,8 @@ struct ParamsCommand {
   std::vector<std::string> sets;
 };
 
-std::string ranged(const tb::Ranged& figure, int decimals) {
-  if (figure.value == 0) return "-";
-  const auto text = [&](double value) {
-    return decimals > 0 ? fmt::format("{:.{}f}", value, decimals)
-                        : tb::grouped(static_cast<std::uint64_t>(value + 0.5));
-  };
-  if (figure.low == figure.high) return text(figure.value);
-  return fmt::format("{} ({} to {})", text(figure.value), text(figure.low), text(figure.high));
+std::string ranged(const tb::Ranged& figure) {
+  return tb::with_range(figure.low, figure.value, figure.high);
 }
 
 std::string cost_table(const tb::Cost& cost) {
@@ -53,8 +47,8 @@ std::string cost_table(const tb::Cost& cost) {
       {"unit", "basis", "gates", "flip-flops", "memory bits", "ns", "stage"}};
   const auto add = [&](const std::string& name, const std::string& basis, const auto& of,
                        const std::string& stage) {
-    rows.push_back({name, basis, ranged(of.gates, 0), tb::grouped(of.flip_flops),
-                    tb::grouped(of.memory_bits), ranged(of.ns, 2), stage});
+    rows.push_back({name, basis, ranged(of.gates), tb::grouped(of.flip_flops),
+                    tb::grouped(of.memory_bits), ranged(of.ns), stage});
   };
   for (const tb::UnitCost& unit : cost.units) add(unit.name, unit.basis, unit, unit.stage);
   add("total", "", cost, cost.limited_by);
@@ -69,8 +63,8 @@ std::string cost_table(const tb::Cost& cost) {
                                : fmt::format("{:{}}  ", row[i], widths[i]);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
-  text += fmt::format("\nclock: {} MHz, {:.2f} x a 24 x 24 multiply ({})\n",
-                      ranged(cost.clock_mhz, 0), cost.yardstick_ratio, cost.technology);
+  text += fmt::format("\nclock: {} MHz, {:.2f} x a 24 x 24 multiply ({})\n", ranged(cost.clock_mhz),
+                      cost.yardstick_ratio, cost.technology);
   for (const tb::SramArea& sram : cost.sram)
     text += fmt::format("SRAM: {:.3f} mm2 ({})\n", sram.mm2, sram.technology);
   return text;
@@ -85,10 +79,12 @@ Outcome print_cost(const ParamsCommand& command, bool json) {
   for (const std::string& text : command.sets) bound.set.set_assignment(text, "--set");
   bound.resolve();
   tb::Result result;
-  engine->describe_statistics(result);
+  engine->describe_build(result);
+  if (result.sheets.empty())
+    throw spec::ConfigError(fmt::format("{} has no datasheets, so it has no cost", command.unit));
   result.cost = cost_of(result, bound.set);
   Outcome outcome{
-      0, fmt::format("PASS params: {} gates of {}", ranged(result.cost->gates, 0), command.unit)};
+      0, fmt::format("PASS params: {} gates of {}", ranged(result.cost->gates), command.unit)};
   if (json)
     outcome.details = tb::json_text(Json{{"cost", to_json(result).at("cost")}});
   else

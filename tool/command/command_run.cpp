@@ -157,6 +157,15 @@ std::string figures_of(const tb::Result& r) {
   if (r.bytes_read + r.bytes_written > 0)
     text += fmt::format("memory      {:.3g} GB/s read, {:.3g} written at {:g} MHz\n",
                         r.gb_per_s(r.bytes_read), r.gb_per_s(r.bytes_written), r.clock_mhz);
+  if (r.cost) {
+    const tb::Cost& cost = *r.cost;
+    const auto ranged = [](const tb::Ranged& f) { return tb::with_range(f.low, f.value, f.high); };
+    text += fmt::format("cost        {} gates", ranged(cost.gates));
+    if (cost.ns.value > 0)
+      text += fmt::format(", {} ns in {}, {} MHz", ranged(cost.ns), cost.limited_by,
+                          ranged(cost.clock_mhz));
+    text += "\n";
+  }
   if (r.quality) {
     text += fmt::format("quality     {}", decibels(r.quality->psnr_db, r.quality->psnr_before_db));
     if (r.quality->psnr_edge_db)

@@ -38,7 +38,7 @@ std::string owner_of(const tb::MemoryFigures& memory, const std::vector<Part>& p
                                  ? memory.name.substr(memory.owner.size() + 1)
                                  : memory.name;
   for (const Part& part : parts)
-    if (within.starts_with(part.unit) || memory.name == part.name) return part.name;
+    if (within.starts_with(part.unit) || memory.name.starts_with(part.name)) return part.name;
   for (const Part& part : parts)
     if (memory.owner.starts_with(part.name)) return part.name;
   return memory.owner;
@@ -123,41 +123,53 @@ tb::UnitCost links_of(const tb::Result& result, const Primitives& p) {
   return cost;
 }
 
-// Rows of docs/measurements/cost.json, of the engine that has RTL.
+// Rows of docs/measurements/cost.json, of the engine that has RTL. The file has a row a line; only
+// those of the build's units are parsed, since this is part of every run.
 class MappedRows {
  public:
-  static const MappedRows& embedded() {
-    static const MappedRows rows(embedded::mapped_json());
-    return rows;
+  explicit MappedRows(const ParameterValue& value) : value_(value) {
+    const std::string_view text = embedded::mapped_json();
+    constexpr std::string_view kEngine = "\"engine\": \"";
+    const std::size_t engine = text.find(kEngine) + kEngine.size();
+    prefix_ = fmt::format("{}.", text.substr(engine, text.find('"', engine) - engine));
+    // Values without which there is no RTL.
+    const Json only = object_in(text, "only");
+    any_ = value && only.is_object();
+    for (const auto& [name, wanted] : only.items()) any_ = any_ && value(prefix_ + name) == wanted;
   }
 
-  const Json* of(const Part& part, const tb::Result& result, const ParameterValue& value) const {
-    for (const auto& [name, only] : only_.items())
-      if (value(engine_ + name) != only) return nullptr;
+  // null if no row has these very parameters.
+  Json of(const Part& part, const tb::Result& result) const {
+    if (!any_) return nullptr;
     std::uint64_t in_data = 0;
     for (const tb::LinkShape& link : result.link_shapes)
       if (link.consumer == part.name) in_data += link.bits;
-    for (const Json& row : units_) {
-      if (row["unit"] != part.unit || !row["osu018"].is_object()) continue;
-      bool same = true;
-      for (const auto& [name, wanted] : row["parameters"].items())
-        same = same && (name == "in_data" ? Json(in_data) : value(engine_ + name)) == wanted;
-      if (same) return &row["osu018"];
+    const std::string_view text = embedded::mapped_json();
+    const std::string begin = fmt::format("{{\"unit\": \"{}\",", part.unit);
+    for (std::size_t at = 0; (at = text.find(begin, at)) != std::string_view::npos; ++at) {
+      const std::string_view row = text.substr(at, text.find('\n', at) - at);
+      const Json parameters = object_in(row, "parameters");
+      bool same = parameters.is_object();
+      for (const auto& [name, wanted] : parameters.items())
+        same = same && (name == "in_data" ? Json(in_data) : value_(prefix_ + name)) == wanted;
+      if (!same) continue;
+      if (Json mapped = object_in(row, "osu018"); mapped.is_object()) return mapped;
     }
     return nullptr;
   }
 
  private:
-  explicit MappedRows(std::string_view text) {
-    const Json json = Json::parse(text);
-    engine_ = json.at("engine").get<std::string>() + ".";
-    only_ = json.at("only");
-    units_ = json.at("units");
+  // An object without inner ones; null for a text.
+  static Json object_in(std::string_view row, std::string_view name) {
+    const std::size_t at = row.find(fmt::format("\"{}\": {{", name));
+    if (at == std::string_view::npos) return nullptr;
+    const std::size_t begin = row.find('{', at);
+    return Json::parse(row.substr(begin, row.find('}', begin) + 1 - begin));
   }
 
-  std::string engine_;  // prefix of its parameters
-  Json only_;           // values without which there is no RTL
-  Json units_;
+  const ParameterValue& value_;
+  std::string prefix_;  // of the engine's parameters
+  bool any_ = false;
 };
 
 void take_mapped(tb::UnitCost& cost, const Json& row) {
@@ -172,12 +184,18 @@ void take_mapped(tb::UnitCost& cost, const Json& row) {
 
 // Area of the SRAM of each technology of sram.json.
 std::vector<tb::SramArea> sram_areas(const tb::Result& result) {
+  static const std::vector<std::pair<std::string, Fit>> fits = [] {
+    std::vector<std::pair<std::string, Fit>> all;
+    const Json json = Json::parse(without_rows(embedded::sram_json()));
+    for (const auto& [name, technology] : json.at("technologies").items()) {
+      const Json& area = technology.at("um2");
+      all.emplace_back(name, Fit(area.at("form").get<std::string>(),
+                                 area.at("coefficients").get<std::vector<double>>()));
+    }
+    return all;
+  }();
   std::vector<tb::SramArea> areas;
-  for (const auto& [name, technology] :
-       Json::parse(embedded::sram_json()).at("technologies").items()) {
-    const Json& area = technology.at("um2");
-    const Fit fit(area.at("form").get<std::string>(),
-                  area.at("coefficients").get<std::vector<double>>());
+  for (const auto& [name, fit] : fits) {
     double um2 = 0;
     for (const tb::MemoryFigures& m : result.memories) {
       if (m.kind != "sram") continue;
@@ -195,19 +213,19 @@ std::vector<tb::SramArea> sram_areas(const tb::Result& result) {
 tb::Cost estimate(const tb::Result& result, const ParameterValue& value, const Primitives& p) {
   tb::Cost cost;
   cost.technology = p.technology();
+  const MappedRows mapped(value);
   for (const Part& part : parts_of(result)) {
     tb::UnitCost unit = estimated(part, p);
-    if (value)
-      // The RTL keeps small memories apart, which the unit has in flip-flops.
-      if (const Json* row = MappedRows::embedded().of(part, result, value);
-          row && (unit.memory_bits > 0 || (*row)["memory_bits"] == 0))
-        take_mapped(unit, *row);
+    // The RTL keeps small memories apart, which the unit has in flip-flops.
+    if (const Json row = mapped.of(part, result);
+        !row.is_null() && (unit.memory_bits > 0 || row["memory_bits"] == 0))
+      take_mapped(unit, row);
     if (unit.gates.value > 0 || unit.memory_bits > 0) cost.units.push_back(std::move(unit));
   }
   cost.units.push_back(links_of(result, p));
   for (const tb::UnitCost& unit : cost.units) {
-    const bool mapped = unit.basis == "mapped";
-    cost.gates = cost.gates + (mapped ? unit.gates : within(unit.gates.value, kSumRange));
+    const bool exact = unit.basis == "mapped";
+    cost.gates = cost.gates + (exact ? unit.gates : within(unit.gates.value, kSumRange));
     cost.flip_flops += unit.flip_flops;
     cost.memory_bits += unit.memory_bits;
     cost.estimate.gates += unit.estimate.gates;
@@ -222,6 +240,13 @@ tb::Cost estimate(const tb::Result& result, const ParameterValue& value, const P
   }
   const auto mhz = [](double ns) { return ns > 0 ? 1000 / ns : 0; };
   cost.clock_mhz = {mhz(cost.ns.high), mhz(cost.ns.value), mhz(cost.ns.low)};
+  if (result.cycles > 0 && !result.interrupted && cost.ns.value > 0) {
+    const double million_frames = 1e6 / static_cast<double>(result.cycles);
+    const tb::Ranged& clock = cost.clock_mhz;
+    cost.frames_per_s = {clock.low * million_frames, clock.value * million_frames,
+                         clock.high * million_frames};
+    cost.run_frames_per_s = result.clock_mhz * million_frames;
+  }
   cost.yardstick_ratio = cost.ns.value / p.multiply_ns();
   cost.sram = sram_areas(result);
   return cost;

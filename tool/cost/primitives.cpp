@@ -64,9 +64,19 @@ double Fit::at(double a, double b) const {
   return std::max(sum, 0.0);
 }
 
+std::string without_rows(std::string_view text) {
+  constexpr std::string_view kBegin = "\"rows\": [[", kEnd = "]]";
+  std::string kept;
+  for (std::size_t begin; (begin = text.find(kBegin)) != std::string_view::npos;) {
+    kept += text.substr(0, text.rfind(',', begin));
+    text.remove_prefix(std::min(text.find(kEnd, begin) + kEnd.size(), text.size()));
+  }
+  return kept += text;
+}
+
 Primitives::Primitives(std::string_view text) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(text);
+    const nlohmann::json json = nlohmann::json::parse(without_rows(text));
     technology_ = json.at("technology").get<std::string>();
     for (const auto& [name, kind] : json.at("kinds").items()) {
       const auto fit = [&](const char* of) {

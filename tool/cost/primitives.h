@@ -30,6 +30,9 @@ class Fit {
   std::vector<Term> terms_;
 };
 
+// The text of osu018.json or sram.json without the measured rows, which only made the fits.
+std::string without_rows(std::string_view text);
+
 class Primitives {
  public:
   // From the text of osu018.json. Throws FileError if a kind is missing.

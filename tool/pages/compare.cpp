@@ -13,6 +13,7 @@
 
 #include "spec/error.h"
 #include "tb/base/json_text.h"
+#include "tb/run/amount.h"
 #include "tb/run/parameter_set.h"
 #include "tb/run/result.h"
 #include "tool/pages/input_files.h"
@@ -72,6 +73,8 @@ void flatten(const Json& node, const std::string& path, KeyValues& values) {
       path == "coverage" || path.ends_with("meaning") || path == "latency.histogram" ||
       path == "schema")
     return;
+  // The ends of a range go with its value.
+  if (path.starts_with("cost.") && (path.ends_with(".low") || path.ends_with(".high"))) return;
   if (node.is_object()) {
     for (const auto& [key, value] : node.items())
       flatten(value, path.empty() ? key : fmt::format("{}.{}", path, key), values);
@@ -135,7 +138,99 @@ Trend compare_numbers(Better better, double a, double b, const Tolerances& t) {
   }
 }
 
+// ---- cost ---------------------------------------------------------------------------------------
+
+// A figure of cost with its range; without a range both ends are the value.
+struct CostFigure {
+  double low = 0, value = 0, high = 0;
+
+  double share() const { return value > 0 ? std::max(high - value, value - low) / value : 0; }
+};
+
+std::optional<CostFigure> cost_figure(const Json& result, const std::string& key) {
+  const std::optional<double> value = as_number(value_at(result, key));
+  if (!value) return std::nullopt;
+  CostFigure figure{*value, *value, *value};
+  if (!key.ends_with(".value")) return figure;
+  const std::string stem = key.substr(0, key.size() - std::string_view("value").size());
+  figure.low = as_number(value_at(result, stem + "low")).value_or(*value);
+  figure.high = as_number(value_at(result, stem + "high")).value_or(*value);
+  return figure;
+}
+
+// "cost.units.NAME" or "cost", of which the key is a figure.
+std::string owner_of_cost(const std::string& key) {
+  constexpr std::string_view kUnits = "cost.units.";
+  return key.starts_with(kUnits) ? key.substr(0, key.find('.', kUnits.size())) : "cost";
+}
+
+// Whether a unit is mapped in one result and an estimate in the other.
+bool other_basis(const Json& a, const Json& b, const std::string& owner) {
+  if (owner != "cost") return value_at(a, owner + ".basis") != value_at(b, owner + ".basis");
+  const Json units = value_at(a, "cost.units");
+  if (!units.is_object()) return false;
+  for (const auto& [name, unit] : units.items()) {
+    const Json other = value_at(b, "cost.units." + name + ".basis");
+    if (!other.is_null() && unit.value("basis", Json()) != other) return true;
+  }
+  return false;
+}
+
+struct CostChange {
+  std::string change;
+  Trend trend = Trend::kNone;
+};
+
+CostChange compare_cost(const std::string& key, const Json& a, const Json& b) {
+  const std::string owner = owner_of_cost(key);
+  const std::string what =
+      key.substr(owner.size() + 1, key.find('.', owner.size() + 1) - owner.size() - 1);
+  const bool of_cells = what != "flip_flops" && what != "memory_bits" && what != "sram";
+  std::optional<CostFigure> x = cost_figure(a, key), y = cost_figure(b, key);
+  if (!x || !y || (of_cells && other_technology(a, b))) return {};
+  std::string by;
+  // One path is the longest: it is mapped, and has no range, or it is not.
+  const bool of_path = what == "ns" || what == "clock_mhz" || what == "frames_per_s";
+  const bool other = of_path
+                         ? (x->share() > 0) != (y->share() > 0)
+                         : (what == "gates" || what == "flip_flops") && other_basis(a, b, owner);
+  if (other) {
+    // The errors of two estimates of a unit are much the same, those of an estimate and RTL not.
+    const double share = std::max(x->share(), y->share());
+    const std::string estimate = owner + ".estimate." + what;
+    x = cost_figure(a, estimate);
+    y = cost_figure(b, estimate);
+    if (!x || !y) return {};
+    for (CostFigure* one : {&*x, &*y}) {
+      one->low = one->value * (1 - share);
+      one->high = one->value * (1 + share);
+    }
+    by = " by estimates";
+  }
+  CostChange result;
+  if (x->value > 0 && y->value > 0 && x->value != y->value)
+    result.change = fmt::format("{:+.2f} %{}", 100 * (y->value / x->value - 1), by);
+  const bool more_is_better = what == "clock_mhz" || what == "frames_per_s";
+  if (x->low <= y->high && y->low <= x->high)
+    result.trend = Trend::kEqual;
+  else if (what != "estimate" && what != "yardstick_ratio" && what != "run_frames_per_s")
+    result.trend = (y->value > x->value) == more_is_better ? Trend::kBetter : Trend::kWorse;
+  return result;
+}
+
 }  // namespace
+
+bool other_technology(const Json& a, const Json& b) {
+  const Json x = value_at(a, "cost.technology"), y = value_at(b, "cost.technology");
+  return !x.is_null() && !y.is_null() && x != y;
+}
+
+std::string range_text(const Json& result, const std::string& key) {
+  const std::optional<CostFigure> figure =
+      key.starts_with("cost.") ? cost_figure(result, key) : std::nullopt;
+  if (!figure || figure->low == figure->high) return "";
+  return fmt::format("{} to {}", tb::rounded(figure->low), tb::rounded(figure->high));
+}
 
 std::optional<double> as_number(const Json& value) {
   return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
@@ -174,6 +269,7 @@ Trend check(const std::string& key, std::optional<double> a, std::optional<doubl
 }
 
 bool counts(const std::string& key, const Tolerances& tolerances) {
+  if (key.starts_with("cost.")) return false;
   return better_of(key) != Better::kBits || tolerances.memory_percent;
 }
 
@@ -208,6 +304,11 @@ Comparison compare(const Json& a, const Json& b, const Tolerances& tolerances) {
                         change_of(key, x, y),
                         check(key, x, y, tolerances),
                         false};
+    if (key.starts_with("cost.")) {
+      const CostChange cost = compare_cost(key, a, b);
+      value.change = cost.change;
+      value.verdict = cost.trend;
+    }
     value.worse = value.verdict == Trend::kWorse && counts(key, tolerances);
     if (key == "verdict") value.worse = left && *left == "pass" && (!right || *right != "pass");
     if (key == "verdict" && right && *right == "fail") value.worse = true;

@@ -41,7 +41,8 @@ struct Comparison {
 };
 
 // Compares `b` with `a`, both from read_result(). Worse are a mismatch, a lost verdict, or a value
-// with a direction that only `a` has. ConfigError for results of different engines.
+// with a direction that only `a` has. A figure of cost never fails the comparison, and is kEqual
+// where the ranges overlap. ConfigError for results of different engines.
 Comparison compare(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b,
                    const Tolerances& tolerances);
 
@@ -60,6 +61,12 @@ std::string value_text(const nlohmann::ordered_json& value);
 std::optional<double> as_number(const nlohmann::ordered_json& value);
 // null if absent.
 nlohmann::ordered_json value_at(const nlohmann::ordered_json& result, const std::string& key);
+
+// Whether gates and nanoseconds of the two results are of different standard cells: then they are
+// not compared.
+bool other_technology(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
+// "394,000 to 411,000", of a figure of cost; "" without a range.
+std::string range_text(const nlohmann::ordered_json& result, const std::string& key);
 
 // Compares the work of two manifests: inputs (by content) and parameters marked as work (scene,
 // size, clock). Returns a line for each difference; differences make results hard to compare.

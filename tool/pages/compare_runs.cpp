@@ -79,6 +79,11 @@ Json warnings_of(const std::vector<Run>& runs) {
     if (run.result.value("interrupted", false))
       warnings.push_back(
           fmt::format("{} was interrupted: its figures cover only the completed part", run.letter));
+    if (other_technology(runs[0].result, run.result))
+      warnings.push_back(
+          fmt::format("the standard cells differ: A {}, {} {}: gates and ns are not compared",
+                      value_text(value_at(runs[0].result, "cost.technology")), run.letter,
+                      value_text(value_at(run.result, "cost.technology"))));
     if (&run == &runs[0] || !run.manifest.is_object() || !runs[0].manifest.is_object()) continue;
     for (std::string line : different_work(runs[0].manifest, run.manifest)) {
       // different_work() uses the letters A and B.
@@ -172,6 +177,8 @@ class Rows {
       const Json value = value_at(*results_[i], key);
       Json cell = {{"value", tb::is_infinite(value) ? Json() : value}, {"text", value_text(value)}};
       if (tb::is_infinite(value)) cell["identical"] = true;
+      if (const std::string range = range_text(*results_[i], key); !range.empty())
+        cell["range"] = range;
       if (i > 0) {
         const ComparedValue* found = find(comparisons_[i - 1], key);
         const Trend equal = check(key, as_number(base), as_number(value), tolerances);
@@ -218,6 +225,12 @@ Headlines headlines(const std::vector<Run>& runs) {
                    {"Bytes read", "memory.bytes_read"},
                    {"Bytes written", "memory.bytes_written"},
                    {"Memory, physical", "memory_bits.total.physical"},
+                   {"Gates", "cost.gates.value"},
+                   {"Flip-flops", "cost.flip_flops"},
+                   {"SRAM and ROM", "cost.memory_bits"},
+                   {"Longest path", "cost.ns.value"},
+                   {"Clock limit", "cost.clock_mhz.value"},
+                   {"Frames per second at the clock limit", "cost.frames_per_s.value"},
                    {"PSNR", "quality.psnr_db"},
                    {"PSNR, edge pixels", "quality.psnr_edge_db"},
                    {"PSNR, silhouettes", "quality.psnr_silhouette_db"},

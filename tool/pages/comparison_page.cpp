@@ -129,6 +129,10 @@ class ComparisonPage {
     page_.set("has_values", values.rows() > 0);
     page_.set("values_count", std::to_string(values.rows()));
     page_.set("values", values.html());
+    page_.set("has_cost", std::any_of(comparison_.at("figures").begin(),
+                                      comparison_.at("figures").end(), [](const Json& figure) {
+                                        return text_of(figure.at("key")).starts_with("cost.");
+                                      }));
     fill_tiles(comparison_.at("runs"));
     fill_pictures();
   }
@@ -170,8 +174,9 @@ class ComparisonPage {
         const bool identical = entry.value("identical", false);
         HtmlCell cell(identical ? entry.value("text", "") : figure_text(entry.at("value")),
                       entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
-        if (const std::string change = entry.value("change", ""); !change.empty())
-          cell.add("<small>" + mustache::html_escape(change) + "</small>");
+        for (const char* more : {"range", "change"})
+          if (const std::string text = entry.value(more, ""); !text.empty())
+            cell.add("<small>" + mustache::html_escape(text) + "</small>");
         // A percentage of decibels is meaningless.
         const auto value = as_number(entry.at("value"));
         if (bars && !in_decibels(key) && value && most > 0 && std::isfinite(*value))

@@ -79,6 +79,7 @@ class ReportBuilder {
     fill_units();
     fill_latency();
     fill_memories();
+    fill_cost();
     fill_parameters();
     fill_origin();
   }
@@ -458,6 +459,55 @@ class ReportBuilder {
       not_implementable << memory;
     page_.set("not_implementable", not_implementable);
     page_.set("is_not_implementable", !tb::not_implementable_memories(result_).empty());
+  }
+
+  // The range stands below the value.
+  static HtmlCell ranged(const Json& figure) {
+    const double low = number(figure, "low"), high = number(figure, "high");
+    const double value = number(figure, "value");
+    HtmlCell cell(value > 0 ? tb::rounded(value) : "-");
+    if (low < high)
+      cell.add(fmt::format("<small>{} to {}</small>", tb::rounded(low), tb::rounded(high)));
+    return cell;
+  }
+
+  void fill_cost() {
+    const auto found = result_.find("cost");
+    page_.set("has_cost", found != result_.end());
+    if (found == result_.end()) return;
+    const Json& cost = *found;
+    page_.set("cost_technology", report_text(cost, "technology"));
+    HtmlTable units(
+        "Unit:name|Gates:n|Flip-flops:n|Memory, bit:n|Longest path, ns:n|Stage:meaning|Basis");
+    const auto row = [&](const std::string& name, const std::string& basis, const Json& of,
+                         const std::string& stage, const char* look) {
+      units.row({name, ranged(of["gates"]), report_text(of, "flip_flops"),
+                 report_text(of, "memory_bits"), ranged(of["ns"]), stage, basis},
+                look);
+    };
+    const double longest = number(cost["ns"], "value");
+    for (const auto& [name, unit] : cost["units"].items())
+      row(name, report_text(unit, "basis"), unit, report_text(unit, "stage"),
+          longest > 0 && number(unit["ns"], "value") == longest ? "changed" : "");
+    row("all", "", cost, report_text(cost, "limited_by"), "");
+    page_.set("cost_units", units.html());
+
+    HtmlTable figures("What|Value:n|Unit", "narrow");
+    if (longest > 0) {
+      figures.row({"Clock limit by the longest path", ranged(cost["clock_mhz"]), "MHz"});
+      if (cost.contains("frames_per_s")) {
+        figures.row(
+            {"Frames like this one at this limit", ranged(cost["frames_per_s"]), "frame/s"});
+        figures.row({fmt::format("The same at run.clock_mhz = {:g}", number(result_, "clock_mhz")),
+                     tb::rounded(number(cost, "run_frames_per_s")), "frame/s"});
+      }
+      figures.row({"Longest path, relative to a 24 x 24 multiply",
+                   fmt::format("{:.2f}", number(cost, "yardstick_ratio")), ""});
+    }
+    for (const auto& [technology, sram] : cost["sram"].items())
+      figures.row({fmt::format("Area of all SRAM in {}", technology),
+                   tb::rounded(number(sram, "mm2")), "mm\u00b2"});
+    page_.set("cost_figures", figures.html());
   }
 
   void fill_origin() {

@@ -94,7 +94,7 @@ RunEnd run_once(BoundEngine& bound, RunContext& context, IfTaken if_taken,
       return end;
     }
     bound.engine.run(bound.run, context, result);
-    result.cost = cost_of(result, bound.set);
+    if (!result.sheets.empty()) result.cost = cost_of(result, bound.set);
     if (result.mismatches + result.traffic_mismatches > 0) {
       end.code = static_cast<int>(ExitCode::kMismatch);
       end.kind = "mismatch";

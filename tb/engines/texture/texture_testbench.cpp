@@ -65,6 +65,13 @@ std::vector<std::string_view> TextureTestbench::built_for_golden() const {
           "texture.cache.replacement"};
 }
 
+void TextureTestbench::describe_build(Result& result) {
+  const TextureScene scene = smallest(scene_, sampler_);
+  Simulation simulation({});
+  TextureEnvironment environment(simulation, scene, {texture_, memory_});
+  describe(simulation, environment, result);
+}
+
 void TextureTestbench::describe_statistics(Result& result) {
   const TextureScene scene = smallest(scene_, sampler_);
   Simulation simulation({});

@@ -18,7 +18,8 @@ class TextureTestbench : public virtual EngineTestbench {
   void add_parameters(ParameterSet& set) override;
   std::vector<std::filesystem::path> input_files(MeshFiles& meshes) const override;
   std::vector<std::string_view> built_for_golden() const override;
-  void describe_statistics(Result& result) override;
+  void describe_statistics(Result& result) override;  // also of a wide unit
+  void describe_build(Result& result) override;
   rtl::RegisterSection registers() const override;
   CoverageSection coverage() const override;
   DatasheetSection datasheets() const override;

@@ -190,6 +190,9 @@ TEST(MemoryPort, HandlesReadAndWriteBursts) {
   EXPECT_EQ(s.port.bytes_written.value(), 258U);
   EXPECT_EQ(s.memory.bytes_written(), 258U);
   EXPECT_EQ(s.memory.lines_read().size(), 8U);
+  EXPECT_EQ(s.port.response_buffer.writes(), 8U) << "a write response has no line";
+  EXPECT_EQ(s.port.response_buffer.reads(), 8U);
+  EXPECT_EQ(s.port.gather_buffer->writes(), 5U);
 }
 
 // A request that a full memory withholds during a reset of the engine arrives later and does not

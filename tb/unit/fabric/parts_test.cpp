@@ -37,9 +37,12 @@ TEST(Fifo, TakesOneCycleAndRecordsHighWater) {
     fifo.pop(c);
   }
   EXPECT_EQ(fifo.high_water(), 5U);
+  EXPECT_EQ(fifo.writes(), 49U);
+  EXPECT_EQ(fifo.reads(), 45U);
   fifo.reset();
   EXPECT_TRUE(fifo.empty());
   EXPECT_EQ(fifo.high_water(), 0U);
+  EXPECT_EQ(fifo.writes() + fifo.reads(), 0U);
 }
 
 // An entry that is popped in a cycle is in use until the end of the cycle, whichever side is ticked

@@ -25,5 +25,14 @@ TEST(Amount, UsesOneFormForEveryNumber) {
   EXPECT_EQ(amount(2e18), "2e+18");
 }
 
+TEST(Amount, ShowsRangeWithThreeDigits) {
+  EXPECT_EQ(with_range(395'832, 402'166, 411'499), "402,000 (396,000 to 411,000)");
+  EXPECT_EQ(with_range(3.64, 4.856, 6.07), "4.86 (3.64 to 6.07)");
+  EXPECT_EQ(with_range(0.00974, 0.0125, 0.0161), "0.0125 (0.00974 to 0.0161)");
+  EXPECT_EQ(with_range(7.462, 7.462, 7.462), "7.46") << "measured";
+  EXPECT_EQ(with_range(100.25, 204, 1000.5), "204 (100 to 1,000)");
+  EXPECT_EQ(with_range(0, 0, 0), "-");
+}
+
 }  // namespace
 }  // namespace deburr::tb::amount_test

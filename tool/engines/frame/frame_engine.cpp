@@ -88,6 +88,14 @@ class FrameCommand final : public Engine {
     add_flicker(result, {}, {});
   }
 
+  // Covers the chosen engines.
+  void describe_build(tb::Result& result) override {
+    const std::shared_ptr<const DrawnScene> scene = drawer().smallest();
+    tb::Simulation simulation({});
+    FrameComposition frame(simulation, *scene, roles());
+    describe(simulation, frame, result);
+  }
+
   std::vector<std::string_view> parts() const override {
     std::vector<std::string_view> names;
     for (const CompositionRole* role : roles().all()) names.push_back(role->name());

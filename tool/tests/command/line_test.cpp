@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "tb/run/amount.h"
 #include "tool/tests/command/in_process.h"
 #include "tool/tests/command/made_engine.h"
 
@@ -37,6 +38,15 @@ TEST_P(WrongCommandLine, MessageNamesMistake) {
 const Case kMistakes[] = {
     {"UnknownUnit", "params mad",
      "configuration: no unit 'mad': did you mean 'made'? (known: run, frame, made, other)"},
+    {"CostWithoutEngine", "params --cost",
+     "configuration: --cost needs an engine: deburr params texture --cost"},
+    {"CostOfUnknownEngine", "params mad --cost",
+     "configuration: no engine 'mad': did you mean 'made'?"},
+    {"CostWithoutDatasheets", "params other --cost",
+     "configuration: other has no datasheets, so it has no cost"},
+    {"SettingWithoutCost", "params made --set made.lanes=8", "usage: --set requires --cost"},
+    {"WrongValueForCost", "params made --cost --set made.lanes=99",
+     "configuration: --set: made.lanes"},
     {"OneRunToCompare", "compare a",
      "usage: DIR: At least 2 required but received 1 (see deburr compare --help)"},
     {"HelpBelowCommandWithoutCommands", "help sweep plan",
@@ -170,7 +180,7 @@ TEST_F(CommandLine, CompletionKnowsCommandsOptionsAndValues) {
     words[(*it)[1]] = (*it)[2];
   for (const auto& [place, expected] : std::map<std::string, std::string>{
            {"help@1", "made other "},
-           {"params", "--help --markdown --c-header --systemrdl --json "},
+           {"params", "--help --markdown --c-header --systemrdl --cost --set --json "},
            {"params@0", "run frame made other "},
            {"regress@0", "plan run rerun status collect"},
            {"run", "made other --help "},
@@ -258,6 +268,30 @@ TEST_F(CommandLine, ParamsPrintsReferencePages) {
     EXPECT_THAT("\n" + printed(std::string("params ") + option),
                 HasSubstr(std::string("\n") + line + "\n"))
         << option;
+}
+
+TEST_F(CommandLine, ParamsPrintsCostOfBuild) {
+  const Json cost = json("params made --cost --json")["cost"];
+  EXPECT_EQ(cost["flip_flops"], 32u);
+  EXPECT_EQ(cost["units"]["adder"]["basis"], "estimate");
+  EXPECT_EQ(cost["limited_by"], "adder stage 1");
+  EXPECT_FALSE(cost.contains("frames_per_s")) << "nothing ran";
+  const Json wide = json("params made --cost --json --set made.lanes=8")["cost"];
+  EXPECT_EQ(wide["flip_flops"], 64u);
+  EXPECT_GT(wide["gates"]["value"], cost["gates"]["value"]);
+  EXPECT_GT(wide["ns"]["value"], cost["ns"]["value"]);
+
+  const auto ranged = [](const Json& figure) {
+    return tb::with_range(figure["low"], figure["value"], figure["high"]);
+  };
+  const std::string text = std::regex_replace(printed("params made --cost"), std::regex(" +"), " ");
+  EXPECT_THAT(text, HasSubstr("unit basis gates flip-flops memory bits ns stage\n"));
+  EXPECT_THAT(text,
+              HasSubstr(fmt::format("adder estimate {} 32 0 {} 1\n",
+                                    ranged(cost["units"]["adder"]["gates"]), ranged(cost["ns"]))));
+  EXPECT_THAT(text, HasSubstr(fmt::format("total {} 32 0 {} adder stage 1\n", ranged(cost["gates"]),
+                                          ranged(cost["ns"]))));
+  EXPECT_THAT(text, HasSubstr(fmt::format("clock: {} MHz, ", ranged(cost["clock_mhz"]))));
 }
 
 }  // namespace

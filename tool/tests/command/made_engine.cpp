@@ -104,6 +104,15 @@ class MadeEngine : public Engine {
   }
   void describe_statistics(tb::Result& result) override {
     result.faults = {name_ + "_late", name_ + "_lost"};
+    if (name_ != "made") return;
+    const auto lanes = static_cast<std::uint32_t>(values_.lanes);
+    rtl::Datasheet sheet = {.unit = "Adder"};
+    sheet.stages = {{.clock = "1",
+                     .work = "sums",
+                     .operators = {rtl::op::add(8 * lanes)},
+                     .longest = {rtl::op::add(8 * lanes)},
+                     .registers = 8 * lanes}};
+    result.sheets = {{"adder", sheet}};
   }
   std::vector<std::string_view> pictures() const override { return {"after"}; }
   std::string_view pixel_history() const override { return name_ == "made" ? "Its steps" : ""; }

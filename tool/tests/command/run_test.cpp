@@ -97,6 +97,15 @@ void run(const RunParameters& p, RunContext& context, tb::Result& r) {
       break;
     case 12:
       throw std::runtime_error("something else");
+    case 13: {
+      r.cycles = 1000;
+      r.throughput_unit = "pixel/clk";
+      rtl::Datasheet sheet = {.unit = "Adder"};
+      sheet.stages = {{.clock = "1", .work = "sums", .registers = 8}};
+      if (p.stall_seed == 2) sheet.stages[0].longest = {rtl::op::multiply(24, 24)};
+      r.sheets = {{"adder", sheet}};
+      break;
+    }
     default:
       fill(r);
   }
@@ -170,6 +179,17 @@ RESULT: INTERRUPTED made: before the simulation began, no results were written
 )"},
 };
 INSTANTIATE_TEST_SUITE_P(All, RunOutput, testing::ValuesIn(kOutputs), name_of_case);
+
+// The numbers belong to tool/cost/osu018.json.
+TEST_F(RunCommand, PrintsCost) {
+  const std::string number = "[0-9.,]+",
+                    ranged = number + " \\(" + number + " to " + number + "\\)";
+  EXPECT_THAT(printed("run made --seed 13"),
+              testing::ContainsRegex("\ncost        " + ranged + " gates\n"));
+  EXPECT_THAT(printed("run made --seed 13 --set run.stall_seed=2"),
+              testing::ContainsRegex("\ncost        " + ranged + " gates, " + ranged +
+                                     " ns in adder stage 1, " + ranged + " MHz\n"));
+}
 
 TEST_F(RunCommand, JsonIsOneObject) {
   const char* const mismatch =

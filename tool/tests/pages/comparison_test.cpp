@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Several runs or sweeps compared: which entries are listed and matched, and how values are
 // compared.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "spec/error.h"
@@ -178,6 +180,82 @@ class Directory : public testing::Test {
   fs::path path_;
 };
 
+// ---- cost ---------------------------------------------------------------------------------------
+
+// A result whose only unit has these gates, +-share, and takes as many ps.
+Json with_cost(double gates, double share, const char* basis, double estimate) {
+  tb::Result r;
+  r.unit = "texture";
+  r.cycles = 1000;
+  tb::Cost cost;
+  cost.technology = "osu018";
+  cost.gates = {gates * (1 - share), gates, gates * (1 + share)};
+  cost.ns = {gates * (1 - share) / 1000, gates / 1000, gates * (1 + share) / 1000};
+  cost.clock_mhz = {1000 / cost.ns.high, 1000 / cost.ns.value, 1000 / cost.ns.low};
+  cost.flip_flops = static_cast<std::uint64_t>(gates);
+  cost.estimate = {estimate, estimate / 1000, static_cast<std::uint64_t>(estimate)};
+  cost.units = {{"cache", basis, cost.gates, cost.flip_flops, 0, cost.ns, "to out", cost.estimate}};
+  r.cost = cost;
+  return to_json(r);
+}
+
+ComparedValue compared(const Json& a, const Json& b, const std::string& key) {
+  const Comparison all = compare(a, b, {});
+  EXPECT_FALSE(all.worse) << "cost is not a fault";
+  for (const ComparedValue& value : all.values)
+    if (value.key == key) return value;
+  return {key, "", "", "not listed", Trend::kNone, false};
+}
+
+TEST(Comparing, CostIsJudgedWhereRangesAreApart) {
+  const Json a = with_cost(1000, 0.04, "estimate", 1000);
+  for (const char* owner : {"cost", "cost.units.cache"}) {
+    const auto key = [&](const char* what) { return fmt::format("{}.{}", owner, what); };
+    for (const auto& [gates, change, trend] : {std::tuple(1100.0, "+10.00 %", Trend::kWorse),
+                                               {900.0, "-10.00 %", Trend::kBetter},
+                                               {1080.0, "+8.00 %", Trend::kEqual},
+                                               {930.0, "-7.00 %", Trend::kEqual}})
+      for (const char* what : {"gates.value", "ns.value"}) {
+        const ComparedValue value =
+            compared(a, with_cost(gates, 0.04, "estimate", gates), key(what));
+        EXPECT_EQ(value.change, change) << what;
+        EXPECT_EQ(value.verdict, trend) << what << " " << change;
+      }
+  }
+  const Json large = with_cost(1250, 0.04, "estimate", 1250);
+  EXPECT_EQ(compared(a, large, "cost.clock_mhz.value").verdict, Trend::kWorse);
+  EXPECT_EQ(compared(a, large, "cost.clock_mhz.value").change, "-20.00 %");
+  EXPECT_EQ(compared(a, large, "cost.flip_flops").verdict, Trend::kWorse);
+  EXPECT_EQ(compared(a, large, "cost.gates.low").change, "not listed");
+}
+
+TEST(Comparing, CostOfMappedAndEstimatedUnitIsComparedByEstimates) {
+  const Json mapped = with_cost(1000, 0, "mapped", 1250),
+             estimated = with_cost(1500, 0.3, "estimate", 1500);
+  for (const char* key : {"cost.gates.value", "cost.ns.value", "cost.units.cache.gates.value"}) {
+    const ComparedValue value = compared(mapped, estimated, key);
+    EXPECT_EQ(value.change, "+20.00 % by estimates") << key;
+    EXPECT_EQ(value.verdict, Trend::kEqual) << key << " ranges of 30 %";
+  }
+  EXPECT_EQ(compared(mapped, with_cost(2500, 0.3, "estimate", 2500), "cost.gates.value").verdict,
+            Trend::kWorse);
+  EXPECT_EQ(compared(mapped, estimated, "cost.clock_mhz.value").change, "");
+}
+
+TEST(Comparing, CostOfOtherStandardCellsIsNotCompared) {
+  const Json a = with_cost(1000, 0, "estimate", 1000);
+  Json b = with_cost(2000, 0, "estimate", 2000);
+  EXPECT_FALSE(other_technology(a, b));
+  b["cost"]["technology"] = "sky130";
+  EXPECT_TRUE(other_technology(a, b));
+  for (const char* key : {"cost.gates.value", "cost.ns.value", "cost.clock_mhz.value",
+                          "cost.units.cache.ns.value", "cost.estimate.ns"}) {
+    EXPECT_EQ(compared(a, b, key).change, "") << key;
+    EXPECT_EQ(compared(a, b, key).verdict, Trend::kNone) << key;
+  }
+  EXPECT_EQ(compared(a, b, "cost.flip_flops").change, "+100.00 %") << "in every technology";
+}
+
 // ---- runs ---------------------------------------------------------------------------------------
 
 class Runs : public Directory {
@@ -324,6 +402,34 @@ TEST_F(Runs, DescribeRunsAndWarnings) {
   } catch (const spec::ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("A is a run of 'texture', B of 'frame'"));
   }
+}
+
+TEST_F(Runs, CostHasItsRangeAndItsNote) {
+  const auto put_cost = [&](const char* name, double gates, const char* technology) {
+    leave(name, 1000, "2");
+    Json result = tb::read_result(path_ / name);
+    result["cost"] = with_cost(gates, 0.1, "estimate", gates)["cost"];
+    result["cost"]["technology"] = technology;
+    put(fs::path(name) / "result.json", result.dump());
+  };
+  put_cost("a", 1000, "osu018");
+  put_cost("b", 1500, "osu018");
+  put_cost("c", 1500, "sky130");
+  const Json all = compare_runs(paths({"a", "b", "c"}), {});
+  EXPECT_FALSE(all["worse"]);
+  EXPECT_EQ(all["warnings"],
+            Json{"the standard cells differ: A osu018, C sky130: gates and ns are not compared"});
+  for (const Json& figure : all["figures"])
+    if (figure["key"] == "cost.gates.value") {
+      EXPECT_EQ(figure["label"], "Gates");
+      EXPECT_EQ(figure["cells"][1]["range"], "1,350 to 1,650");
+      EXPECT_EQ(figure["cells"][1]["judgement"], "worse");
+      EXPECT_EQ(figure["cells"][2]["change"], "");
+      EXPECT_EQ(figure["cells"][2]["judgement"], "");
+    }
+  const std::string page = comparison_page(all);
+  EXPECT_THAT(page, HasSubstr("<small>1,350 to 1,650</small><small>+50.00 %</small>"));
+  EXPECT_THAT(page, HasSubstr("the change is that of the estimates of both"));
 }
 
 TEST(Comparing, FailedRunIsWorseThanPassedRun) {

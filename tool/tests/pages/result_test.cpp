@@ -116,6 +116,24 @@ Result full_result() {
   r.memories[1].register_bits = 130;
   r.link_bits = {3, 700};
   r.memories[1].not_implementable = "nine ports";
+  r.memories[0].reads = 900;
+  r.memories[0].writes = 80;
+  tb::Cost cost;
+  cost.technology = "osu018";
+  cost.gates = {900, 1000, 1100};
+  cost.flip_flops = 64;
+  cost.memory_bits = 4096;
+  cost.ns = {4, 5, 6.25};
+  cost.clock_mhz = {160, 200, 250};
+  cost.frames_per_s = {40, 50, 62.5};
+  cost.run_frames_per_s = 45;
+  cost.yardstick_ratio = 1.25;
+  cost.limited_by = "cache stage 2";
+  cost.estimate = {1010, 5.5, 63};
+  cost.sram = {{"cacti_45nm", 0.25}};
+  cost.units = {
+      {"cache", "estimate", {650, 1000, 1350}, 64, 4096, {4, 5, 6.25}, "2", {1000, 5, 64}}};
+  r.cost = cost;
   r.links = {{"cache_in", "engine.cache.in", 30, {5, 10, 25}}, {"empty", "engine.empty", 0, {0}}};
   r.maps = {{"samples", "Samples", "sample", "Samples of each pixel.", 1, 16, 48, 12, "the walker"},
             {"nothing", "Nothing", "", "Of no pixel.", 0, 0, 0, 0, ""}};
@@ -202,13 +220,14 @@ constexpr const char* kFullResult = R"json({
     "cache_data": {
       "content": "Lines of the cache.", "kind": "sram", "words": 2048, "word_bits": 64,
       "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 2, "banks": 1,
-      "logical_bits": 131072, "physical_bits": 262144, "logical_bits_at_frame_width": 131072
+      "logical_bits": 131072, "physical_bits": 262144, "logical_bits_at_frame_width": 131072,
+      "reads": 900, "writes": 80
     },
     "cache_lines": {
       "content": "Lines of the cache.", "kind": "flops", "words": 80, "word_bits": 64,
       "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 1, "banks": 1,
       "logical_bits": 5120, "physical_bits": 5120, "logical_bits_at_frame_width": 1280,
-      "register_bits": 130, "high_water": 7
+      "reads": 0, "writes": 0, "register_bits": 130, "high_water": 7
     }
   },
   "memory_bits": {
@@ -221,6 +240,22 @@ constexpr const char* kFullResult = R"json({
     },
     "registers": {"memories": 1, "logical": 130, "physical": 130, "logical_at_frame_width": 130},
     "links": {"memories": 3, "logical": 700, "physical": 700, "logical_at_frame_width": 700}
+  },
+  "cost": {
+    "technology": "osu018", "gates": {"low": 900.0, "value": 1000.0, "high": 1100.0},
+    "flip_flops": 64, "memory_bits": 4096, "ns": {"low": 4.0, "value": 5.0, "high": 6.25},
+    "clock_mhz": {"low": 160.0, "value": 200.0, "high": 250.0},
+    "frames_per_s": {"low": 40.0, "value": 50.0, "high": 62.5}, "run_frames_per_s": 45.0,
+    "yardstick_ratio": 1.25, "limited_by": "cache stage 2",
+    "estimate": {"gates": 1010.0, "flip_flops": 63, "ns": 5.5},
+    "sram": {"cacti_45nm": {"mm2": 0.25}},
+    "units": {
+      "cache": {
+        "basis": "estimate", "gates": {"low": 650.0, "value": 1000.0, "high": 1350.0},
+        "flip_flops": 64, "memory_bits": 4096, "ns": {"low": 4.0, "value": 5.0, "high": 6.25},
+        "stage": "2", "estimate": {"gates": 1000.0, "flip_flops": 64, "ns": 5.0}
+      }
+    }
   },
   "not_implementable": {"cache_lines": "nine ports"},
   "links": {

@@ -67,6 +67,38 @@ class Memories(unittest.TestCase):
                 self.assertEqual(bits["physical"], sum(m["physical_bits"] for m in of_kind))
         self.assertGreater(min(with_memories, with_registers, with_links), 0)
 
+    def test_accesses_are_counted(self):
+        """Words read and written by each engine: of memories with ports, of FIFOs and of the port's buffer."""
+        for engine in engines():
+            _, result = self.result(engine)
+            memories = result["memories"].values()
+            rams = [m for m in memories if m["kind"] == "sram"]
+            used = [m for m in rams if m["reads"] > 0 and m["writes"] > 0]
+            self.assertGreater(len(used), 0.4 * len(rams), engine)
+            for m in memories:
+                if m.get("high_water", 0) > 0:
+                    self.assertGreaterEqual(m["writes"], m["high_water"])
+                    self.assertEqual(m["reads"], m["writes"], "a FIFO is empty at the end")
+        _, result = self.result("texture")
+        memories, fills = result["memories"], result["memory"]["lines_filled"]
+        self.assertGreater(fills, 0)
+        for name in ("memory_port_response_buffer", "miss_queue_fill_buffer"):
+            self.assertEqual((memories[name]["reads"], memories[name]["writes"]), (fills, fills), name)
+        self.assertEqual(memories["latency_fifo_entries"]["reads"], result["work"]["texel_addresser_bilinears"])
+
+    def test_composition_names_units_of_cost_by_their_part(self):
+        """`params --cost` tells the same without a run."""
+        for engine in engines():
+            _, result = self.result(engine)
+            cost = {name: value for name, value in result["cost"].items() if "frames_per_s" not in name}
+            said = subprocess.run([DEBURR, "params", engine, "--cost", "--json"], check=True, capture_output=True,
+                                  text=True).stdout
+            self.assertEqual(json.loads(said)["cost"], cost, engine)
+            for name in cost["units"]:
+                if engine == "frame" and name != "links":
+                    self.assertRegex(name, "^(texture|geometric|morphological)_")
+                    self.assertNotRegex(name, "_(texture|geometric|morphological)$")
+
     def test_texture_page_names_its_memories(self):
         with open(os.path.join(DOCS, "reference/texture/hardware.md"), encoding="utf-8") as file:
             table = file.read().split("\n## Memories\n")[1].split("\n## ")[0]

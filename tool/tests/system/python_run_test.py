@@ -116,6 +116,18 @@ class Runs(Scratch):
         self.assertEqual(deburr.engines(), engines())
         self.assertIn("texture.cache.bytes", [row["name"] for row in deburr.parameters("texture")])
 
+    def test_cost_of_a_build_equals_cost_of_its_run(self):
+        """Frames per second need a run."""
+        for given in ({}, {"texture_cache_bytes": 2048, "memory_latency": 300}):
+            found = deburr.run("texture", **TINY, no_images=True, **given).cost.as_dict()
+            self.assertGreater(found.pop("frames_per_s")["value"], 0)
+            self.assertGreater(found.pop("run_frames_per_s"), 0)
+            cost = deburr.cost("texture", **given)
+            self.assertEqual(cost.as_dict(), found)
+            self.assertGreater(cost.units.tag_stage.flip_flops, 0)
+        with self.assertRaisesRegex(ValueError, "texture_cache_byte"):
+            deburr.cost("texture", texture_cache_byte=2048)
+
     def test_files_are_removed_with_the_run(self):
         run = deburr.run("texture", **TINY)
         directory = run.directory

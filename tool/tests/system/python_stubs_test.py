@@ -23,6 +23,7 @@ pixels = ideal.fxaa(smooth.pixels, threshold=0.1)
 weights = ideal.smaa_weights(smooth.edges, corner_keeps=None)
 run = deburr.run("texture", scene="plane", size=(64, 64), memory_latency=200, texture_cache_bytes=4096, maps=True)
 print(run.cycles, run.maps["misses"].max(), run.pictures["after"].shape, smooth.work.edge_pixels, pixels.shape)
+print(deburr.cost("texture", texture_cache_bytes=4096).gates.value)
 table = deburr.sweep("texture", {"texture_cache_bytes": [4096]}, scene="plane", metrics=["cycles"], jobs=2)
 unit = golden.TextureUnit(cache_bytes=4096)
 unit.load(golden.mip_levels(frame), format="rgba8")
@@ -31,7 +32,7 @@ print(unit.work.by_level, golden.QUAD.names, golden.EDGE_CLASSES[0], smooth.prob
 """
 MISTAKES = ("golden.morphologic(frame)", "golden.morphological(frame, detail='yes')", "smooth.pixel", "smooth.probes()",
             "ideal.fxaa(frame, treshold=1)", "ideal.TextureImage(frame, srgb='yes')", "ideal.disc('0', 0, 1, 4, 4)",
-            "golden.QUAD.nams", "smooth.work()", "run.explain(3)", "run.pictures[3]", "deburr.run(3)",
+            "golden.QUAD.nams", "smooth.work()", "run.explain(3)", "run.pictures[3]", "deburr.run(3)", "deburr.cost(3)",
             "deburr.sweep('texture', {}, jobs='2')", "unit.filter()", "golden.mip_levels(frame).shape")
 
 

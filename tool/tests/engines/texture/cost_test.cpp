@@ -31,7 +31,7 @@ Json cost_of_build(const std::vector<std::string>& settings) {
       bound.set.set_assignment("texture." + setting, "configurations.txt");
     bound.resolve();
     tb::Result result;
-    engine->describe_statistics(result);
+    engine->describe_build(result);
     result.cost = cost_of(result, bound.set);
     return tb::to_json(result).at("cost").dump();
   }));
