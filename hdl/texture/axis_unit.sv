@@ -55,8 +55,8 @@ module axis_unit #(
       group_5 <= group_4;
     end
 
-  // Data that accompany the fragment: ticket, coordinate, differences.
-  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_BITS - 4 * 31;
+  // The fields below the sizes accompany the fragment: ticket, coordinate, differences.
+  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_SIZE_S_X_FIRST;
   logic [WITH_BITS-1:0] with_it[1:REGISTERS];
   logic [46:0] area[2:REGISTERS];
   genvar i;
@@ -71,48 +71,35 @@ module axis_unit #(
     end
   endgenerate
 
-  // 1: multiples of the derivatives in texels, with the sign of their difference; products for the area, of magnitudes
-  // with 8 fraction bits.
-  wire [30:0] size_s_x = in_data[`DERIVATIVE_TOKEN_SIZE_S_X], size_t_x = in_data[`DERIVATIVE_TOKEN_SIZE_T_X];
-  wire [30:0] size_s_y = in_data[`DERIVATIVE_TOKEN_SIZE_S_Y], size_t_y = in_data[`DERIVATIVE_TOKEN_SIZE_T_Y];
-  wire minus_s_x = in_data[`DERIVATIVE_TOKEN_S_X_TOP], minus_t_x = in_data[`DERIVATIVE_TOKEN_T_X_TOP];
-  wire minus_s_y = in_data[`DERIVATIVE_TOKEN_S_Y_TOP], minus_t_y = in_data[`DERIVATIVE_TOKEN_T_Y_TOP];
-  wire signed [39:0] p_s_x = minus_s_x ? -$signed({9'd0, size_s_x}) : $signed({9'd0, size_s_x});
-  wire signed [39:0] p_t_x = minus_t_x ? -$signed({9'd0, size_t_x}) : $signed({9'd0, size_t_x});
-  wire signed [39:0] p_s_y = minus_s_y ? -$signed({9'd0, size_s_y}) : $signed({9'd0, size_s_y});
-  wire signed [39:0] p_t_y = minus_t_y ? -$signed({9'd0, size_t_y}) : $signed({9'd0, size_t_y});
-  logic signed [39:0] s_x[0:3], t_x[0:3], s_y[0:3], t_y[0:3];  // multiplied by 128, 118, 90 and 49
-  logic signed [46:0] product_1, product_2;
-  logic signed [46:0] direct, crossed;
-  assign direct = $signed({24'd0, size_s_x[30:8]}) * $signed({24'd0, size_t_y[30:8]});
-  assign crossed = $signed({24'd0, size_t_x[30:8]}) * $signed({24'd0, size_s_y[30:8]});
+  // 1: multiples of the derivatives in texels, with the sign of their difference, in the order s and t along the row, s
+  // and t along the column; products for the area, of magnitudes with 8 fraction bits.
+  wire [4*31-1:0] sizes = {in_data[`DERIVATIVE_TOKEN_SIZE_T_Y], in_data[`DERIVATIVE_TOKEN_SIZE_S_Y],
+                           in_data[`DERIVATIVE_TOKEN_SIZE_T_X], in_data[`DERIVATIVE_TOKEN_SIZE_S_X]};
+  wire [3:0] minus = {in_data[`DERIVATIVE_TOKEN_T_Y_TOP], in_data[`DERIVATIVE_TOKEN_S_Y_TOP],
+                      in_data[`DERIVATIVE_TOKEN_T_X_TOP], in_data[`DERIVATIVE_TOKEN_S_X_TOP]};
+  logic [4*40-1:0] multiples[0:3];
+  generate
+    for (i = 0; i < 4; i = i + 1) begin : g_multiples
+      wire signed [39:0] size = {9'd0, sizes[31*i +: 31]};
+      wire [4*40-1:0] now;
+      axis_multiples #(.BITS(40)) of_size (.value(minus[i] ? -size : size), .multiples(now));
+      always_ff @(posedge clk)
+        if (in_pop) multiples[i] <= now;
+    end
+  endgenerate
+  logic [45:0] direct, crossed;
+  logic subtract;  // the products have the same sign
   always_ff @(posedge clk)
     if (in_pop) begin
       with_it[1] <= in_data[WITH_BITS-1:0];
-      s_x[0] <= p_s_x <<< 7;
-      t_x[0] <= p_t_x <<< 7;
-      s_y[0] <= p_s_y <<< 7;
-      t_y[0] <= p_t_y <<< 7;
-      s_x[1] <= p_s_x * `AXIS_COSINE_1;
-      t_x[1] <= p_t_x * `AXIS_COSINE_1;
-      s_y[1] <= p_s_y * `AXIS_COSINE_1;
-      t_y[1] <= p_t_y * `AXIS_COSINE_1;
-      s_x[2] <= p_s_x * `AXIS_COSINE_2;
-      t_x[2] <= p_t_x * `AXIS_COSINE_2;
-      s_y[2] <= p_s_y * `AXIS_COSINE_2;
-      t_y[2] <= p_t_y * `AXIS_COSINE_2;
-      s_x[3] <= p_s_x * `AXIS_COSINE_3;
-      t_x[3] <= p_t_x * `AXIS_COSINE_3;
-      s_y[3] <= p_s_y * `AXIS_COSINE_3;
-      t_y[3] <= p_t_y * `AXIS_COSINE_3;
-      product_1 <= minus_s_x != minus_t_y ? -direct : direct;
-      product_2 <= minus_t_x != minus_s_y ? -crossed : crossed;
+      direct <= {23'd0, sizes[8 +: 23]} * {23'd0, sizes[31*3+8 +: 23]};
+      crossed <= {23'd0, sizes[31+8 +: 23]} * {23'd0, sizes[31*2+8 +: 23]};
+      subtract <= ^minus == 1'b0;
     end
 
   // 2: candidates and area. A group has SLOTS neighbouring candidates.
-  wire signed [47:0] determinant = $signed({product_1[46], product_1}) - $signed({product_2[46], product_2});
+  wire signed [47:0] determinant = {2'd0, direct} + ({2'd0, crossed} ^ {48{subtract}}) + {47'd0, subtract};
   wire [47:0] area_magnitude = determinant < 0 ? -determinant : determinant;
-  wire unused_area = &{1'b0, area_magnitude[47]};
   always_ff @(posedge clk)
     if (move) area[2] <= area_magnitude[46:0];
 
@@ -122,15 +109,10 @@ module axis_unit #(
       localparam integer FIRST = i * STEP;
       wire [2:0] direction = FIRST[2:0] + GROUP_STEP * {1'b0, group_1};
       logic signed [40:0] sum_s, sum_t;
-      axis_sum #(.BITS(40)) of_s (
-        .direction, .x128(s_x[0]), .x118(s_x[1]), .x90(s_x[2]), .x49(s_x[3]),
-        .y128(s_y[0]), .y118(s_y[1]), .y90(s_y[2]), .y49(s_y[3]), .sum(sum_s));
-      axis_sum #(.BITS(40)) of_t (
-        .direction, .x128(t_x[0]), .x118(t_x[1]), .x90(t_x[2]), .x49(t_x[3]),
-        .y128(t_y[0]), .y118(t_y[1]), .y90(t_y[2]), .y49(t_y[3]), .sum(sum_t));
+      axis_sum #(.BITS(40)) of_s (.direction, .x(multiples[0]), .y(multiples[2]), .sum(sum_s));
+      axis_sum #(.BITS(40)) of_t (.direction, .x(multiples[1]), .y(multiples[3]), .sum(sum_t));
       wire [40:0] magnitude_s = sum_s < 0 ? -sum_s : sum_s;
       wire [40:0] magnitude_t = sum_t < 0 ? -sum_t : sum_t;
-      wire unused = &{1'b0, magnitude_s[6:0], magnitude_t[6:0]};
       logic [30:0] s, t;
       always_ff @(posedge clk)
         if (move) begin
@@ -139,12 +121,15 @@ module axis_unit #(
         end
       // 3 and 4: its measure.
       if (EXACT != 0) begin : g_exact
+        wire [61:0] square_s, square_t;
+        square of_size_s (.value(s), .squared(square_s));
+        square of_size_t (.value(t), .squared(square_t));
         logic [61:0] ss, tt;
         logic [62:0] squares;
         always_ff @(posedge clk)
           if (move) begin
-            ss <= {31'd0, s} * {31'd0, s};
-            tt <= {31'd0, t} * {31'd0, t};
+            ss <= square_s;
+            tt <= square_t;
             squares <= {1'b0, ss} + {1'b0, tt};
           end
         assign measures[i*MEASURE_BITS +: MEASURE_BITS] = squares;
@@ -210,43 +195,29 @@ module axis_unit #(
       direction_6 <= group_direction;
     end
 
-  // 7: multiples of the coordinate differences; 8: their sum for the chosen direction.
-  wire signed [40:0] d_s_x = {{8{with_it[6][`DERIVATIVE_TOKEN_S_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_X]};
-  wire signed [40:0] d_t_x = {{8{with_it[6][`DERIVATIVE_TOKEN_T_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_T_X]};
-  wire signed [40:0] d_s_y = {{8{with_it[6][`DERIVATIVE_TOKEN_S_Y_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_Y]};
-  wire signed [40:0] d_t_y = {{8{with_it[6][`DERIVATIVE_TOKEN_T_Y_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_T_Y]};
-  logic signed [40:0] m_s_x[0:3], m_t_x[0:3], m_s_y[0:3], m_t_y[0:3];
+  // 7: multiples of the coordinate differences; 8: their sum for the chosen direction, rounded at 7 bits away from zero,
+  // so that mirrored coordinates give mirrored samples.
+  wire [4*33-1:0] differences = {with_it[6][`DERIVATIVE_TOKEN_T_Y], with_it[6][`DERIVATIVE_TOKEN_S_Y],
+                                 with_it[6][`DERIVATIVE_TOKEN_T_X], with_it[6][`DERIVATIVE_TOKEN_S_X]};
+  logic [4*41-1:0] steps[0:3];
+  generate
+    for (i = 0; i < 4; i = i + 1) begin : g_steps
+      wire [4*41-1:0] now;
+      axis_multiples #(.BITS(41)) of_difference (
+        .value({{8{differences[33*i+32]}}, differences[33*i +: 33]}), .multiples(now));
+      always_ff @(posedge clk)
+        if (move) steps[i] <= now;
+    end
+  endgenerate
   logic [2:0] direction_7;
   always_ff @(posedge clk)
-    if (move) begin
-      direction_7 <= direction_6;
-      m_s_x[0] <= d_s_x <<< 7;
-      m_t_x[0] <= d_t_x <<< 7;
-      m_s_y[0] <= d_s_y <<< 7;
-      m_t_y[0] <= d_t_y <<< 7;
-      m_s_x[1] <= d_s_x * `AXIS_COSINE_1;
-      m_t_x[1] <= d_t_x * `AXIS_COSINE_1;
-      m_s_y[1] <= d_s_y * `AXIS_COSINE_1;
-      m_t_y[1] <= d_t_y * `AXIS_COSINE_1;
-      m_s_x[2] <= d_s_x * `AXIS_COSINE_2;
-      m_t_x[2] <= d_t_x * `AXIS_COSINE_2;
-      m_s_y[2] <= d_s_y * `AXIS_COSINE_2;
-      m_t_y[2] <= d_t_y * `AXIS_COSINE_2;
-      m_s_x[3] <= d_s_x * `AXIS_COSINE_3;
-      m_t_x[3] <= d_t_x * `AXIS_COSINE_3;
-      m_s_y[3] <= d_s_y * `AXIS_COSINE_3;
-      m_t_y[3] <= d_t_y * `AXIS_COSINE_3;
-    end
+    if (move) direction_7 <= direction_6;
   logic signed [41:0] axis_sum_s, axis_sum_t;
-  axis_sum #(.BITS(41)) of_axis_s (
-    .direction(direction_7), .x128(m_s_x[0]), .x118(m_s_x[1]), .x90(m_s_x[2]), .x49(m_s_x[3]),
-    .y128(m_s_y[0]), .y118(m_s_y[1]), .y90(m_s_y[2]), .y49(m_s_y[3]), .sum(axis_sum_s));
-  axis_sum #(.BITS(41)) of_axis_t (
-    .direction(direction_7), .x128(m_t_x[0]), .x118(m_t_x[1]), .x90(m_t_x[2]), .x49(m_t_x[3]),
-    .y128(m_t_y[0]), .y118(m_t_y[1]), .y90(m_t_y[2]), .y49(m_t_y[3]), .sum(axis_sum_t));
-  logic signed [33:0] axis_s, axis_t;
-  axis_round rounded_s (.sum(axis_sum_s), .axis(axis_s));
-  axis_round rounded_t (.sum(axis_sum_t), .axis(axis_t));
+  axis_sum #(.BITS(41)) of_axis_s (.direction(direction_7), .x(steps[0]), .y(steps[2]), .sum(axis_sum_s));
+  axis_sum #(.BITS(41)) of_axis_t (.direction(direction_7), .x(steps[1]), .y(steps[3]), .sum(axis_sum_t));
+  wire [41:0] rounded_s = axis_sum_s + 42'd63 + {41'd0, !axis_sum_s[41]};
+  wire [41:0] rounded_t = axis_sum_t + 42'd63 + {41'd0, !axis_sum_t[41]};
+  wire signed [33:0] axis_s = rounded_s[40:7], axis_t = rounded_t[40:7];
 
   logic [31:0] d_max;
   logic signed [33:0] axis_s_out, axis_t_out;
