@@ -59,7 +59,7 @@ module axis_unit #(
   localparam integer WITH_BITS = `DERIVATIVE_TOKEN_SIZE_S_X_FIRST;
   logic [WITH_BITS-1:0] with_it[1:REGISTERS];
   logic [46:0] area[2:REGISTERS];
-  genvar i;
+  genvar i, k;
   generate
     for (i = 2; i <= REGISTERS; i = i + 1) begin : g_with
       always_ff @(posedge clk)
@@ -108,16 +108,21 @@ module axis_unit #(
     for (i = 0; i < SLOTS; i = i + 1) begin : g_slot
       localparam integer FIRST = i * STEP;
       wire [2:0] direction = FIRST[2:0] + GROUP_STEP * {1'b0, group_1};
-      logic signed [40:0] sum_s, sum_t;
-      axis_sum #(.BITS(40)) of_s (.direction, .x(multiples[0]), .y(multiples[2]), .sum(sum_s));
-      axis_sum #(.BITS(40)) of_t (.direction, .x(multiples[1]), .y(multiples[3]), .sum(sum_t));
-      wire [40:0] magnitude_s = sum_s < 0 ? -sum_s : sum_s;
-      wire [40:0] magnitude_t = sum_t < 0 ? -sum_t : sum_t;
+      // Along s and t.
+      wire [61:0] limited;
+      for (k = 0; k < 2; k = k + 1) begin : g_side
+        wire [39:0] of_x, of_y;
+        wire carry;
+        axis_terms #(.BITS(40)) terms (.direction, .x(multiples[k]), .y(multiples[k+2]), .of_x, .of_y, .carry);
+        wire signed [40:0] sum = {of_x[39], of_x} + {of_y[39], of_y} + {40'd0, carry};
+        wire [40:0] magnitude = sum < 0 ? -sum : sum;
+        assign limited[31*k +: 31] = magnitude[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude[37:7];
+      end
       logic [30:0] s, t;
       always_ff @(posedge clk)
         if (move) begin
-          s <= magnitude_s[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude_s[37:7];
-          t <= magnitude_t[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude_t[37:7];
+          s <= limited[30:0];
+          t <= limited[61:31];
         end
       // 3 and 4: its measure.
       if (EXACT != 0) begin : g_exact
@@ -195,50 +200,50 @@ module axis_unit #(
       direction_6 <= group_direction;
     end
 
-  // 7: multiples of the coordinate differences; 8: their sum for the chosen direction, rounded at 7 bits away from zero,
+  // 7: multiples of the coordinate differences for the chosen direction; 8: their sum, rounded at 7 bits away from zero,
   // so that mirrored coordinates give mirrored samples.
   wire [4*33-1:0] differences = {with_it[6][`DERIVATIVE_TOKEN_T_Y], with_it[6][`DERIVATIVE_TOKEN_S_Y],
                                  with_it[6][`DERIVATIVE_TOKEN_T_X], with_it[6][`DERIVATIVE_TOKEN_S_X]};
-  logic [4*41-1:0] steps[0:3];
+  wire [4*41-1:0] steps[0:3];
+  wire [2*34-1:0] major;  // s, t
   generate
     for (i = 0; i < 4; i = i + 1) begin : g_steps
-      wire [4*41-1:0] now;
       axis_multiples #(.BITS(41)) of_difference (
-        .value({{8{differences[33*i+32]}}, differences[33*i +: 33]}), .multiples(now));
+        .value({{8{differences[33*i+32]}}, differences[33*i +: 33]}), .multiples(steps[i]));
+    end
+    for (i = 0; i < 2; i = i + 1) begin : g_axis
+      wire [40:0] of_x, of_y;
+      wire carry;
+      axis_terms #(.BITS(41)) terms (.direction(direction_6), .x(steps[i]), .y(steps[i+2]), .of_x, .of_y, .carry);
+      logic [40:0] x_7, y_7;
+      logic carry_7;
       always_ff @(posedge clk)
-        if (move) steps[i] <= now;
+        if (move) begin
+          x_7 <= of_x;
+          y_7 <= of_y;
+          carry_7 <= carry;
+        end
+      wire [41:0] sum = {x_7[40], x_7} + {y_7[40], y_7} + {41'd0, carry_7};
+      wire [41:0] rounded = sum + 42'd63 + {41'd0, !sum[41]};
+      assign major[34*i +: 34] = rounded[40:7];
     end
   endgenerate
-  logic [2:0] direction_7;
-  always_ff @(posedge clk)
-    if (move) direction_7 <= direction_6;
-  logic signed [41:0] axis_sum_s, axis_sum_t;
-  axis_sum #(.BITS(41)) of_axis_s (.direction(direction_7), .x(steps[0]), .y(steps[2]), .sum(axis_sum_s));
-  axis_sum #(.BITS(41)) of_axis_t (.direction(direction_7), .x(steps[1]), .y(steps[3]), .sum(axis_sum_t));
-  wire [41:0] rounded_s = axis_sum_s + 42'd63 + {41'd0, !axis_sum_s[41]};
-  wire [41:0] rounded_t = axis_sum_t + 42'd63 + {41'd0, !axis_sum_t[41]};
-  wire signed [33:0] axis_s = rounded_s[40:7], axis_t = rounded_t[40:7];
 
   logic [31:0] d_max;
-  logic signed [33:0] axis_s_out, axis_t_out;
+  logic [2*34-1:0] axis_out;
   generate
     if (EXACT != 0) begin : g_root
       root_pipe longest_root (.clk, .move, .radicand(longest_6), .root(d_max));
-      logic signed [33:0] axis_s_at[8:21], axis_t_at[8:21];
+      logic [2*34-1:0] axis_at[8:21];
       for (i = 8; i <= 21; i = i + 1) begin : g_axis
         always_ff @(posedge clk)
-          if (move) begin
-            axis_s_at[i] <= i == 8 ? axis_s : axis_s_at[i > 8 ? i - 1 : 8];
-            axis_t_at[i] <= i == 8 ? axis_t : axis_t_at[i > 8 ? i - 1 : 8];
-          end
+          if (move) axis_at[i] <= i == 8 ? major : axis_at[i > 8 ? i - 1 : 8];
       end
-      assign axis_s_out = axis_s_at[21];
-      assign axis_t_out = axis_t_at[21];
+      assign axis_out = axis_at[21];
     end else begin : g_measured
       always_ff @(posedge clk)
         if (move) d_max <= longest_6;
-      assign axis_s_out = axis_s;
-      assign axis_t_out = axis_t;
+      assign axis_out = major;
     end
   endgenerate
 
@@ -246,8 +251,8 @@ module axis_unit #(
   assign out_data[`FOOTPRINT_TOKEN_TICKET] = with_it[REGISTERS][`DERIVATIVE_TOKEN_TICKET];
   assign out_data[`FOOTPRINT_TOKEN_S] = with_it[REGISTERS][`DERIVATIVE_TOKEN_S];
   assign out_data[`FOOTPRINT_TOKEN_T] = with_it[REGISTERS][`DERIVATIVE_TOKEN_T];
-  assign out_data[`FOOTPRINT_TOKEN_AXIS_S] = axis_s_out;
-  assign out_data[`FOOTPRINT_TOKEN_AXIS_T] = axis_t_out;
+  assign out_data[`FOOTPRINT_TOKEN_AXIS_S] = axis_out[33:0];
+  assign out_data[`FOOTPRINT_TOKEN_AXIS_T] = axis_out[67:34];
   assign out_data[`FOOTPRINT_TOKEN_D_MAX] = d_max;
   assign out_data[`FOOTPRINT_TOKEN_MINOR] = area[REGISTERS];
 endmodule

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// C x + S y for one of eight directions, 22.5 degrees apart; `kAxes` gives C and S in 1/128
-// (docs/reference/texture/formats.md, "Axes"). The inputs are registered multiples (axis_multiples.sv), the sum is exact.
-module axis_sum #(
+// The terms of C x + S y for one of eight directions, 22.5 degrees apart; `kAxes` gives C and S in 1/128
+// (docs/reference/texture/formats.md, "Axes"). A negative term is a complement and a carry.
+module axis_terms #(
   parameter integer BITS = 41
 ) (
-  input  logic [2:0]           direction,
-  input  logic [4*BITS-1:0]    x,
-  input  logic [4*BITS-1:0]    y,
-  output logic signed [BITS:0] sum
+  input  logic [2:0]        direction,
+  input  logic [4*BITS-1:0] x, y,  // multiples (axis_multiples.sv)
+  output logic [BITS-1:0]   of_x, of_y,
+  output logic              carry
 );
   wire [BITS-1:0] x128 = x[0 +: BITS], x118 = x[BITS +: BITS], x90 = x[2*BITS +: BITS], x49 = x[3*BITS +: BITS];
   wire [BITS-1:0] y128 = y[0 +: BITS], y118 = y[BITS +: BITS], y90 = y[2*BITS +: BITS], y49 = y[3*BITS +: BITS];
-  logic [BITS-1:0] of_x, of_y;
-  always_comb begin
+  assign carry = direction > 3'd4;
+  always_comb
     case (direction)
       3'd0: begin of_x = x128; of_y = {BITS{1'b0}}; end
       3'd1: begin of_x = x118; of_y = y49; end
@@ -23,8 +23,4 @@ module axis_sum #(
       3'd6: begin of_x = ~x90; of_y = y90; end
       default: begin of_x = ~x118; of_y = y49; end
     endcase
-  end
-  // A negative multiple of x is its complement and a carry.
-  wire minus = direction > 3'd4;
-  assign sum = {of_x[BITS-1], of_x} + {of_y[BITS-1], of_y} + {{BITS{1'b0}}, minus};
 endmodule
