@@ -55,8 +55,8 @@ module derivative_unit (
 
   logic signed [32:0] s_x, t_x, s_y, t_y;
   logic [12:0] width, height;
-  logic [103:0] with_1, with_2;  // ticket and coordinate
-  wire [39:0] ticket;
+  logic [`DERIVATIVE_TOKEN_S_X_FIRST-1:0] with_1, with_2;  // ticket and coordinate
+  wire [`TICKET_BITS-1:0] ticket;
   assign ticket[`TICKET_TAG] = quad[`QUAD_TAG];
   assign ticket[`TICKET_LANE] = lane;
   assign ticket[`TICKET_LAST] = rest == 4'd0;
