@@ -59,6 +59,7 @@ module tag_stage #(
       asked <= in_data[`TEXEL_TOKEN_ADDRESS];
     end
   wire asks = valid_2 && ticket[`TICKET_VALID];
+  wire fills_leave = asks && out_ready && miss_ready;  // if a line is missing; other requests fill no way
 
   // Of the four lookups in stage 2, in order.
   wire [4*INDEX_BITS-1:0] ats;      // sets
@@ -78,7 +79,7 @@ module tag_stage #(
   logic [ORDER_BITS-1:0] orders[0:SETS-1];
   always_ff @(posedge clk)
     if (!rst_n || invalidate) valids <= {(SETS * WAYS) {1'b0}};
-    else if (leave && asks)
+    else if (fills_leave)
       for (integer n = 0; n < 4; n = n + 1)
         valids[ats[n*INDEX_BITS +: INDEX_BITS]*WAYS +: WAYS] <= nexts[n*STATE_BITS +: WAYS];
   always_ff @(posedge clk)
@@ -187,7 +188,7 @@ module tag_stage #(
       wire [4*WORD_BITS-1:0] fills_with;
       always_ff @(posedge clk)
         for (integer n = 0; n < 4; n = n + 1)
-          if (leave && misses[n] && takens[n*WAYS + w])
+          if (fills_leave && misses[n] && takens[n*WAYS + w])
             words[ats[n*INDEX_BITS +: INDEX_BITS]] <= fills_with[n*WORD_BITS +: WORD_BITS];
       for (k = 0; k < 4; k = k + 1) begin : g_read
         assign fills_with[k*WORD_BITS +: WORD_BITS] = {turned[k/2], asked[32*k + 32 - TAG_BITS +: TAG_BITS]};

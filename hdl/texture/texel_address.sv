@@ -3,7 +3,7 @@
 // "Addresses").
 module texel_address (
   input  logic [11:0] x, y,
-  input  logic [8:0]  pitch,  // of a row, in 64 bytes
+  input  logic [8:0]  pitch,  // of a row, in 64 bytes; 0 with tiles
   input  logic [9:0]  used_x, used_y,  // of tile_index.sv
   input  logic        tiled,
   input  logic [1:0]  lb_bytes,  // log2 of the bytes of a texel
@@ -11,7 +11,7 @@ module texel_address (
   output logic [31:0] address
 );
   wire [31:0] column = {20'd0, x} << lb_bytes;
-  wire [31:0] rows = {14'd0, y & {12{!tiled}}, 6'd0} * {23'd0, pitch};
+  wire [31:0] rows = {14'd0, y, 6'd0} * {23'd0, pitch};
   // Tiles of 4 x 4, 8 x 4 and 8 x 8 texels of 4, 2 and 1 bytes.
   wire wide = lb_bytes != 2'd2, tall = lb_bytes == 2'd0;
   wire [19:0] tile;

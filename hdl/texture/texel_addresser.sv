@@ -80,7 +80,7 @@ module texel_addresser (
       base_3 <= base_2;
     end
 
-  // 4: texels and fractions; the pitch of the level and its tiles.
+  // 4: texels and fractions; the pitch of the level, 0 if it is tiled, and its tiles.
   wire linear_3 = sample[3][`SAMPLE_TOKEN_LINEAR];
   wire [2:0] format_3 = mode_of[3][`DESCRIPTOR_MODE_FORMAT];
   wire [1:0] lb_bytes_3 = format_3 == `FORMAT_L8 ? 2'd0 :
@@ -103,7 +103,7 @@ module texel_addresser (
       y_4[1] <= y1;
       f_u_4 <= f_u;
       f_v_4 <= f_v;
-      pitch_4 <= pitch;
+      pitch_4 <= mode_of[3][`DESCRIPTOR_MODE_LAYOUT] ? 9'd0 : pitch;
       used_x_4 <= used_x;
       used_y_4 <= used_y;
       lb_bytes_4 <= lb_bytes_3;
