@@ -2,6 +2,7 @@
 // Compares a texture unit with some units replaced by those of hdl/: colours, line fills and
 // registers with the golden model, and the cycles of every link with the SystemC version.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>

@@ -87,7 +87,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
   CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&, std::uint64_t seed)
       : VerilatedCacheAt<Model>(
             "cache_hdl", unit.cache.tag_stage.clock(), seed,
-            {unit.cache.tag_stage.texels_in, unit.cache.data_stage.texels_out,
+            {unit.cache.narrow->tag_stage.texels_in, unit.cache.narrow->data_stage.texels_out,
              unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
             unit.parameters()),
         unit_(unit),
@@ -97,7 +97,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
     rtl::ClockDomain& clock = this->clock();
     clock.replace(m, {&m.line_fills, &m.fill_bytes, &m.memory_errors});
     clock.replace(cache.tag_stage);
-    clock.replace(cache.latency_fifo);
+    clock.replace(cache.narrow->latency_fifo);
     clock.replace(cache.data_stage);
     unit.control.on_command(spec::texture::reg::kControlInvalidate, [this] { this->invalidate(); });
   }
