@@ -33,17 +33,23 @@ module address_unit #(
   output logic [4:0]                   link_pop
 );
   logic [3:0] handle_derivative, handle_level, handle_texel;
-  logic [`DESCRIPTOR_BITS-1:0] of_derivative, of_level, of_texel;
+  logic valid_derivative;
+  logic [`DESCRIPTOR_SIZE] size_derivative, size_texel;
+  logic [`DESCRIPTOR_MODE] mode_level, mode_texel;
+  logic [`DESCRIPTOR_LOD_BIAS] lod_bias_level;
+  logic [`DESCRIPTOR_LOD_CLAMP] lod_clamp_level;
+  logic [`DESCRIPTOR_BASE] bases_texel;
   descriptors store (
-    .clk, .rst_n, .write, .write_handle, .write_word, .write_data,
-    .handle_0(handle_derivative), .handle_1(handle_level), .handle_2(handle_texel),
-    .descriptor_0(of_derivative), .descriptor_1(of_level), .descriptor_2(of_texel));
+    .clk, .rst_n, .write, .write_handle, .write_word, .write_data, .handle_derivative, .valid_derivative,
+    .size_derivative, .handle_level, .mode_level, .lod_bias_level, .lod_clamp_level, .handle_texel, .size_texel,
+    .mode_texel, .bases_texel);
 
   logic derivative_push, derivative_ready, derivative_valid, derivative_pop;
   logic [`DERIVATIVE_TOKEN_BITS-1:0] derivative_in, derivative_out;
   derivative_unit derivative (
     .clk, .rst_n, .in_valid, .in_pop, .in_data, .out_push(derivative_push), .out_ready(derivative_ready),
-    .out_data(derivative_in), .saturated, .handle(handle_derivative), .descriptor(of_derivative));
+    .out_data(derivative_in), .saturated, .handle(handle_derivative), .known(valid_derivative),
+    .size(size_derivative));
   link #(.BITS(`DERIVATIVE_TOKEN_BITS)) derivatives (
     .clk, .rst_n, .push(derivative_push), .push_data(derivative_in), .can_push(derivative_ready),
     .pop(derivative_pop), .front(derivative_out), .can_pop(derivative_valid));
@@ -79,7 +85,7 @@ module address_unit #(
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) level_of_detail (
     .clk, .rst_n, .in_valid(log_valid), .in_pop(log_pop), .in_data(log_out),
     .out_push(level_push), .out_ready(level_ready), .out_data(level_in),
-    .handle(handle_level), .descriptor(of_level));
+    .handle(handle_level), .mode(mode_level), .lod_bias(lod_bias_level), .lod_clamp(lod_clamp_level));
   link #(.BITS(`LEVEL_TOKEN_BITS)) levels (
     .clk, .rst_n, .push(level_push), .push_data(level_in), .can_push(level_ready),
     .pop(level_pop), .front(level_out), .can_pop(level_valid));
@@ -98,5 +104,6 @@ module address_unit #(
 
   texel_addresser addresser (
     .clk, .rst_n, .in_valid(sample_valid), .in_pop(sample_pop), .in_data(sample_out),
-    .out_push, .out_ready, .out_data, .handle(handle_texel), .descriptor(of_texel));
+    .out_push, .out_ready, .out_data, .handle(handle_texel), .size(size_texel), .mode(mode_texel),
+    .bases(bases_texel));
 endmodule

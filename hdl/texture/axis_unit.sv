@@ -55,11 +55,11 @@ module axis_unit #(
       group_5 <= group_4;
     end
 
-  // Data that accompany the fragment: ticket, coordinate, differences.
-  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_BITS - 4 * 31;
+  // The fields below the sizes accompany the fragment: ticket, coordinate, differences.
+  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_SIZE_S_X_FIRST;
   logic [WITH_BITS-1:0] with_it[1:REGISTERS];
   logic [46:0] area[2:REGISTERS];
-  genvar i;
+  genvar i, k;
   generate
     for (i = 2; i <= REGISTERS; i = i + 1) begin : g_with
       always_ff @(posedge clk)
@@ -71,48 +71,35 @@ module axis_unit #(
     end
   endgenerate
 
-  // 1: multiples of the derivatives in texels, with the sign of their difference; products for the area, of magnitudes
-  // with 8 fraction bits.
-  wire [30:0] size_s_x = in_data[`DERIVATIVE_TOKEN_SIZE_S_X], size_t_x = in_data[`DERIVATIVE_TOKEN_SIZE_T_X];
-  wire [30:0] size_s_y = in_data[`DERIVATIVE_TOKEN_SIZE_S_Y], size_t_y = in_data[`DERIVATIVE_TOKEN_SIZE_T_Y];
-  wire minus_s_x = in_data[`DERIVATIVE_TOKEN_S_X_TOP], minus_t_x = in_data[`DERIVATIVE_TOKEN_T_X_TOP];
-  wire minus_s_y = in_data[`DERIVATIVE_TOKEN_S_Y_TOP], minus_t_y = in_data[`DERIVATIVE_TOKEN_T_Y_TOP];
-  wire signed [39:0] p_s_x = minus_s_x ? -$signed({9'd0, size_s_x}) : $signed({9'd0, size_s_x});
-  wire signed [39:0] p_t_x = minus_t_x ? -$signed({9'd0, size_t_x}) : $signed({9'd0, size_t_x});
-  wire signed [39:0] p_s_y = minus_s_y ? -$signed({9'd0, size_s_y}) : $signed({9'd0, size_s_y});
-  wire signed [39:0] p_t_y = minus_t_y ? -$signed({9'd0, size_t_y}) : $signed({9'd0, size_t_y});
-  logic signed [39:0] s_x[0:3], t_x[0:3], s_y[0:3], t_y[0:3];  // multiplied by 128, 118, 90 and 49
-  logic signed [46:0] product_1, product_2;
-  logic signed [46:0] direct, crossed;
-  assign direct = $signed({24'd0, size_s_x[30:8]}) * $signed({24'd0, size_t_y[30:8]});
-  assign crossed = $signed({24'd0, size_t_x[30:8]}) * $signed({24'd0, size_s_y[30:8]});
+  // 1: multiples of the derivatives in texels, with the sign of their difference, in the order s and t along the row, s
+  // and t along the column; products for the area, of magnitudes with 8 fraction bits.
+  wire [4*31-1:0] sizes = {in_data[`DERIVATIVE_TOKEN_SIZE_T_Y], in_data[`DERIVATIVE_TOKEN_SIZE_S_Y],
+                           in_data[`DERIVATIVE_TOKEN_SIZE_T_X], in_data[`DERIVATIVE_TOKEN_SIZE_S_X]};
+  wire [3:0] minus = {in_data[`DERIVATIVE_TOKEN_T_Y_TOP], in_data[`DERIVATIVE_TOKEN_S_Y_TOP],
+                      in_data[`DERIVATIVE_TOKEN_T_X_TOP], in_data[`DERIVATIVE_TOKEN_S_X_TOP]};
+  logic [4*40-1:0] multiples[0:3];
+  generate
+    for (i = 0; i < 4; i = i + 1) begin : g_multiples
+      wire signed [39:0] size = {9'd0, sizes[31*i +: 31]};
+      wire [4*40-1:0] now;
+      axis_multiples #(.BITS(40)) of_size (.value(minus[i] ? -size : size), .multiples(now));
+      always_ff @(posedge clk)
+        if (in_pop) multiples[i] <= now;
+    end
+  endgenerate
+  logic [45:0] direct, crossed;
+  logic subtract;  // the products have the same sign
   always_ff @(posedge clk)
     if (in_pop) begin
       with_it[1] <= in_data[WITH_BITS-1:0];
-      s_x[0] <= p_s_x <<< 7;
-      t_x[0] <= p_t_x <<< 7;
-      s_y[0] <= p_s_y <<< 7;
-      t_y[0] <= p_t_y <<< 7;
-      s_x[1] <= p_s_x * `AXIS_COSINE_1;
-      t_x[1] <= p_t_x * `AXIS_COSINE_1;
-      s_y[1] <= p_s_y * `AXIS_COSINE_1;
-      t_y[1] <= p_t_y * `AXIS_COSINE_1;
-      s_x[2] <= p_s_x * `AXIS_COSINE_2;
-      t_x[2] <= p_t_x * `AXIS_COSINE_2;
-      s_y[2] <= p_s_y * `AXIS_COSINE_2;
-      t_y[2] <= p_t_y * `AXIS_COSINE_2;
-      s_x[3] <= p_s_x * `AXIS_COSINE_3;
-      t_x[3] <= p_t_x * `AXIS_COSINE_3;
-      s_y[3] <= p_s_y * `AXIS_COSINE_3;
-      t_y[3] <= p_t_y * `AXIS_COSINE_3;
-      product_1 <= minus_s_x != minus_t_y ? -direct : direct;
-      product_2 <= minus_t_x != minus_s_y ? -crossed : crossed;
+      direct <= {23'd0, sizes[8 +: 23]} * {23'd0, sizes[31*3+8 +: 23]};
+      crossed <= {23'd0, sizes[31+8 +: 23]} * {23'd0, sizes[31*2+8 +: 23]};
+      subtract <= ^minus == 1'b0;
     end
 
   // 2: candidates and area. A group has SLOTS neighbouring candidates.
-  wire signed [47:0] determinant = $signed({product_1[46], product_1}) - $signed({product_2[46], product_2});
+  wire signed [47:0] determinant = {2'd0, direct} + ({2'd0, crossed} ^ {48{subtract}}) + {47'd0, subtract};
   wire [47:0] area_magnitude = determinant < 0 ? -determinant : determinant;
-  wire unused_area = &{1'b0, area_magnitude[47]};
   always_ff @(posedge clk)
     if (move) area[2] <= area_magnitude[46:0];
 
@@ -121,30 +108,33 @@ module axis_unit #(
     for (i = 0; i < SLOTS; i = i + 1) begin : g_slot
       localparam integer FIRST = i * STEP;
       wire [2:0] direction = FIRST[2:0] + GROUP_STEP * {1'b0, group_1};
-      logic signed [40:0] sum_s, sum_t;
-      axis_sum #(.BITS(40)) of_s (
-        .direction, .x128(s_x[0]), .x118(s_x[1]), .x90(s_x[2]), .x49(s_x[3]),
-        .y128(s_y[0]), .y118(s_y[1]), .y90(s_y[2]), .y49(s_y[3]), .sum(sum_s));
-      axis_sum #(.BITS(40)) of_t (
-        .direction, .x128(t_x[0]), .x118(t_x[1]), .x90(t_x[2]), .x49(t_x[3]),
-        .y128(t_y[0]), .y118(t_y[1]), .y90(t_y[2]), .y49(t_y[3]), .sum(sum_t));
-      wire [40:0] magnitude_s = sum_s < 0 ? -sum_s : sum_s;
-      wire [40:0] magnitude_t = sum_t < 0 ? -sum_t : sum_t;
-      wire unused = &{1'b0, magnitude_s[6:0], magnitude_t[6:0]};
+      // Along s and t.
+      wire [61:0] limited;
+      for (k = 0; k < 2; k = k + 1) begin : g_side
+        wire [39:0] of_x, of_y;
+        wire carry;
+        axis_terms #(.BITS(40)) terms (.direction, .x(multiples[k]), .y(multiples[k+2]), .of_x, .of_y, .carry);
+        wire signed [40:0] sum = {of_x[39], of_x} + {of_y[39], of_y} + {40'd0, carry};
+        wire [40:0] magnitude = sum < 0 ? -sum : sum;
+        assign limited[31*k +: 31] = magnitude[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude[37:7];
+      end
       logic [30:0] s, t;
       always_ff @(posedge clk)
         if (move) begin
-          s <= magnitude_s[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude_s[37:7];
-          t <= magnitude_t[40:38] != 3'd0 ? 31'h7FFFFFFF : magnitude_t[37:7];
+          s <= limited[30:0];
+          t <= limited[61:31];
         end
       // 3 and 4: its measure.
       if (EXACT != 0) begin : g_exact
+        wire [61:0] square_s, square_t;
+        square of_size_s (.value(s), .squared(square_s));
+        square of_size_t (.value(t), .squared(square_t));
         logic [61:0] ss, tt;
         logic [62:0] squares;
         always_ff @(posedge clk)
           if (move) begin
-            ss <= {31'd0, s} * {31'd0, s};
-            tt <= {31'd0, t} * {31'd0, t};
+            ss <= square_s;
+            tt <= square_t;
             squares <= {1'b0, ss} + {1'b0, tt};
           end
         assign measures[i*MEASURE_BITS +: MEASURE_BITS] = squares;
@@ -210,64 +200,50 @@ module axis_unit #(
       direction_6 <= group_direction;
     end
 
-  // 7: multiples of the coordinate differences; 8: their sum for the chosen direction.
-  wire signed [40:0] d_s_x = {{8{with_it[6][`DERIVATIVE_TOKEN_S_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_X]};
-  wire signed [40:0] d_t_x = {{8{with_it[6][`DERIVATIVE_TOKEN_T_X_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_T_X]};
-  wire signed [40:0] d_s_y = {{8{with_it[6][`DERIVATIVE_TOKEN_S_Y_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_S_Y]};
-  wire signed [40:0] d_t_y = {{8{with_it[6][`DERIVATIVE_TOKEN_T_Y_TOP]}}, with_it[6][`DERIVATIVE_TOKEN_T_Y]};
-  logic signed [40:0] m_s_x[0:3], m_t_x[0:3], m_s_y[0:3], m_t_y[0:3];
-  logic [2:0] direction_7;
-  always_ff @(posedge clk)
-    if (move) begin
-      direction_7 <= direction_6;
-      m_s_x[0] <= d_s_x <<< 7;
-      m_t_x[0] <= d_t_x <<< 7;
-      m_s_y[0] <= d_s_y <<< 7;
-      m_t_y[0] <= d_t_y <<< 7;
-      m_s_x[1] <= d_s_x * `AXIS_COSINE_1;
-      m_t_x[1] <= d_t_x * `AXIS_COSINE_1;
-      m_s_y[1] <= d_s_y * `AXIS_COSINE_1;
-      m_t_y[1] <= d_t_y * `AXIS_COSINE_1;
-      m_s_x[2] <= d_s_x * `AXIS_COSINE_2;
-      m_t_x[2] <= d_t_x * `AXIS_COSINE_2;
-      m_s_y[2] <= d_s_y * `AXIS_COSINE_2;
-      m_t_y[2] <= d_t_y * `AXIS_COSINE_2;
-      m_s_x[3] <= d_s_x * `AXIS_COSINE_3;
-      m_t_x[3] <= d_t_x * `AXIS_COSINE_3;
-      m_s_y[3] <= d_s_y * `AXIS_COSINE_3;
-      m_t_y[3] <= d_t_y * `AXIS_COSINE_3;
+  // 7: multiples of the coordinate differences for the chosen direction; 8: their sum, rounded at 7 bits away from zero,
+  // so that mirrored coordinates give mirrored samples.
+  wire [4*33-1:0] differences = {with_it[6][`DERIVATIVE_TOKEN_T_Y], with_it[6][`DERIVATIVE_TOKEN_S_Y],
+                                 with_it[6][`DERIVATIVE_TOKEN_T_X], with_it[6][`DERIVATIVE_TOKEN_S_X]};
+  wire [4*41-1:0] steps[0:3];
+  wire [2*34-1:0] major;  // s, t
+  generate
+    for (i = 0; i < 4; i = i + 1) begin : g_steps
+      axis_multiples #(.BITS(41)) of_difference (
+        .value({{8{differences[33*i+32]}}, differences[33*i +: 33]}), .multiples(steps[i]));
     end
-  logic signed [41:0] axis_sum_s, axis_sum_t;
-  axis_sum #(.BITS(41)) of_axis_s (
-    .direction(direction_7), .x128(m_s_x[0]), .x118(m_s_x[1]), .x90(m_s_x[2]), .x49(m_s_x[3]),
-    .y128(m_s_y[0]), .y118(m_s_y[1]), .y90(m_s_y[2]), .y49(m_s_y[3]), .sum(axis_sum_s));
-  axis_sum #(.BITS(41)) of_axis_t (
-    .direction(direction_7), .x128(m_t_x[0]), .x118(m_t_x[1]), .x90(m_t_x[2]), .x49(m_t_x[3]),
-    .y128(m_t_y[0]), .y118(m_t_y[1]), .y90(m_t_y[2]), .y49(m_t_y[3]), .sum(axis_sum_t));
-  logic signed [33:0] axis_s, axis_t;
-  axis_round rounded_s (.sum(axis_sum_s), .axis(axis_s));
-  axis_round rounded_t (.sum(axis_sum_t), .axis(axis_t));
+    for (i = 0; i < 2; i = i + 1) begin : g_axis
+      wire [40:0] of_x, of_y;
+      wire carry;
+      axis_terms #(.BITS(41)) terms (.direction(direction_6), .x(steps[i]), .y(steps[i+2]), .of_x, .of_y, .carry);
+      logic [40:0] x_7, y_7;
+      logic carry_7;
+      always_ff @(posedge clk)
+        if (move) begin
+          x_7 <= of_x;
+          y_7 <= of_y;
+          carry_7 <= carry;
+        end
+      wire [41:0] sum = {x_7[40], x_7} + {y_7[40], y_7} + {41'd0, carry_7};
+      wire [41:0] rounded = sum + 42'd63 + {41'd0, !sum[41]};
+      assign major[34*i +: 34] = rounded[40:7];
+    end
+  endgenerate
 
   logic [31:0] d_max;
-  logic signed [33:0] axis_s_out, axis_t_out;
+  logic [2*34-1:0] axis_out;
   generate
     if (EXACT != 0) begin : g_root
       root_pipe longest_root (.clk, .move, .radicand(longest_6), .root(d_max));
-      logic signed [33:0] axis_s_at[8:21], axis_t_at[8:21];
+      logic [2*34-1:0] axis_at[8:21];
       for (i = 8; i <= 21; i = i + 1) begin : g_axis
         always_ff @(posedge clk)
-          if (move) begin
-            axis_s_at[i] <= i == 8 ? axis_s : axis_s_at[i > 8 ? i - 1 : 8];
-            axis_t_at[i] <= i == 8 ? axis_t : axis_t_at[i > 8 ? i - 1 : 8];
-          end
+          if (move) axis_at[i] <= i == 8 ? major : axis_at[i > 8 ? i - 1 : 8];
       end
-      assign axis_s_out = axis_s_at[21];
-      assign axis_t_out = axis_t_at[21];
+      assign axis_out = axis_at[21];
     end else begin : g_measured
       always_ff @(posedge clk)
         if (move) d_max <= longest_6;
-      assign axis_s_out = axis_s;
-      assign axis_t_out = axis_t;
+      assign axis_out = major;
     end
   endgenerate
 
@@ -275,8 +251,8 @@ module axis_unit #(
   assign out_data[`FOOTPRINT_TOKEN_TICKET] = with_it[REGISTERS][`DERIVATIVE_TOKEN_TICKET];
   assign out_data[`FOOTPRINT_TOKEN_S] = with_it[REGISTERS][`DERIVATIVE_TOKEN_S];
   assign out_data[`FOOTPRINT_TOKEN_T] = with_it[REGISTERS][`DERIVATIVE_TOKEN_T];
-  assign out_data[`FOOTPRINT_TOKEN_AXIS_S] = axis_s_out;
-  assign out_data[`FOOTPRINT_TOKEN_AXIS_T] = axis_t_out;
+  assign out_data[`FOOTPRINT_TOKEN_AXIS_S] = axis_out[33:0];
+  assign out_data[`FOOTPRINT_TOKEN_AXIS_T] = axis_out[67:34];
   assign out_data[`FOOTPRINT_TOKEN_D_MAX] = d_max;
   assign out_data[`FOOTPRINT_TOKEN_MINOR] = area[REGISTERS];
 endmodule

@@ -14,7 +14,8 @@ module derivative_unit (
   output logic [`DERIVATIVE_TOKEN_BITS-1:0] out_data,
   output logic                              saturated,  // increments SATURATED
   output logic [3:0]                        handle,  // of the fragment in stage 1
-  input  logic [`DESCRIPTOR_BITS-1:0]       descriptor
+  input  logic                              known,   // its descriptor is valid
+  input  logic [`DESCRIPTOR_SIZE]           size
 );
   // 1: the next covered lane, of the quad at the link or of the quad taken before.
   logic [`QUAD_BITS-1:0] held;
@@ -24,7 +25,7 @@ module derivative_unit (
   wire  [1:0] lane = lanes[0] ? 2'd0 : lanes[1] ? 2'd1 : lanes[2] ? 2'd2 : 2'd3;
   wire  [3:0] rest = lanes & ~(4'd1 << lane);
   wire  there = lanes != 4'd0;
-  wire  unused = &{1'b0, quad, descriptor};
+  wire  unused = &{1'b0, quad, size};
 
   logic [1:0] valid;
   wire move = out_ready || !valid[1];
@@ -51,16 +52,15 @@ module derivative_unit (
   // The quad carries an 8-bit handle, of which 4 bits select a descriptor.
   wire [7:0] texture = quad[`QUAD_TEXTURE];
   assign handle = texture[3:0];
-  wire known = texture[7:4] == 4'd0 && descriptor[`DESCRIPTOR_VALID];
 
   logic signed [32:0] s_x, t_x, s_y, t_y;
   logic [12:0] width, height;
-  logic [103:0] with_1, with_2;  // ticket and coordinate
-  wire [39:0] ticket;
+  logic [`DERIVATIVE_TOKEN_S_X_FIRST-1:0] with_1, with_2;  // ticket and coordinate
+  wire [`TICKET_BITS-1:0] ticket;
   assign ticket[`TICKET_TAG] = quad[`QUAD_TAG];
   assign ticket[`TICKET_LANE] = lane;
   assign ticket[`TICKET_LAST] = rest == 4'd0;
-  assign ticket[`TICKET_VALID] = known;
+  assign ticket[`TICKET_VALID] = texture[7:4] == 4'd0 && known;
   assign ticket[`TICKET_TEXTURE] = texture[3:0];
   always_ff @(posedge clk)
     if (move) begin
@@ -68,8 +68,8 @@ module derivative_unit (
       t_x <= lane[1] ? t_3 - t_2 : t_1 - t_0;
       s_y <= lane[0] ? s_3 - s_1 : s_2 - s_0;
       t_y <= lane[0] ? t_3 - t_1 : t_2 - t_0;
-      width <= descriptor[`DESCRIPTOR_WIDTH_USED];
-      height <= descriptor[`DESCRIPTOR_HEIGHT_USED];
+      width <= size[`DESCRIPTOR_WIDTH_USED];
+      height <= size[`DESCRIPTOR_HEIGHT_USED];
       with_1 <= {t, s, ticket};
     end
 

@@ -5,12 +5,14 @@
 `include "tables.svh"
 module descriptor_check (
   input  logic [32*`DESCRIPTOR_WORDS-1:0] words,
-  output logic [`DESCRIPTOR_BITS-1:0]     descriptor
+  output logic                            valid
 );
   wire [15:0] width = words[`DESCRIPTOR_SIZE_WIDTH];
   wire [15:0] height = words[`DESCRIPTOR_SIZE_HEIGHT];
   wire [3:0] levels = words[`DESCRIPTOR_MODE_LEVELS];
   wire [15:0] longer = width > height ? width : height;
+  wire [32*`DESCRIPTOR_BASES-1:0] bases = words[`DESCRIPTOR_BASE];
+  wire unused = &{1'b0, words};
 
   // Level k exists if the longer side shifted right by k is not 0.
   wire [15:0] coarsest = longer >> (levels - 4'd1);
@@ -26,7 +28,7 @@ module descriptor_check (
   always_comb begin
     bases_ok = 1'b1;
     for (k = 0; k < `DESCRIPTOR_BASES; k = k + 1)
-      if (k < {28'd0, levels} && words[32*(`DESCRIPTOR_BASE_WORD+k) +: 6] != 6'd0) bases_ok = 1'b0;
+      if (k < {28'd0, levels} && bases[32*k +: 6] != 6'd0) bases_ok = 1'b0;
   end
-  assign descriptor = {size_ok && levels_ok && codes_ok && bases_ok, words};
+  assign valid = size_ok && levels_ok && codes_ok && bases_ok;
 endmodule

@@ -25,14 +25,11 @@ module filter_pipeline #(
   assign out_push = out_ready && valid[LAST];
 
   // 1: fields. Passed on: ticket, sample index, N - 1, format, ends, weights of a request.
-  logic [40:0] ticket[1:LAST];  // the highest bit: sRGB format
+  logic [`TICKET_BITS:0] ticket[1:LAST];  // the highest bit: sRGB format
   wire [2:0] format = in_data[`TEXEL_QUAD_TOKEN_CONTROL_FORMAT];
   wire is_srgb = format == `FORMAT_SRGB8_A8;
-  wire [31:0] channels_0, channels_1, channels_2, channels_3;
-  texel_unpack unpack_0 (.texel(in_data[`TEXEL_QUAD_TOKEN_TEXEL_0]), .format, .channels(channels_0));
-  texel_unpack unpack_1 (.texel(in_data[`TEXEL_QUAD_TOKEN_TEXEL_1]), .format, .channels(channels_1));
-  texel_unpack unpack_2 (.texel(in_data[`TEXEL_QUAD_TOKEN_TEXEL_2]), .format, .channels(channels_2));
-  texel_unpack unpack_3 (.texel(in_data[`TEXEL_QUAD_TOKEN_TEXEL_3]), .format, .channels(channels_3));
+  wire [127:0] texels = in_data[`TEXEL_QUAD_TOKEN_TEXEL];
+  wire [127:0] channels;
   logic [127:0] codes_1;
   logic [7:0] u[1:2], v[1:4];
   logic [8:0] level_weight[1:5];
@@ -40,7 +37,7 @@ module filter_pipeline #(
   logic [6:1] end_of_sample, end_of_fragment;
   always_ff @(posedge clk)
     if (move) begin
-      codes_1 <= {channels_3, channels_2, channels_1, channels_0};
+      codes_1 <= channels;
       ticket[1] <= {is_srgb, in_data[`TEXEL_QUAD_TOKEN_TICKET]};
       u[1] <= in_data[`TEXEL_QUAD_TOKEN_CONTROL_FRACTION_U];
       v[1] <= in_data[`TEXEL_QUAD_TOKEN_CONTROL_FRACTION_V];
@@ -52,6 +49,9 @@ module filter_pipeline #(
     end
   genvar i;
   generate
+    for (i = 0; i < 4; i = i + 1) begin : g_unpack
+      texel_unpack unpack (.texel(texels[32*i +: 32]), .format, .channels(channels[32*i +: 32]));
+    end
     for (i = 2; i <= LAST; i = i + 1) begin : g_ticket
       always_ff @(posedge clk)
         if (move) ticket[i] <= ticket[i-1];
@@ -110,10 +110,10 @@ module filter_pipeline #(
   logic [27:0] sum[0:3];
   generate
     for (i = 0; i < 4; i = i + 1) begin : g_channel
-      wire [31:0] texels = {codes_1[96+8*i +: 8], codes_1[64+8*i +: 8], codes_1[32+8*i +: 8], codes_1[8*i +: 8]};
+      wire [31:0] of_texels = {codes_1[96+8*i +: 8], codes_1[64+8*i +: 8], codes_1[32+8*i +: 8], codes_1[8*i +: 8]};
       logic [27:0] of_channel;
       filter_channel #(.COLOUR(i < 3 ? 1 : 0)) channel (
-        .clk, .move, .texels_1(texels), .srgb_1(ticket[1][40]), .srgb_2(ticket[2][40]), .u_2(u[2]), .v_4(v[4]),
+        .clk, .move, .texels_1(of_texels), .srgb_1(ticket[1][`TICKET_BITS]), .srgb_2(ticket[2][`TICKET_BITS]), .u_2(u[2]), .v_4(v[4]),
         .level_weight_5(level_weight[5]), .second_5(open_6), .valid_5(valid[5]), .weight_6,
         .first_sample_6(index[6] == 4'd0), .done_6(valid[6] && end_of_sample[6]), .sum(of_channel));
       always_comb sum[i] = of_channel;
@@ -143,7 +143,7 @@ module filter_pipeline #(
         logic [`LINEAR_TO_SRGB_BITS-1:0] code;
         rom #(.BITS(`LINEAR_TO_SRGB_BITS), .WORDS(4096), .ADDRESS_BITS(12), .CONTENTS(`LINEAR_TO_SRGB)) codes (
           .clk, .read(move), .address(light[27:16]), .word(code));
-        assign rgba[8*i +: 8] = ticket[8][40] && ticket[8][`TICKET_VALID] ? code : rounded_8[8*i +: 8];
+        assign rgba[8*i +: 8] = ticket[8][`TICKET_BITS] && ticket[8][`TICKET_VALID] ? code : rounded_8[8*i +: 8];
       end
       assign rgba[31:24] = rounded_8[31:24];
     end else begin : g_linear

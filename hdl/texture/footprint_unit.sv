@@ -24,7 +24,7 @@ module footprint_unit #(
   wire [30:0] s_x = in_data[`DERIVATIVE_TOKEN_SIZE_S_X], t_x = in_data[`DERIVATIVE_TOKEN_SIZE_T_X];
   wire [30:0] s_y = in_data[`DERIVATIVE_TOKEN_SIZE_S_Y], t_y = in_data[`DERIVATIVE_TOKEN_SIZE_T_Y];
   // Ticket, coordinate and both differences, until the longer side is known.
-  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_BITS - 4 * 31;
+  localparam integer WITH_BITS = `DERIVATIVE_TOKEN_SIZE_S_X_FIRST;
   wire [WITH_BITS-1:0] with_in = in_data[WITH_BITS-1:0];
   logic [WITH_BITS-1:0] with_out;
   logic [31:0] d_x, d_y;
@@ -33,6 +33,11 @@ module footprint_unit #(
   generate
     if (RULE == `FOOTPRINT_EXACT) begin : g_exact
       // Registers 1 and 2: squares, sums; 3 to 17: root bits; 18: the sides and the choice of the longer one.
+      wire [61:0] square_s_x, square_t_x, square_s_y, square_t_y;
+      square of_s_x (.value(s_x), .squared(square_s_x));
+      square of_t_x (.value(t_x), .squared(square_t_x));
+      square of_s_y (.value(s_y), .squared(square_s_y));
+      square of_t_y (.value(t_y), .squared(square_t_y));
       logic [61:0] ss_x, tt_x, ss_y, tt_y;
       logic [62:0] sum_x, sum_y;
       logic [15:0] longer;  // from register 3 on, the newest in bit 0
@@ -42,10 +47,10 @@ module footprint_unit #(
       root_pipe of_y (.clk, .move, .radicand(sum_y), .root(root_y));
       always_ff @(posedge clk)
         if (move) begin
-          ss_x <= {31'd0, s_x} * {31'd0, s_x};
-          tt_x <= {31'd0, t_x} * {31'd0, t_x};
-          ss_y <= {31'd0, s_y} * {31'd0, s_y};
-          tt_y <= {31'd0, t_y} * {31'd0, t_y};
+          ss_x <= square_s_x;
+          tt_x <= square_t_x;
+          ss_y <= square_s_y;
+          tt_y <= square_t_y;
           sum_x <= {1'b0, ss_x} + {1'b0, tt_x};
           sum_y <= {1'b0, ss_y} + {1'b0, tt_y};
           longer <= {longer[14:0], sum_y > sum_x};

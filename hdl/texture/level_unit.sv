@@ -18,14 +18,16 @@ module level_unit #(
   input  logic                         out_ready,
   output logic [`LEVEL_TOKEN_BITS-1:0] out_data,
   output logic [3:0]                   handle,  // of the token at the link
-  input  logic [`DESCRIPTOR_BITS-1:0]  descriptor
+  input  logic [`DESCRIPTOR_MODE]      mode,
+  input  logic [`DESCRIPTOR_LOD_BIAS]  lod_bias,
+  input  logic [`DESCRIPTOR_LOD_CLAMP] lod_clamp
 );
   logic move;
   logic [1:0] valid;
   pipe #(.STAGES(2)) stages (.clk, .rst_n, .in_valid, .in_pop, .out_ready, .out_push, .move, .valid);
-  wire unused = &{1'b0, valid, descriptor};
+  wire unused = &{1'b0, valid, mode, lod_bias};
 
-  localparam integer WITH_BITS = `LOG2_TOKEN_BITS - 2 * 18;
+  localparam integer WITH_BITS = `LOG2_TOKEN_LB_MAX_FIRST;  // the fields below the logarithms pass through
   wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
   assign handle = in_data[`LOG2_TOKEN_TICKET_TEXTURE];
 
@@ -35,7 +37,7 @@ module level_unit #(
   wire signed [19:0] lb_minor = {{2{in_data[`LOG2_TOKEN_LB_MINOR_TOP]}}, in_data[`LOG2_TOKEN_LB_MINOR]};
   wire signed [19:0] quotient = AXES == `AXES_TWO ? lb_max - lb_minor : (lb_max <<< 1) - lb_minor;
   wire [19:0] l_above = quotient < 0 ? 20'd0 : quotient;
-  wire [2:0] most = descriptor[`DESCRIPTOR_MODE_MAX_COUNT_LOG2];
+  wire [2:0] most = mode[`DESCRIPTOR_MODE_MAX_COUNT_LOG2];
   wire [14:0] limit = {most, 12'd0};
   wire positive = lb_max > 0;
   // The length of the footprint limits the count: samples are at least a texel apart. lb d_max is at most 16.
@@ -62,12 +64,12 @@ module level_unit #(
       with_1 <= with_it;
       e_1 <= sampled[14:0];
       lb_1 <= in_data[`LOG2_TOKEN_LB_MAX];
-      bias_1 <= descriptor[`DESCRIPTOR_LOD_BIAS_BIAS];
-      min_1 <= descriptor[`DESCRIPTOR_LOD_CLAMP_MIN_LOD];
-      max_1 <= descriptor[`DESCRIPTOR_LOD_CLAMP_MAX_LOD];
-      filter_1 <= descriptor[`DESCRIPTOR_MODE_MIN_FILTER];
-      mag_1 <= descriptor[`DESCRIPTOR_MODE_MAG_FILTER];
-      levels_1 <= descriptor[`DESCRIPTOR_MODE_LEVELS];
+      bias_1 <= lod_bias[`DESCRIPTOR_LOD_BIAS_BIAS];
+      min_1 <= lod_clamp[`DESCRIPTOR_LOD_CLAMP_MIN_LOD];
+      max_1 <= lod_clamp[`DESCRIPTOR_LOD_CLAMP_MAX_LOD];
+      filter_1 <= mode[`DESCRIPTOR_MODE_MIN_FILTER];
+      mag_1 <= mode[`DESCRIPTOR_MODE_MAG_FILTER];
+      levels_1 <= mode[`DESCRIPTOR_MODE_LEVELS];
     end
 
   // 2: level of detail in its range, number of samples.

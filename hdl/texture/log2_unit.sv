@@ -16,14 +16,13 @@ module log2_unit #(
   input  logic                             out_ready,
   output logic [`LOG2_TOKEN_BITS-1:0]      out_data
 );
-  localparam integer WITH_BITS = `FOOTPRINT_TOKEN_BITS - `FOOTPRINT_TOKEN_MINOR_BITS - `FOOTPRINT_TOKEN_D_MAX_BITS;
+  localparam integer WITH_BITS = `FOOTPRINT_TOKEN_D_MAX_FIRST;  // the fields below the sides pass through
 
   logic signed [17:0] major, minor;
   log2_value #(.BITS(`FOOTPRINT_TOKEN_D_MAX_BITS)) of_major (
     .value(in_data[`FOOTPRINT_TOKEN_D_MAX]), .mitchell(major));
   log2_value #(.BITS(`FOOTPRINT_TOKEN_MINOR_BITS)) of_minor (
     .value(in_data[`FOOTPRINT_TOKEN_MINOR]), .mitchell(minor));
-  // Ticket, coordinate and axis are below the sides and pass through unchanged.
   wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
 
   generate

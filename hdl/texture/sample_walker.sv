@@ -27,42 +27,42 @@ module sample_walker #(
                                in_data[`LEVEL_TOKEN_AXIS_S_LOW]};
   wire signed [33:0] axis_t = {{(35 - AXIS_BITS) {in_data[`LEVEL_TOKEN_AXIS_T_TOP]}},
                                in_data[`LEVEL_TOKEN_AXIS_T_LOW]};
-  wire ok = in_data[`LEVEL_TOKEN_TICKET_VALID];
-  // The fragment of an invalid descriptor takes one request and one cycle.
-  wire [3:0] last_index = ok ? in_data[`LEVEL_TOKEN_LAST_INDEX] : 4'd0;
-  wire [7:0] fraction = ok ? in_data[`LEVEL_TOKEN_FRACTION] : 8'd0;
+  // The fragment of an invalid descriptor takes one request and one cycle. The fields below and above the axis pass to
+  // the requests.
+  logic [`LEVEL_TOKEN_BITS-1:0] with_in;
+  always_comb begin
+    with_in = in_data;
+    if (!in_data[`LEVEL_TOKEN_TICKET_VALID]) begin
+      with_in[`LEVEL_TOKEN_LAST_INDEX] = 4'd0;
+      with_in[`LEVEL_TOKEN_FRACTION] = 8'd0;
+    end
+  end
+  wire [3:0] last_index = with_in[`LEVEL_TOKEN_LAST_INDEX];
   wire [7:0] spread = KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
-  wire signed [42:0] wide_spread = $signed({35'd0, spread});
-
-  // Data that pass from a fragment to its requests.
-  localparam integer WITH_BITS = 40 + 64 + 4 + 4 + 8 + 1;
-  wire [WITH_BITS-1:0] with_in = {in_data[`LEVEL_TOKEN_LINEAR], fraction, in_data[`LEVEL_TOKEN_LEVEL],
-                                  last_index, in_data[`LEVEL_TOKEN_T], in_data[`LEVEL_TOKEN_S],
-                                  in_data[`LEVEL_TOKEN_TICKET]};
-  wire unused = &{1'b0, in_data};
+  wire signed [40:0] wide_spread = $signed({33'd0, spread});
 
   logic full_1;
   logic leave_1;  // the first register passes its fragment to the next one
   wire enter_1 = in_valid && (!full_1 || leave_1);
   assign in_pop = enter_1;
-  logic [WITH_BITS-1:0] with_1;
-  logic signed [42:0] wide_s_1, wide_t_1;
+  logic [`LEVEL_TOKEN_BITS-1:0] with_1;
+  logic signed [40:0] wide_s_1, wide_t_1;
   always_ff @(posedge clk)
     if (!rst_n) full_1 <= 1'b0;
     else full_1 <= enter_1 || (full_1 && !leave_1);
   always_ff @(posedge clk)
     if (enter_1) begin
       with_1 <= with_in;
-      wide_s_1 <= $signed({{9{axis_s[33]}}, axis_s}) * wide_spread;
-      wide_t_1 <= $signed({{9{axis_t[33]}}, axis_t}) * wide_spread;
+      wide_s_1 <= $signed({{7{axis_s[33]}}, axis_s}) * wide_spread;
+      wide_t_1 <= $signed({{7{axis_t[33]}}, axis_t}) * wide_spread;
     end
 
   // ---- input of the walking register
   logic walking;
   logic walk_takes;  // it accepts a fragment in this cycle
   logic arrives;     // a fragment for it
-  logic [WITH_BITS-1:0] arriving;
-  logic signed [60:0] step_s, step_t, first_s, first_t;  // 46 fraction bits
+  logic [`LEVEL_TOKEN_BITS-1:0] arriving;
+  logic signed [56:0] step_s, step_t, first_s, first_t;  // 46 fraction bits
 
   generate
     if (COUNT == `COUNT_ANY) begin : g_any
@@ -73,49 +73,52 @@ module sample_walker #(
       logic full_2;
       wire leave_2 = full_2 && walk_takes;
       assign leave_1 = full_1 && (!full_2 || leave_2);
-      logic [WITH_BITS-1:0] with_2;
-      logic signed [60:0] step_s_2, step_t_2;
-      wire signed [60:0] factor = $signed({{(61 - `RECIPROCAL_BITS) {1'b0}}, reciprocal});
+      wire signed [56:0] factor = $signed({{(57 - `RECIPROCAL_BITS) {1'b0}}, reciprocal});
       always_ff @(posedge clk)
         if (!rst_n) full_2 <= 1'b0;
         else full_2 <= leave_1 || (full_2 && !leave_2);
       always_ff @(posedge clk)
         if (leave_1) begin
-          with_2 <= with_1;
-          step_s_2 <= $signed({{18{wide_s_1[42]}}, wide_s_1}) * factor;
-          step_t_2 <= $signed({{18{wide_t_1[42]}}, wide_t_1}) * factor;
+          arriving <= with_1;
+          step_s <= $signed({{16{wide_s_1[40]}}, wide_s_1}) * factor;
+          step_t <= $signed({{16{wide_t_1[40]}}, wide_t_1}) * factor;
         end
-      // 3: offset of the first sample.
+      // 3: offset of the first sample, (1 - N) times the step: a row for each bit of N - 1, each row the complement of
+      // the step, and N - 1 for the carries.
       assign arrives = full_2;
-      assign arriving = with_2;
-      assign step_s = step_s_2;
-      assign step_t = step_t_2;
-      wire signed [60:0] one_less = -$signed({57'd0, with_2[107:104]});  // 1 - N
-      assign first_s = step_s_2 * one_less;
-      assign first_t = step_t_2 * one_less;
+      wire [3:0] less = arriving[`LEVEL_TOKEN_LAST_INDEX];
+      always_comb begin
+        first_s = {53'd0, less};
+        first_t = {53'd0, less};
+        for (integer i = 0; i < 4; i = i + 1) begin
+          first_s = first_s + ({57{less[i]}} & (~step_s << i));
+          first_t = first_t + ({57{less[i]}} & (~step_t << i));
+        end
+      end
     end else begin : g_power
       // 2: N is a power of two.
       assign leave_1 = full_1 && walk_takes;
       assign arrives = full_1;
-      assign arriving = with_1;
-      wire [3:0] last_1 = with_1[107:104];
+      always_comb arriving = with_1;
+      wire [3:0] last_1 = with_1[`LEVEL_TOKEN_LAST_INDEX];
       wire [2:0] lb_n = last_1[3] ? 3'd4 : last_1[2] ? 3'd3 : last_1[1] ? 3'd2 : last_1[0] ? 3'd1 : 3'd0;
-      wire signed [60:0] whole_s = $signed({{2{wide_s_1[42]}}, wide_s_1, 16'd0});
-      wire signed [60:0] whole_t = $signed({{2{wide_t_1[42]}}, wide_t_1, 16'd0});
-      assign step_s = whole_s >>> lb_n;
-      assign step_t = whole_t >>> lb_n;
-      assign first_s = step_s - whole_s;
-      assign first_t = step_t - whole_t;
+      wire signed [56:0] whole_s = $signed({wide_s_1, 16'd0}), whole_t = $signed({wide_t_1, 16'd0});
+      always_comb begin
+        step_s = whole_s >>> lb_n;
+        step_t = whole_t >>> lb_n;
+        first_s = step_s - whole_s;
+        first_t = step_t - whole_t;
+      end
     end
   endgenerate
 
   // ---- the last stage: one request per cycle
-  logic [WITH_BITS-1:0] at;
-  logic signed [60:0] offset_s, offset_t, stride_s, stride_t;
+  logic [`LEVEL_TOKEN_BITS-1:0] at;
+  logic signed [56:0] offset_s, offset_t, stride_s, stride_t;
   logic [3:0] index;
   logic second;  // second of two levels
-  wire [7:0] at_fraction = at[119:112];
-  wire [3:0] at_last = at[107:104];
+  wire [7:0] at_fraction = at[`LEVEL_TOKEN_FRACTION];
+  wire [3:0] at_last = at[`LEVEL_TOKEN_LAST_INDEX];
   wire last_of_sample = second || at_fraction == 8'd0;
   wire last_of_fragment = last_of_sample && index == at_last;
   assign out_push = walking && out_ready;
@@ -142,18 +145,18 @@ module sample_walker #(
       end
     end
 
-  wire signed [60:0] rounded_s = offset_s + 61'sd4194304;  // 2^22: drops 23
-  wire signed [60:0] rounded_t = offset_t + 61'sd4194304;
-  wire unused_low = &{1'b0, rounded_s[22:0], rounded_t[22:0], rounded_s[60:57], rounded_t[60:57]};
-  assign out_data[`SAMPLE_TOKEN_TICKET] = at[39:0];
-  assign out_data[`SAMPLE_TOKEN_S] = {{2{at[71]}}, at[71:40]} + rounded_s[56:23];
-  assign out_data[`SAMPLE_TOKEN_T] = {{2{at[103]}}, at[103:72]} + rounded_t[56:23];
+  wire signed [56:0] rounded_s = offset_s + 57'sd4194304;  // 2^22: drops 23
+  wire signed [56:0] rounded_t = offset_t + 57'sd4194304;
+  wire [31:0] at_s = at[`LEVEL_TOKEN_S], at_t = at[`LEVEL_TOKEN_T];
+  assign out_data[`SAMPLE_TOKEN_TICKET] = at[`LEVEL_TOKEN_TICKET];
+  assign out_data[`SAMPLE_TOKEN_S] = {{2{at_s[31]}}, at_s} + rounded_s[56:23];
+  assign out_data[`SAMPLE_TOKEN_T] = {{2{at_t[31]}}, at_t} + rounded_t[56:23];
   assign out_data[`SAMPLE_TOKEN_LEVEL_WEIGHT] =
       second ? {1'b0, at_fraction} : 9'd256 - {1'b0, at_fraction};
   assign out_data[`SAMPLE_TOKEN_INDEX] = index;
   assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
-  assign out_data[`SAMPLE_TOKEN_LEVEL] = at[111:108] + {3'd0, second};
-  assign out_data[`SAMPLE_TOKEN_LINEAR] = at[120];
+  assign out_data[`SAMPLE_TOKEN_LEVEL] = at[`LEVEL_TOKEN_LEVEL] + {3'd0, second};
+  assign out_data[`SAMPLE_TOKEN_LINEAR] = at[`LEVEL_TOKEN_LINEAR];
   assign out_data[`SAMPLE_TOKEN_LAST_OF_SAMPLE] = last_of_sample;
   assign out_data[`SAMPLE_TOKEN_LAST_OF_FRAGMENT] = last_of_fragment;
 endmodule

@@ -5,34 +5,29 @@
 `include "tables.svh"
 module tag_look_up #(
   parameter integer WAYS = 2,
-  parameter integer TAG_BITS = 19,
   parameter integer REPLACEMENT = `REPLACEMENT_LRU,
   parameter integer WAY_BITS = WAYS > 1 ? $clog2(WAYS) : 1,
   parameter integer ORDER_BITS = WAYS > 1 ? WAYS * (WAYS - 1) / 2 : 1
 ) (
-  input  logic [WAYS-1:0]          valid,   // the set: one bit or tag per way
-  input  logic [WAYS-1:0]          turned,
-  input  logic [WAYS*TAG_BITS-1:0] tags,
-  input  logic [ORDER_BITS-1:0]    order,   // for ways i < j: i is older
-  input  logic                     enable,
-  input  logic [TAG_BITS-1:0]      tag,
-  input  logic                     turn,    // a line filled now is stored turned
-  input  logic [WAY_BITS-1:0]      random,
-  output logic                     hit,
-  output logic                     miss,
-  output logic                     replaces,  // a miss, and all ways are valid
-  output logic [WAY_BITS-1:0]      way,     // way that has the line or gets it
-  output logic                     is_turned,  // the line that hits is turned
-  output logic [WAYS-1:0]          valid_next,
-  output logic [WAYS-1:0]          turned_next,
-  output logic [WAYS*TAG_BITS-1:0] tags_next,
-  output logic [ORDER_BITS-1:0]    order_next
+  input  logic [WAYS-1:0]       valid,   // the set: one bit per way
+  input  logic [WAYS-1:0]       filled,  // by an earlier lookup of the request, with another line
+  input  logic [ORDER_BITS-1:0] order,   // for ways i < j: i is older
+  input  logic                  enable,
+  input  logic [WAYS-1:0]       stored,  // the way had the line before the request
+  input  logic [WAY_BITS-1:0]   random,
+  output logic                  miss,
+  output logic                  replaces,  // a miss, and all ways are valid
+  output logic [WAYS-1:0]       taken,   // way that has the line or gets it
+  output logic [WAY_BITS-1:0]   way,     // its number
+  output logic [WAYS-1:0]       valid_next,
+  output logic [WAYS-1:0]       filled_next,
+  output logic [ORDER_BITS-1:0] order_next
 );
-  logic [WAYS-1:0] equal, oldest, chosen;
+  wire [WAYS-1:0] equal = stored & ~filled;
+  logic [WAYS-1:0] chosen;
   genvar i, j;
   generate
     for (i = 0; i < WAYS; i = i + 1) begin : g_way
-      assign equal[i] = valid[i] && tags[i*TAG_BITS +: TAG_BITS] == tag;
       // Older than every other way.
       logic [WAYS-1:0] older;
       for (j = 0; j < WAYS; j = j + 1) begin : g_pair
@@ -44,37 +39,35 @@ module tag_look_up #(
           assign older[j] = 1'b1;
         end
       end
-      assign oldest[i] = &older;
       if (REPLACEMENT == `REPLACEMENT_RANDOM && WAYS > 1) begin : g_random
         localparam logic [WAY_BITS-1:0] HERE = i[WAY_BITS-1:0];
         assign chosen[i] = random == HERE;
+        wire unused = &{1'b0, older};
       end else begin : g_oldest
-        assign chosen[i] = oldest[i];
+        assign chosen[i] = &older;
       end
     end
   endgenerate
-  wire unused = &{1'b0, random, oldest, touch};
+  wire unused = &{1'b0, random, order, touch};
 
-  assign hit = enable && |equal;
-  assign miss = enable && !(|equal);
+  wire hit = |equal;
+  assign miss = enable && !hit;
   assign replaces = miss && &valid;
   // The lowest invalid way.
   wire [WAYS-1:0] free = ~valid & (valid + {{(WAYS - 1) {1'b0}}, 1'b1});
-  wire [WAYS-1:0] taken = hit ? equal : &valid ? chosen : free;
-  assign is_turned = |(equal & turned);
+  assign taken = hit ? equal : &valid ? chosen : free;
   always_comb begin
     way = {WAY_BITS{1'b0}};
     for (integer w = 0; w < WAYS; w = w + 1)
       if (taken[w]) way = way | w[WAY_BITS-1:0];
   end
 
-  wire touch = miss || (hit && REPLACEMENT == `REPLACEMENT_LRU);
-  assign valid_next = miss ? valid | taken : valid;
+  wire [WAYS-1:0] fill = taken & {WAYS{miss}};
+  assign valid_next = valid | fill;
+  assign filled_next = filled | fill;
+  wire touch = miss || (enable && hit && REPLACEMENT == `REPLACEMENT_LRU);
   generate
     for (i = 0; i < WAYS; i = i + 1) begin : g_next
-      wire fill = miss && taken[i];
-      assign turned_next[i] = fill ? turn : turned[i];
-      assign tags_next[i*TAG_BITS +: TAG_BITS] = fill ? tag : tags[i*TAG_BITS +: TAG_BITS];
       for (j = i + 1; j < WAYS; j = j + 1) begin : g_pair
         localparam integer PAIR = i*WAYS - i*(i+1)/2 + j - i - 1;
         assign order_next[PAIR] = touch && taken[i] ? 1'b0 : touch && taken[j] ? 1'b1 : order[PAIR];

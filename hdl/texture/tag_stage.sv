@@ -31,14 +31,14 @@ module tag_stage #(
   localparam integer TAG_BITS = LINE_BITS - SET_BITS;
   localparam integer ORDER_BITS = WAYS > 1 ? WAYS * (WAYS - 1) / 2 : 1;
   localparam integer SLOT_BITS = $clog2(BYTES) - OFFSET_BITS;
-  // Contents of a set: tags, turned bits and order of use; the valid bits have a reset and are separate.
-  localparam integer TURNED_AT = WAYS * TAG_BITS;
-  localparam integer ORDER_AT = TURNED_AT + WAYS;
-  localparam integer VALID_AT = ORDER_AT + ORDER_BITS;
-  localparam integer STORED_BITS = VALID_AT;
-  localparam integer STATE_BITS = VALID_AT + WAYS;
+  localparam integer PLACE_BITS = SLOT_BITS + OFFSET_BITS;
+  // A way stores the tag of its line, and above it whether the line is turned. The state of a set changes from lookup to
+  // lookup: its valid ways, those filled by the request, the order of use.
+  localparam integer WORD_BITS = TAG_BITS + 1;
+  localparam integer STATE_BITS = 2 * WAYS + ORDER_BITS;
   // Odd rows of the linear layout: lines are turned, their words swapped by half a tile.
   localparam integer TURN_BYTES = LINE_BYTES / 2 < 32 ? LINE_BYTES / 2 : 32;
+  localparam logic [OFFSET_BITS-1:0] TURN = TURN_BYTES[OFFSET_BITS-1:0];
 
   logic valid_2;
   wire leave;
@@ -47,225 +47,211 @@ module tag_stage #(
     if (!rst_n) valid_2 <= 1'b0;
     else if (!valid_2 || leave) valid_2 <= in_valid;
 
-  // ---- 1: distinct lines, read of their sets
-  wire [31:0] address_0 = in_data[`TEXEL_TOKEN_ADDRESS_0];
-  wire [31:0] address_1 = in_data[`TEXEL_TOKEN_ADDRESS_1];
-  wire [31:0] address_2 = in_data[`TEXEL_TOKEN_ADDRESS_2];
-  wire [31:0] address_3 = in_data[`TEXEL_TOKEN_ADDRESS_3];
-  wire [LINE_BITS-1:0] line_0 = address_0[31:OFFSET_BITS];
-  wire [LINE_BITS-1:0] line_1 = address_1[31:OFFSET_BITS];
-  wire [LINE_BITS-1:0] line_2 = address_2[31:OFFSET_BITS];
-  wire [LINE_BITS-1:0] line_3 = address_3[31:OFFSET_BITS];
-  wire [INDEX_BITS-1:0] index_0, index_1, index_2, index_3;
-  generate
-    if (SETS > 1) begin : g_index
-      assign index_0 = line_0[SET_BITS-1:0];
-      assign index_1 = line_1[SET_BITS-1:0];
-      assign index_2 = line_2[SET_BITS-1:0];
-      assign index_3 = line_3[SET_BITS-1:0];
-    end else begin : g_one_set
-      assign index_0 = 1'b0;
-      assign index_1 = 1'b0;
-      assign index_2 = 1'b0;
-      assign index_3 = 1'b0;
-    end
-  endgenerate
-
-  logic [STORED_BITS-1:0] sets[0:SETS-1];
-  logic [SETS*WAYS-1:0] valids;
-  // The sets as updated by the request in stage 2; written when it leaves.
-  wire [STATE_BITS-1:0] next_0, next_1, next_2, next_3;
-  wire write_0, write_1, write_2, write_3;
-  logic [INDEX_BITS-1:0] at_0, at_1, at_2, at_3;
-  // Write-first: of four writes to a set the last one counts, which includes the others.
-  wire [STATE_BITS-1:0] read_0 = write_3 && at_3 == index_0 ? next_3 : write_2 && at_2 == index_0 ? next_2 :
-                                 write_1 && at_1 == index_0 ? next_1 : write_0 && at_0 == index_0 ? next_0 :
-                                 {valids[index_0*WAYS +: WAYS], sets[index_0]};
-  wire [STATE_BITS-1:0] read_1 = write_3 && at_3 == index_1 ? next_3 : write_2 && at_2 == index_1 ? next_2 :
-                                 write_1 && at_1 == index_1 ? next_1 : write_0 && at_0 == index_1 ? next_0 :
-                                 {valids[index_1*WAYS +: WAYS], sets[index_1]};
-  wire [STATE_BITS-1:0] read_2 = write_3 && at_3 == index_2 ? next_3 : write_2 && at_2 == index_2 ? next_2 :
-                                 write_1 && at_1 == index_2 ? next_1 : write_0 && at_0 == index_2 ? next_0 :
-                                 {valids[index_2*WAYS +: WAYS], sets[index_2]};
-  wire [STATE_BITS-1:0] read_3 = write_3 && at_3 == index_3 ? next_3 : write_2 && at_2 == index_3 ? next_2 :
-                                 write_1 && at_1 == index_3 ? next_1 : write_0 && at_0 == index_3 ? next_0 :
-                                 {valids[index_3*WAYS +: WAYS], sets[index_3]};
-  always_ff @(posedge clk) begin
-    if (write_0) sets[at_0] <= next_0[STORED_BITS-1:0];
-    if (write_1) sets[at_1] <= next_1[STORED_BITS-1:0];
-    if (write_2) sets[at_2] <= next_2[STORED_BITS-1:0];
-    if (write_3) sets[at_3] <= next_3[STORED_BITS-1:0];
-  end
-  always_ff @(posedge clk)
-    if (!rst_n || invalidate) valids <= {(SETS * WAYS) {1'b0}};
-    else begin
-      if (write_0) valids[at_0*WAYS +: WAYS] <= next_0[VALID_AT +: WAYS];
-      if (write_1) valids[at_1*WAYS +: WAYS] <= next_1[VALID_AT +: WAYS];
-      if (write_2) valids[at_2*WAYS +: WAYS] <= next_2[VALID_AT +: WAYS];
-      if (write_3) valids[at_3*WAYS +: WAYS] <= next_3[VALID_AT +: WAYS];
-    end
-
   logic [`TICKET_BITS-1:0] ticket;
   logic [`TEXEL_TOKEN_CONTROL_BITS-1:0] control;
-  logic [1:0] turned;
-  logic [31:0] asked_0, asked_1, asked_2, asked_3;
-  logic [STATE_BITS-1:0] set_0, set_1, set_2, set_3;
-  logic same_10, same_20, same_21, same_30, same_31, same_32;  // lines
+  logic [1:0] turned;  // of each row
+  logic [127:0] asked;
   always_ff @(posedge clk)
     if (in_pop) begin
       ticket <= in_data[`TEXEL_TOKEN_TICKET];
       control <= in_data[`TEXEL_TOKEN_CONTROL];
       turned <= in_data[`TEXEL_TOKEN_TURNED];
-      asked_0 <= address_0;
-      asked_1 <= address_1;
-      asked_2 <= address_2;
-      asked_3 <= address_3;
-      at_0 <= index_0;
-      at_1 <= index_1;
-      at_2 <= index_2;
-      at_3 <= index_3;
-      set_0 <= read_0;
-      set_1 <= read_1;
-      set_2 <= read_2;
-      set_3 <= read_3;
-      same_10 <= line_1 == line_0;
-      same_20 <= line_2 == line_0;
-      same_21 <= line_2 == line_1;
-      same_30 <= line_3 == line_0;
-      same_31 <= line_3 == line_1;
-      same_32 <= line_3 == line_2;
+      asked <= in_data[`TEXEL_TOKEN_ADDRESS];
     end
-
-  // ---- 2: lookups, each in the set as updated by the previous ones
   wire asks = valid_2 && ticket[`TICKET_VALID];
-  wire on_0 = asks;
-  wire on_1 = asks && !same_10;
-  wire on_2 = asks && !same_20 && !same_21;
-  wire on_3 = asks && !same_30 && !same_31 && !same_32;
-  wire [STATE_BITS-1:0] seen_1 = on_0 && at_0 == at_1 ? next_0 : set_1;
-  wire [STATE_BITS-1:0] seen_2 = on_1 && at_1 == at_2 ? next_1 : on_0 && at_0 == at_2 ? next_0 : set_2;
-  wire [STATE_BITS-1:0] seen_3 = on_2 && at_2 == at_3 ? next_2 : on_1 && at_1 == at_3 ? next_1 :
-                                 on_0 && at_0 == at_3 ? next_0 : set_3;
+  wire fills_leave = asks && out_ready && miss_ready;  // if a line is missing; other requests fill no way
 
-  // Steps of the shift register, one before each use.
+  // Of the four lookups in stage 2, in order.
+  wire [4*INDEX_BITS-1:0] ats;      // sets
+  wire [4*WAYS-1:0] valids_2, stored, was_turned;  // ways as read, those with the line, those with a turned line
+  wire [4*STATE_BITS-1:0] nexts;    // their states after each
+  wire [3:0] misses, hits_turned;
+  wire [4*WAYS-1:0] takens;
+  wire [4*WAY_BITS-1:0] ways;
+  wire [7:0] owners;                // the first texel with the same line
+
+  // Of the request in stage 1: sets, and for each the lookups of stage 2 in the same set.
+  wire [4*INDEX_BITS-1:0] indices;
+  wire [15:0] all_follow;
+
+  // Updated when the request leaves; of several writes to a set the last one counts, which includes the others.
+  logic [SETS*WAYS-1:0] valids;
+  logic [ORDER_BITS-1:0] orders[0:SETS-1];
+  always_ff @(posedge clk)
+    if (!rst_n || invalidate) valids <= {(SETS * WAYS) {1'b0}};
+    else if (fills_leave)
+      for (integer n = 0; n < 4; n = n + 1)
+        valids[ats[n*INDEX_BITS +: INDEX_BITS]*WAYS +: WAYS] <= nexts[n*STATE_BITS +: WAYS];
+  always_ff @(posedge clk)
+    if (leave && asks)
+      for (integer n = 0; n < 4; n = n + 1)
+        orders[ats[n*INDEX_BITS +: INDEX_BITS]] <= nexts[n*STATE_BITS + 2*WAYS +: ORDER_BITS];
+
+  // Steps of the shift register, which only replacements take: its bits and the next four.
   logic [15:0] drawn;
-  wire [15:0] step_0 = {drawn[0] ^ drawn[2] ^ drawn[3] ^ drawn[5], drawn[15:1]};
-  wire replaces_0, replaces_1, replaces_2, replaces_3;
-  wire [15:0] drawn_1 = replaces_0 ? step_0 : drawn;
-  wire [15:0] step_1 = {drawn_1[0] ^ drawn_1[2] ^ drawn_1[3] ^ drawn_1[5], drawn_1[15:1]};
-  wire [15:0] drawn_2 = replaces_1 ? step_1 : drawn_1;
-  wire [15:0] step_2 = {drawn_2[0] ^ drawn_2[2] ^ drawn_2[3] ^ drawn_2[5], drawn_2[15:1]};
-  wire [15:0] drawn_3 = replaces_2 ? step_2 : drawn_2;
-  wire [15:0] step_3 = {drawn_3[0] ^ drawn_3[2] ^ drawn_3[3] ^ drawn_3[5], drawn_3[15:1]};
+  wire [19:0] steps = {drawn[3:0] ^ drawn[5:2] ^ drawn[6:3] ^ drawn[8:5], drawn};
   always_ff @(posedge clk)
     if (!rst_n) drawn <= 16'hACE1;
-    else if (leave) drawn <= replaces_3 ? step_3 : drawn_3;
+    else if (leave) drawn <= g_texel[3].steps_left[15:0];
 
-  wire hit_0, hit_1, hit_2, hit_3, miss_0, miss_1, miss_2, miss_3;
-  wire is_turned_0, is_turned_1, is_turned_2, is_turned_3;
-  wire [WAY_BITS-1:0] way_0, way_1, way_2, way_3;
-  tag_look_up #(.WAYS(WAYS), .TAG_BITS(TAG_BITS), .REPLACEMENT(REPLACEMENT)) look_up_0 (
-    .valid(set_0[VALID_AT +: WAYS]), .turned(set_0[TURNED_AT +: WAYS]), .tags(set_0[0 +: WAYS*TAG_BITS]),
-    .order(set_0[ORDER_AT +: ORDER_BITS]), .enable(on_0), .tag(asked_0[31 -: TAG_BITS]), .turn(turned[0]),
-    .random(step_0[WAY_BITS-1:0]), .hit(hit_0), .miss(miss_0), .replaces(replaces_0), .way(way_0),
-    .is_turned(is_turned_0), .valid_next(next_0[VALID_AT +: WAYS]), .turned_next(next_0[TURNED_AT +: WAYS]),
-    .tags_next(next_0[0 +: WAYS*TAG_BITS]), .order_next(next_0[ORDER_AT +: ORDER_BITS]));
-  tag_look_up #(.WAYS(WAYS), .TAG_BITS(TAG_BITS), .REPLACEMENT(REPLACEMENT)) look_up_1 (
-    .valid(seen_1[VALID_AT +: WAYS]), .turned(seen_1[TURNED_AT +: WAYS]), .tags(seen_1[0 +: WAYS*TAG_BITS]),
-    .order(seen_1[ORDER_AT +: ORDER_BITS]), .enable(on_1), .tag(asked_1[31 -: TAG_BITS]), .turn(turned[0]),
-    .random(step_1[WAY_BITS-1:0]), .hit(hit_1), .miss(miss_1), .replaces(replaces_1), .way(way_1),
-    .is_turned(is_turned_1), .valid_next(next_1[VALID_AT +: WAYS]), .turned_next(next_1[TURNED_AT +: WAYS]),
-    .tags_next(next_1[0 +: WAYS*TAG_BITS]), .order_next(next_1[ORDER_AT +: ORDER_BITS]));
-  tag_look_up #(.WAYS(WAYS), .TAG_BITS(TAG_BITS), .REPLACEMENT(REPLACEMENT)) look_up_2 (
-    .valid(seen_2[VALID_AT +: WAYS]), .turned(seen_2[TURNED_AT +: WAYS]), .tags(seen_2[0 +: WAYS*TAG_BITS]),
-    .order(seen_2[ORDER_AT +: ORDER_BITS]), .enable(on_2), .tag(asked_2[31 -: TAG_BITS]), .turn(turned[1]),
-    .random(step_2[WAY_BITS-1:0]), .hit(hit_2), .miss(miss_2), .replaces(replaces_2), .way(way_2),
-    .is_turned(is_turned_2), .valid_next(next_2[VALID_AT +: WAYS]), .turned_next(next_2[TURNED_AT +: WAYS]),
-    .tags_next(next_2[0 +: WAYS*TAG_BITS]), .order_next(next_2[ORDER_AT +: ORDER_BITS]));
-  tag_look_up #(.WAYS(WAYS), .TAG_BITS(TAG_BITS), .REPLACEMENT(REPLACEMENT)) look_up_3 (
-    .valid(seen_3[VALID_AT +: WAYS]), .turned(seen_3[TURNED_AT +: WAYS]), .tags(seen_3[0 +: WAYS*TAG_BITS]),
-    .order(seen_3[ORDER_AT +: ORDER_BITS]), .enable(on_3), .tag(asked_3[31 -: TAG_BITS]), .turn(turned[1]),
-    .random(step_3[WAY_BITS-1:0]), .hit(hit_3), .miss(miss_3), .replaces(replaces_3), .way(way_3),
-    .is_turned(is_turned_3), .valid_next(next_3[VALID_AT +: WAYS]), .turned_next(next_3[TURNED_AT +: WAYS]),
-    .tags_next(next_3[0 +: WAYS*TAG_BITS]), .order_next(next_3[ORDER_AT +: ORDER_BITS]));
-  assign write_0 = leave && on_0;
-  assign write_1 = leave && on_1;
-  assign write_2 = leave && on_2;
-  assign write_3 = leave && on_3;
-  wire unused = &{1'b0, hit_0, hit_1, hit_2, hit_3, way_0, way_1, way_2, way_3};
-
-  // Position of a line in the data banks: its set, then its way.
-  wire [SLOT_BITS-1:0] slot_0, slot_1, slot_2, slot_3;
-  generate
-    if (WAYS == 1) begin : g_direct
-      assign slot_0 = at_0;
-      assign slot_1 = at_1;
-      assign slot_2 = at_2;
-      assign slot_3 = at_3;
-    end else if (SETS == 1) begin : g_associative
-      assign slot_0 = way_0;
-      assign slot_1 = way_1;
-      assign slot_2 = way_2;
-      assign slot_3 = way_3;
-    end else begin : g_both
-      assign slot_0 = {at_0, way_0};
-      assign slot_1 = {at_1, way_1};
-      assign slot_2 = {at_2, way_2};
-      assign slot_3 = {at_3, way_3};
-    end
-  endgenerate
-
-  // Misses in order: index within the request.
-  wire [2:0] number_1 = {2'd0, miss_0};
-  wire [2:0] number_2 = number_1 + {2'd0, miss_1};
-  wire [2:0] number_3 = number_2 + {2'd0, miss_2};
-  wire [2:0] fills = number_3 + {2'd0, miss_3};
-  // The lookup of each texel: its own line's, or that of the first texel with the same line.
-  wire [1:0] of_1 = same_10 ? 2'd0 : 2'd1;
-  wire [1:0] of_2 = same_20 ? 2'd0 : same_21 ? 2'd1 : 2'd2;
-  wire [1:0] of_3 = same_30 ? 2'd0 : same_31 ? 2'd1 : same_32 ? 2'd2 : 2'd3;
-  wire [3:0] misses = {miss_3, miss_2, miss_1, miss_0};
-  wire [3:0] turns = {is_turned_3, is_turned_2, is_turned_1, is_turned_0};
-  wire [11:0] numbers = {number_3, number_2, number_1, 3'd0};
-  wire [4*SLOT_BITS-1:0] slots = {slot_3, slot_2, slot_1, slot_0};
-  localparam logic [OFFSET_BITS-1:0] TURN = TURN_BYTES[OFFSET_BITS-1:0];
-
-  wire [7:0] owners = {of_3, of_2, of_1, 2'd0};
-  wire [127:0] asked = {asked_3, asked_2, asked_1, asked_0};
-  wire [4*(SLOT_BITS+OFFSET_BITS)-1:0] places;
-  wire [11:0] sources;
-  genvar k;
+  genvar i, k, w;
   generate
     for (k = 0; k < 4; k = k + 1) begin : g_texel
-      wire [1:0] owner = owners[2*k +: 2];
-      wire [OFFSET_BITS-1:0] offset = asked[32*k +: OFFSET_BITS];
-      assign places[k*(SLOT_BITS+OFFSET_BITS) +: SLOT_BITS+OFFSET_BITS] =
-          misses[owner] ? {{SLOT_BITS{1'b0}}, offset}
-                        : {slots[owner*SLOT_BITS +: SLOT_BITS], turns[owner] ? offset ^ TURN : offset};
-      assign sources[3*k +: 3] = misses[owner] ? numbers[3*owner +: 3] + 3'd1 : 3'd0;
+      // ---- 1: distinct lines, read of their sets
+      wire [31:0] address = in_data[`TEXEL_TOKEN_ADDRESS_FIRST + 32*k +: 32];
+      wire [INDEX_BITS-1:0] index, at;
+      if (SETS > 1) begin : g_index
+        assign index = address[OFFSET_BITS +: INDEX_BITS];
+        assign at = asked[32*k + OFFSET_BITS +: INDEX_BITS];
+      end else begin : g_one_set
+        assign index = 1'b0;
+        assign at = 1'b0;
+      end
+      // Lookups of the request in stage 2 in the same set: their results count.
+      wire [3:0] follows;
+      assign indices[k*INDEX_BITS +: INDEX_BITS] = index;
+      assign all_follow[4*k +: 4] = follows;
+      wire [WAYS-1:0] valid_now = valids[index*WAYS +: WAYS];
+      wire [ORDER_BITS-1:0] order_now = orders[index];
+      logic [WAYS-1:0] valid_read, valid;
+      logic [ORDER_BITS-1:0] order_read, order;
+      always_comb begin
+        valid_read = valid_now;
+        order_read = order_now;
+        for (integer n = 0; n < 4; n = n + 1)
+          if (follows[n]) begin
+            valid_read = nexts[n*STATE_BITS +: WAYS];
+            order_read = nexts[n*STATE_BITS + 2*WAYS +: ORDER_BITS];
+          end
+      end
+      // The first texel with the same line; the last lookup before it in the same set, or itself.
+      wire [3:0] same_line, same_set;
+      logic [1:0] owner_now, owner;
+      logic [3:0] from_now, from;
+      always_comb begin
+        owner_now = k[1:0];
+        from_now = 4'd0;
+        from_now[k] = 1'b1;
+        for (integer n = k - 1; n >= 0; n = n - 1)
+          if (same_line[n]) owner_now = n[1:0];
+        for (integer n = 0; n < k; n = n + 1)
+          if (same_set[n]) from_now = 4'd1 << n;
+      end
+      always_ff @(posedge clk)
+        if (in_pop) begin
+          valid <= valid_read;
+          order <= order_read;
+          owner <= owner_now;
+          from <= from_now;
+        end
+
+      // ---- 2: the lookup, in the set as updated by the previous ones
+      wire [STATE_BITS-1:0] states[0:3];
+      for (i = 0; i < 4; i = i + 1) begin : g_before
+        assign follows[i] = asks && ats[i*INDEX_BITS +: INDEX_BITS] == index;
+        if (i < k) begin : g_earlier
+          assign same_line[i] = g_texel[i].address[31:OFFSET_BITS] == address[31:OFFSET_BITS];
+          assign same_set[i] = g_texel[i].index == index;
+          assign states[i] = from[i] ? g_texel[i].next : {STATE_BITS{1'b0}};
+        end else begin : g_itself
+          assign same_line[i] = 1'b0;
+          assign same_set[i] = 1'b0;
+          assign states[i] = i == k && from[i] ? {order, {WAYS{1'b0}}, valid} : {STATE_BITS{1'b0}};
+        end
+      end
+      wire [STATE_BITS-1:0] seen = states[0] | states[1] | states[2] | states[3];
+      wire [STATE_BITS-1:0] next;
+      wire [WAYS-1:0] taken;
+      wire miss, replaces;
+      wire [19:0] steps_before, steps_left;
+      if (k == 0) begin : g_first
+        assign steps_before = steps;
+      end else begin : g_next
+        assign steps_before = g_texel[k-1].steps_left;
+      end
+      tag_look_up #(.WAYS(WAYS), .REPLACEMENT(REPLACEMENT)) look_up (
+        .valid(seen[0 +: WAYS]), .filled(seen[WAYS +: WAYS]), .order(seen[2*WAYS +: ORDER_BITS]),
+        .enable(asks && owner == k[1:0]), .stored(stored[k*WAYS +: WAYS]), .random(steps_before[WAY_BITS:1]), .miss, .replaces, .taken,
+        .way(ways[k*WAY_BITS +: WAY_BITS]), .valid_next(next[0 +: WAYS]), .filled_next(next[WAYS +: WAYS]),
+        .order_next(next[2*WAYS +: ORDER_BITS]));
+      assign steps_left = replaces ? steps_before >> 1 : steps_before;
+      assign ats[k*INDEX_BITS +: INDEX_BITS] = at;
+      assign nexts[k*STATE_BITS +: STATE_BITS] = next;
+      assign misses[k] = miss;
+      assign takens[k*WAYS +: WAYS] = taken;
+      assign hits_turned[k] = |(taken & was_turned[k*WAYS +: WAYS]);
+      assign valids_2[k*WAYS +: WAYS] = valid;
+      assign owners[2*k +: 2] = owner;
+    end
+    for (w = 0; w < WAYS; w = w + 1) begin : g_way
+      logic [WORD_BITS-1:0] words[0:SETS-1];
+      wire [4*WORD_BITS-1:0] fills_with;
+      always_ff @(posedge clk)
+        for (integer n = 0; n < 4; n = n + 1)
+          if (fills_leave && misses[n] && takens[n*WAYS + w])
+            words[ats[n*INDEX_BITS +: INDEX_BITS]] <= fills_with[n*WORD_BITS +: WORD_BITS];
+      for (k = 0; k < 4; k = k + 1) begin : g_read
+        assign fills_with[k*WORD_BITS +: WORD_BITS] = {turned[k/2], asked[32*k + 32 - TAG_BITS +: TAG_BITS]};
+        wire [WORD_BITS-1:0] now = words[indices[k*INDEX_BITS +: INDEX_BITS]];
+        logic [WORD_BITS-1:0] word_read, word;
+        always_comb begin
+          word_read = now;
+          for (integer n = 0; n < 4; n = n + 1)
+            if (all_follow[4*k+n] && misses[n] && takens[n*WAYS + w])
+              word_read = fills_with[n*WORD_BITS +: WORD_BITS];
+        end
+        always_ff @(posedge clk)
+          if (in_pop) word <= word_read;
+        assign stored[k*WAYS+w] = valids_2[k*WAYS+w] &&
+                                  word[0 +: TAG_BITS] == asked[32*k + 32 - TAG_BITS +: TAG_BITS];
+        assign was_turned[k*WAYS+w] = word[TAG_BITS];
+      end
     end
   endgenerate
 
-  // Fill number k is the miss with k misses before it.
-  wire [LINE_BITS-1:0] asks_0 = asked_0[31:OFFSET_BITS], asks_1 = asked_1[31:OFFSET_BITS];
-  wire [LINE_BITS-1:0] asks_2 = asked_2[31:OFFSET_BITS], asks_3 = asked_3[31:OFFSET_BITS];
-  wire [4*SLOT_BITS-1:0] victims;
-  wire [3:0] fills_turned;
-  wire [4*LINE_BITS-1:0] lines;
+  // Position of a line in the data banks: its set, then its way. Misses are numbered in order.
+  function automatic [2:0] ones(input [3:0] bits);
+    ones = {2'd0, bits[0]} + {2'd0, bits[1]} + {2'd0, bits[2]} + {2'd0, bits[3]};
+  endfunction
+  wire [4*SLOT_BITS-1:0] slots;
+  wire [11:0] numbers;
+  wire [2:0] fills = ones(misses);
+  wire [4*PLACE_BITS-1:0] places;
+  wire [11:0] sources;
+  logic [4*SLOT_BITS-1:0] victims;
+  logic [3:0] fills_turned;
+  logic [4*LINE_BITS-1:0] lines;
   generate
-    for (k = 0; k < 4; k = k + 1) begin : g_fill
+    for (k = 0; k < 4; k = k + 1) begin : g_out
+      localparam logic [3:0] BEFORE = (4'd1 << k) - 4'd1;
+      assign numbers[3*k +: 3] = ones(misses & BEFORE);
+      if (WAYS == 1) begin : g_direct
+        wire unused = &{1'b0, ways};
+        assign slots[k*SLOT_BITS +: SLOT_BITS] = ats[k*INDEX_BITS +: INDEX_BITS];
+      end else if (SETS == 1) begin : g_associative
+        assign slots[k*SLOT_BITS +: SLOT_BITS] = ways[k*WAY_BITS +: WAY_BITS];
+      end else begin : g_both
+        assign slots[k*SLOT_BITS +: SLOT_BITS] = {ats[k*INDEX_BITS +: INDEX_BITS], ways[k*WAY_BITS +: WAY_BITS]};
+      end
+      wire [1:0] owner = owners[2*k +: 2];
+      wire [OFFSET_BITS-1:0] offset = asked[32*k +: OFFSET_BITS];
+      assign places[k*PLACE_BITS +: PLACE_BITS] =
+          misses[owner] ? {{SLOT_BITS{1'b0}}, offset}
+                        : {slots[owner*SLOT_BITS +: SLOT_BITS], hits_turned[owner] ? offset ^ TURN : offset};
+      assign sources[3*k +: 3] = misses[owner] ? numbers[3*owner +: 3] + 3'd1 : 3'd0;
+      // Fill number k is the miss with k misses before it.
       localparam logic [2:0] NUMBER = k[2:0];
-      wire is_0 = NUMBER == 3'd0 && miss_0;
-      wire is_1 = number_1 == NUMBER && miss_1;
-      wire is_2 = number_2 == NUMBER && miss_2;
-      wire is_3 = number_3 == NUMBER && miss_3;
-      assign victims[k*SLOT_BITS +: SLOT_BITS] =
-          ({SLOT_BITS{is_0}} & slot_0) | ({SLOT_BITS{is_1}} & slot_1) |
-          ({SLOT_BITS{is_2}} & slot_2) | ({SLOT_BITS{is_3}} & slot_3);
-      assign fills_turned[k] = ((is_0 || is_1) && turned[0]) || ((is_2 || is_3) && turned[1]);
-      assign lines[k*LINE_BITS +: LINE_BITS] =
-          ({LINE_BITS{is_0}} & asks_0) | ({LINE_BITS{is_1}} & asks_1) |
-          ({LINE_BITS{is_2}} & asks_2) | ({LINE_BITS{is_3}} & asks_3);
+      always_comb begin
+        victims[k*SLOT_BITS +: SLOT_BITS] = {SLOT_BITS{1'b0}};
+        fills_turned[k] = 1'b0;
+        lines[k*LINE_BITS +: LINE_BITS] = {LINE_BITS{1'b0}};
+        for (integer n = k; n < 4; n = n + 1)
+          if (misses[n] && numbers[3*n +: 3] == NUMBER) begin
+            victims[k*SLOT_BITS +: SLOT_BITS] = slots[n*SLOT_BITS +: SLOT_BITS];
+            fills_turned[k] = turned[n/2];
+            lines[k*LINE_BITS +: LINE_BITS] = asked[32*n + OFFSET_BITS +: LINE_BITS];
+          end
+      end
     end
   endgenerate
 

@@ -7,6 +7,9 @@ from .flows import NOT_MAPPED, NOT_RUN
 # Settings of configurations that a preset already builds; see the rows of that preset.
 PRESETS = {"deburr": [], "paper": ["axes=two", "footprint=half", "log2=mitchell", "count=floor"]}
 
+# The ratio above which the page names a unit.
+LONG = 1.05
+
 # Cells of the units: only in cost.json.
 CELLS = ("link", "pipe", "rom", "sram_1r1w")
 
@@ -95,6 +98,14 @@ def paragraphs(cost):
     yield "Technology: osu018, 180 nm."
     yield table(["unit", "parameters", "gates", "flip-flops", "memory, bits", "ns (osu018)", "ratio", "ends in"],
                 gates(units))
+    longest = {}
+    for unit in cost["units"]:
+        row = unit["osu018"]
+        if isinstance(row, dict) and not unit["parts"] and (row["ratio"] or 0) > LONG:
+            longest[unit["unit"]] = max(longest.get(unit["unit"], (0, "")), (row["ratio"], row["to"] or "-"))
+    if longest:
+        yield f"Paths above {LONG} of the multiply, in any configuration: " + ", ".join(
+            f"`{name}` {number(ratio, 2)} (to `{to}`)" for name, (ratio, to) in longest.items()) + "."
     yield "## FPGAs"
     yield "Technologies: xc7 (Xilinx 7), ECP5 (Lattice)."
     yield table(["unit", "parameters", "xc7 LUT", "FF", "DSP", "BRAM", "ECP5 LUT", "FF", "DSP", "BRAM"], fpga(units))

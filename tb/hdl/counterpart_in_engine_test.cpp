@@ -73,6 +73,16 @@ struct Outcome {
   std::uint64_t latencies = 0;
 };
 
+// With the linear layout all rows of level 0 are in the same sets, so that texels of different rows
+// meet there.
+SceneParameters scene_of(const SamplerParameters& sampler, const spec::texture::Parameters& texture,
+                         int side) {
+  SceneParameters scene = picture("plane", side);
+  if (sampler.layout == spec::texture::Layout::kLinear)
+    scene.texture_size = texture.cache_bytes / texture.cache_ways / 4;  // 4 bytes per texel
+  return scene;
+}
+
 // Checked by the golden model, which throws on a difference.
 Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, int side,
             const std::vector<std::string>& units, std::uint32_t stall_permille) {
@@ -80,7 +90,7 @@ Outcome run(const TextureRunOptions& options, const SamplerParameters& sampler, 
     TextureRunOptions mine = options;
     mine.stand_ins =
         texture_counterparts(units, as_built(mine.texture, memory_cycles(mine)), mine.seed);
-    const TextureScene scene(picture("plane", side), sampler, 1);
+    const TextureScene scene(scene_of(sampler, mine.texture, side), sampler, 1);
     Simulation simulation(mine);
     TextureEnvironment environment(simulation, scene, mine);
     simulation.elaborate(environment);
@@ -144,13 +154,14 @@ void expect_equal(const Outcome& model, const Outcome& counterpart, std::size_t 
 }
 
 // Each mode with both presets, one of them without stalls, the other with stalls on all links
-// outside of the units and random memory latency.
+// outside of the units and random memory latency; both layouts.
 class CounterpartsInEngine : public testing::TestWithParam<std::tuple<int, bool>> {};
 
 TEST_P(CounterpartsInEngine, SameResultsInTheSameCycles) {
   const auto [mode, paper] = GetParam();
   SamplerParameters sampler;
   sampler.mode = static_cast<spec::texture::MinFilter>(mode);
+  sampler.layout = static_cast<spec::texture::Layout>((mode / 2 + paper) % 2);
   const bool stormy = (mode % 2 == 0) == paper;
   const TextureRunOptions options = stormy ? storm(paper) : calm(paper);
   const std::uint32_t stalls = stormy ? 100 : 0;

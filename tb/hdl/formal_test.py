@@ -65,7 +65,7 @@ PROOFS = {
                                   ("texture/log2_correction.sv", "TABLE[y[11:9]*", "TABLE[y[11:10]*"),
                                   parameters={"RULE": 1, "FALL": 118}),
     "tile_index": Proof("tile_index_proof", "sat",
-                        ("texture/tile_index.sv", "longer >> shared", "longer >> 1 >> shared")),
+                        ("texture/tile_index.sv", "longer >> i}", "longer >> 1 >> i}")),
     "texel_axis": Proof("texel_axis_proof", "sat",
                         ("texture/texel_axis.sv", "low > last ? last : low", "low > end_of ? last : low")),
     "bank_passes": Proof("bank_passes_proof", "sat",

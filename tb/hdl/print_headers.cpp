@@ -59,10 +59,12 @@ class Header {
     text_ += fmt::format("`define {} {}\n", name, value);
   }
   void define(const std::string& name, std::uint64_t value) { define(name, std::to_string(value)); }
-  // Macros for a field: range, highest bit, width, and the range without the highest bit.
+  // Macros for a field: range, lowest and highest bit, width, and the range without the highest
+  // bit.
   void range(const std::string& name, std::uint32_t low, std::uint32_t bits) {
     const std::uint32_t top = low + bits - 1;
     define(name, fmt::format("{}:{}", top, low));
+    define(name + "_FIRST", low);
     define(name + "_TOP", top);
     define(name + "_BITS", bits);
     if (bits > 1) define(name + "_LOW", fmt::format("{}:{}", top - 1, low));
@@ -120,24 +122,48 @@ void print_tokens(const texture::Parameters& configuration, const std::filesyste
   header.write(folder / "tokens.svh");
 }
 
+// A constant with the first bit in its lowest place. A concatenation of 4096 entries would be
+// nested as deep in some parsers.
+std::string number(std::vector<bool> bits) {
+  const std::size_t width = bits.size();
+  while (bits.size() % 4 != 0) bits.push_back(false);
+  std::string digits;
+  for (std::size_t i = bits.size(); i > 0; i -= 4)
+    digits +=
+        fmt::format("{:x}", bits[i - 1] * 8 + bits[i - 2] * 4 + bits[i - 3] * 2 + bits[i - 4]);
+  return fmt::format("{}'h{}", width, digits);
+}
+
 void print_descriptor(const std::filesystem::path& folder) {
   Header header("descriptor");
   namespace reg = texture::reg;
   const std::uint32_t bases = reg::kLevelBase / 4, words = bases + texture::kMaxLevels;
-  for (const deburr::spec::RegisterInfo& info : texture::kDescriptorRegisters)
-    for (const deburr::spec::Field& field : info.fields)
-      header.range(fmt::format("DESCRIPTOR_{}_{}", info.name, macro(field.name)),
-                   info.offset * 8 + field.low, field.high - field.low + 1u);
   // Number of bits used of a size in a valid descriptor.
   const auto used =
       static_cast<std::uint32_t>(std::bit_width(std::uint32_t{texture::kMaxTextureSize}));
+  std::vector<bool> kept(std::size_t{words} * 32);
+  const auto keep = [&](std::uint32_t first, std::uint32_t bits) {
+    std::fill_n(kept.begin() + first, bits, true);
+  };
+  for (const deburr::spec::RegisterInfo& info : texture::kDescriptorRegisters) {
+    header.range(fmt::format("DESCRIPTOR_{}", info.name), info.offset * 8, 32);
+    for (const deburr::spec::Field& field : info.fields) {
+      const std::uint32_t low = info.offset * 8 + field.low, bits = field.high - field.low + 1u;
+      header.range(fmt::format("DESCRIPTOR_{}_{}", info.name, macro(field.name)), low, bits);
+      keep(low, info.offset == reg::kSize ? used : bits);
+    }
+  }
   header.range("DESCRIPTOR_WIDTH_USED", reg::kSize * 8 + reg::size::kWidth.low, used);
   header.range("DESCRIPTOR_HEIGHT_USED", reg::kSize * 8 + reg::size::kHeight.low, used);
-  header.define("DESCRIPTOR_BASE_WORD", bases);
+  // Of a base the line, and one bit for the bits below it.
+  for (std::uint32_t word = bases; word < words; ++word) {
+    keep(word * 32, 1);
+    keep(word * 32 + 6, 26);
+  }
+  header.range("DESCRIPTOR_BASE", bases * 32, 32 * std::uint32_t{texture::kMaxLevels});
   header.define("DESCRIPTOR_BASES", std::uint64_t{texture::kMaxLevels});
   header.define("DESCRIPTOR_WORDS", words);
-  header.define("DESCRIPTOR_VALID", std::uint64_t{words} * 32);
-  header.define("DESCRIPTOR_BITS", std::uint64_t{words} * 32 + 1);
+  header.define("DESCRIPTOR_KEPT", number(std::move(kept)));
   header.write(folder / "descriptor.svh");
 }
 
@@ -145,21 +171,15 @@ void codes(Header& header, const std::string& name, std::span<const std::string_
   for (std::size_t i = 0; i < names.size(); ++i) header.define(name + "_" + macro(names[i]), i);
   header.define(name + "_LAST", names.size() - 1);
 }
-// One number with entry 0 in its lowest bits. A concatenation of 4096 entries would be nested as
-// deep in some parsers.
+// One number with entry 0 in its lowest bits.
 void table(Header& header, const std::string& name, std::span<const std::uint32_t> entries) {
   const auto bits =
       static_cast<std::uint32_t>(std::bit_width(*std::max_element(entries.begin(), entries.end())));
   std::vector<bool> all;
   for (const std::uint32_t entry : entries)
     for (std::uint32_t bit = 0; bit < bits; ++bit) all.push_back(entry >> bit & 1);
-  const std::size_t width = all.size();
-  while (all.size() % 4 != 0) all.push_back(false);
-  std::string digits;
-  for (std::size_t i = all.size(); i > 0; i -= 4)
-    digits += fmt::format("{:x}", all[i - 1] * 8 + all[i - 2] * 4 + all[i - 3] * 2 + all[i - 4]);
   header.define(name + "_BITS", bits);
-  header.define(name, fmt::format("{}'h{}", width, digits));
+  header.define(name, number(std::move(all)));
 }
 template <class Entries>
 void table(Header& header, const std::string& name, const Entries& entries) {

@@ -15,14 +15,15 @@ module level_bounds_proof #(
 );
   (* anyconst *) wire [`LOG2_TOKEN_BITS-1:0] token;
   (* anyconst *) wire [32*`DESCRIPTOR_WORDS-1:0] words;
-  wire [`DESCRIPTOR_BITS-1:0] descriptor;
-  descriptor_check check (.words, .descriptor);
+  wire valid;
+  descriptor_check check (.words, .valid);
   wire in_pop, out_push;
   wire [`LEVEL_TOKEN_BITS-1:0] out;
   wire [3:0] handle;
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (
     .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1),
-    .out_data(out), .handle, .descriptor);
+    .out_data(out), .handle, .mode(words[`DESCRIPTOR_MODE]), .lod_bias(words[`DESCRIPTOR_LOD_BIAS]),
+    .lod_clamp(words[`DESCRIPTOR_LOD_CLAMP]));
   reg [1:0] cycles = 2'd0;
   always @(posedge clk) if (cycles != 2'd3) cycles <= cycles + 2'd1;
   wire [3:0] last = out[`LEVEL_TOKEN_LAST_INDEX];
@@ -73,7 +74,7 @@ module level_bounds_proof #(
   wire [7:0] page_fraction = magnified || mode < 3'd4 || mixed >= q ? 8'd0 : l8[7:0];
   wire page_linear = magnified ? words[`DESCRIPTOR_MODE_MAG_FILTER] : mode[0];
   always @* begin
-    assume (descriptor[`DESCRIPTOR_VALID]);
+    assume (valid);
     // n is -16 to 15, for an area up to 30, and y + c at most 1.
     assume (lb_max >= -65536 && lb_max <= 65536 && lb_minor >= -65536);
     assume (lb_minor <= (AXES == `AXES_TWO ? 65536 : 126976));

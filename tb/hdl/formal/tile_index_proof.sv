@@ -4,15 +4,15 @@
 module tile_index_proof (
   input logic [9:0] last_x, last_y, x, y, other_x, other_y
 );
+  // Ones up to the leading one of both ends.
+  wire [9:0] used_x = last_x | last_x >> 1 | last_x >> 2 | last_x >> 3 | last_x >> 4 | last_x >> 5 |
+                      last_x >> 6 | last_x >> 7 | last_x >> 8 | last_x >> 9;
+  wire [9:0] used_y = last_y | last_y >> 1 | last_y >> 2 | last_y >> 3 | last_y >> 4 | last_y >> 5 |
+                      last_y >> 6 | last_y >> 7 | last_y >> 8 | last_y >> 9;
   logic [19:0] index, other, most;
-  tile_index unit (.x, .y, .last_x, .last_y, .index);
-  tile_index of_other (.x(other_x), .y(other_y), .last_x, .last_y, .index(other));
-  // Ones below the leading one of both ends.
-  wire [9:0] round_x = last_x | last_x >> 1 | last_x >> 2 | last_x >> 3 | last_x >> 4 | last_x >> 5 |
-                       last_x >> 6 | last_x >> 7 | last_x >> 8 | last_x >> 9;
-  wire [9:0] round_y = last_y | last_y >> 1 | last_y >> 2 | last_y >> 3 | last_y >> 4 | last_y >> 5 |
-                       last_y >> 6 | last_y >> 7 | last_y >> 8 | last_y >> 9;
-  tile_index of_last (.x(round_x), .y(round_y), .last_x, .last_y, .index(most));
+  tile_index unit (.x, .y, .used_x, .used_y, .index);
+  tile_index of_other (.x(other_x), .y(other_y), .used_x, .used_y, .index(other));
+  tile_index of_last (.x(used_x), .y(used_y), .used_x, .used_y, .index(most));
   always @* begin
     assume (x <= last_x && y <= last_y && other_x <= last_x && other_y <= last_y);
     a_different: assert (index != other || (x == other_x && y == other_y));
