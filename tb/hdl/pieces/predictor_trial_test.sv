@@ -36,7 +36,7 @@ module predictor_trial_test;
       b = known ? other : length - 1;
       c = known ? 0 : length + 1;
       want_step[slot] = hits(a) ? a : hits(b) ? b : c;
-      want_hit[slot] = hits(a) || hits(b) || (c != 0 && hits(c));
+      want_hit[slot] = want_step[slot] != c || (c != 0 && hits(c));
       m = known ? (other > length ? other : length) : length + 1;
       want_beyond[slot] = position + m > 32;
       want_next[slot] = position + want_step[slot];
@@ -86,7 +86,7 @@ module predictor_trial_test;
     rst_n = 1;
     in_valid = 1;
     // L' = 0 is unknown. `gap` takes an edge of the step away, or leaves it whole.
-    for (l = 1; l <= 32; l = l + 1)
+    for (l = 1; l <= 20; l = l + 1)
       for (o = 0; o <= 2; o = o + 1)
         for (x = l; x <= 32; x = x + 1)
           for (s = 1; s <= 17; s = s + 1) begin
