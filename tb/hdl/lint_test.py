@@ -21,13 +21,13 @@ FAULTS = {
 
 
 def commands(tool, root, headers, module):
-    fabric, texture = root / "fabric", root / "texture"
-    files = sorted([*fabric.glob("*.sv"), *texture.glob("*.sv")])
+    folders = [word for folder in ("fabric", "pieces", "texture") for word in ("-y", root / folder)]
+    files = sorted(root.rglob("*.sv"))
     if tool == "verilator":
-        return ["verilator", "--lint-only", "-Wall", root / "lint.vlt", f"-I{headers}", "-y", fabric, "-y", texture,
+        return ["verilator", "--lint-only", "-Wall", root / "lint.vlt", f"-I{headers}", *folders,
                 "--top-module", module, next(path for path in files if path.stem == module)]
     if tool == "icarus":
-        return ["iverilog", "-g2012", "-t", "null", f"-I{headers}", "-Y", ".sv", "-y", fabric, "-y", texture,
+        return ["iverilog", "-g2012", "-t", "null", f"-I{headers}", "-Y", ".sv", *folders,
                 "-s", module, next(path for path in files if path.stem == module)]
     names = " ".join(map(str, files))
     return ["yosys", "-q", "-p", f"read_verilog -sv -I{headers} {names}; hierarchy -check -top {module}; proc; "
