@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,6 @@
 #include "golden/ideal/lod.h"
 #include "golden/texture/footprint.h"
 #include "golden/texture/level_of_detail.h"
-#include "spec/error.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
@@ -208,60 +208,45 @@ PaperTable figure_1() {
 
 // ---- section 3: synthesis results ---------------------------------------------------------------
 
-// Our RTL of preset `paper` on the same family (xc7): the whole unit, and without its descriptors,
-// links and cache.
 struct Synthesis {
   double flip_flops = 0, look_up_tables = 0;
 };
-struct MappedUnit {
-  Synthesis whole, core;
-};
 
-MappedUnit mapped_unit() {
+// Our RTL of preset `paper` on the same family (xc7): the sum of these modules; absent if a row of
+// docs/measurements/cost.json was not mapped.
+std::optional<Synthesis> mapped(std::span<const std::string_view> modules) {
   using Json = nlohmann::json;
+  constexpr std::array<std::string_view, 3> kPaper = {"VAddressPaper", "VCacheDefault",
+                                                      "VFilterPaper"};
   const Json cost = Json::parse(tool::embedded::mapped_json());
-  const auto of = [&](const char* configuration) {
-    Synthesis sum;
-    for (const Json& unit : cost.at("units")) {
-      const Json& names = unit.at("configurations");
-      if (std::find(names.begin(), names.end(), configuration) == names.end()) continue;
-      const std::string name = unit.at("unit");
-      constexpr std::array<std::string_view, 7> kCore = {
-          "derivative_unit", "footprint_unit",  "log2_unit",      "level_unit",
-          "sample_walker",   "texel_addresser", "filter_pipeline"};
-      if (std::find(kCore.begin(), kCore.end(), name) == kCore.end()) continue;
-      sum.flip_flops += unit.at("xc7").at("flip_flops").get<double>();
-      sum.look_up_tables += unit.at("xc7").at("luts").get<double>();
-    }
-    return sum;
-  };
-  const auto whole = [&](const char* module, const char* configuration) {
-    for (const Json& unit : cost.at("units")) {
-      const Json& names = unit.at("configurations");
-      if (unit.at("unit") == module &&
-          std::find(names.begin(), names.end(), configuration) != names.end())
-        return Synthesis{unit.at("xc7").at("flip_flops"), unit.at("xc7").at("luts")};
-    }
-    throw spec::FileError(
-        fmt::format("docs/measurements/cost.json has no {} of {}: run "
-                    "scripts/synthesise",
-                    module, configuration));
-  };
-  MappedUnit mapped;
-  for (const Synthesis& part :
-       {whole("address_unit", "VAddressPaper"), whole("texture_cache", "VCacheDefault"),
-        whole("filter_pipeline", "VFilterPaper")}) {
-    mapped.whole.flip_flops += part.flip_flops;
-    mapped.whole.look_up_tables += part.look_up_tables;
+  Synthesis sum;
+  std::size_t found = 0;
+  for (const Json& unit : cost.at("units")) {
+    const Json& names = unit.at("configurations");
+    const auto is_paper = [&](std::string_view name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (std::none_of(kPaper.begin(), kPaper.end(), is_paper) ||
+        std::find(modules.begin(), modules.end(), unit.at("unit")) == modules.end())
+      continue;
+    const Json& row = unit.at("xc7");
+    if (!row.is_object()) return std::nullopt;
+    sum.flip_flops += row.at("flip_flops").get<double>();
+    sum.look_up_tables += row.at("luts").get<double>();
+    ++found;
   }
-  for (const Synthesis& part : {of("VAddressPaper"), of("VFilterPaper")}) {
-    mapped.core.flip_flops += part.flip_flops;
-    mapped.core.look_up_tables += part.look_up_tables;
-  }
-  return mapped;
+  if (found != modules.size()) return std::nullopt;
+  return sum;
 }
 
-PaperTable synthesis(const MappedUnit& ours) {
+PaperTable synthesis() {
+  constexpr std::array<std::string_view, 3> kWhole = {"address_unit", "texture_cache",
+                                                      "filter_pipeline"};
+  // Without descriptors, links and cache.
+  constexpr std::array<std::string_view, 7> kCore = {
+      "derivative_unit", "footprint_unit",  "log2_unit",      "level_unit",
+      "sample_walker",   "texel_addresser", "filter_pipeline"};
+  const std::optional<Synthesis> whole = mapped(kWhole), core = mapped(kCore);
   PaperTable table{
       "Tables 3 and 4: synthesis, and the clock on the board",
       "Zynq ZC706, and Design Compiler for 0.13 μm of SMIC. Ours: preset paper, mapped by "
@@ -270,14 +255,16 @@ PaperTable synthesis(const MappedUnit& ours) {
       "our unit reaches this frequency.",
       {"item", "paper", "ours", "core", "why", "verdict"},
       {}};
-  const auto compared = [&](const char* item, const char* paper, double whole, double core,
-                            const char* why) {
-    table.rows.push_back(
-        {item, paper, decimals(whole, 0), decimals(core, 0), why, "not comparable"});
-  };
   const auto absent = [&](const char* item, const char* paper, const char* why) {
     table.rows.push_back(
         {item, paper, kNotPrinted, kNotPrinted, why, verdict(paper, std::nullopt, "other")});
+  };
+  const auto compared = [&](const char* item, const char* paper, double Synthesis::*figure,
+                            const char* why) {
+    if (!whole || !core)
+      return absent(item, paper, "a row of docs/measurements/cost.json is not mapped");
+    table.rows.push_back({item, paper, decimals(*whole.*figure, 0), decimals(*core.*figure, 0), why,
+                          "not comparable"});
   };
   // Fractions of the board's resources: the paper's own arithmetic, which needs no synthesis.
   const auto share = [&](const char* item, const char* paper, double used, double there) {
@@ -287,10 +274,10 @@ PaperTable synthesis(const MappedUnit& ours) {
   };
   constexpr const char* kNoTop = "pins belong to a synthesised top level";
   constexpr const char* kNoClock = "yosys reports no reliable delays of an FPGA, and no wires";
-  compared("FF", "672", ours.whole.flip_flops, ours.core.flip_flops,
+  compared("FF", "672", &Synthesis::flip_flops,
            "the paper does not say which bit widths, descriptors and texture memory these contain");
   share("FF, % of 437 200", "0.15", 672, 437200);
-  compared("LUT", "3 357", ours.whole.look_up_tables, ours.core.look_up_tables,
+  compared("LUT", "3 357", &Synthesis::look_up_tables,
            "tags and descriptors of ours are logic; small memories become LUTs");
   share("LUT, % of 218 600", "1.54", 3357, 218600);
   absent("I/O", "147", kNoTop);
@@ -694,9 +681,8 @@ Paper build(const PaperOptions& options) {
               "Xu, Du, Zeng and Wang, Journal of Computer-Aided Design & Computer Graphics, 2019",
               {},
               {}};
-  paper.tables = {
-      coefficients(),          table_1(), table_2(), logarithm(), equation_23(), figure_1(),
-      synthesis(mapped_unit())};
+  paper.tables = {coefficients(), table_1(),  table_2(),  logarithm(),
+                  equation_23(),  figure_1(), synthesis()};
   if (!options.quick) {
     const std::vector<TextureScene> scenes = reference_scenes(options.size);
     {
