@@ -80,14 +80,16 @@ class Terminal(unittest.TestCase):
                          f"{work['lookup_merged_percent']:.2f} % more merged with a fill under way; "
                          f"{work['texel_hits_percent']:.2f} % of texels")
         self.assertEqual(lines[3], f"memory      {memory['read_gb_per_s']:.3g} GB/s read, 0 written at 166.67 MHz")
+        self.assertTrue(lines[4].startswith("cost        "), lines[4])
+        self.assertIn(f" ns in {result['cost']['limited_by']}, ", lines[4])
         quality = result["quality"]
         gain = quality["psnr_db"] - quality["psnr_before_db"]
-        self.assertTrue(lines[4].startswith(
-            f"quality     {quality['psnr_db']:.2f} dB ({gain:+.2f}), edges "), lines[4])
-        self.assertTrue(lines[4].endswith("against supersampled-256"), lines[4])
-        self.assertTrue(lines[5].startswith("RESULT: PASS texture: "), lines[5])
-        self.assertEqual(len(lines), 6)
-        self.assertEqual(len(self.run_texture().stdout.splitlines()), 5, "no reference, no quality")
+        self.assertTrue(lines[5].startswith(
+            f"quality     {quality['psnr_db']:.2f} dB ({gain:+.2f}), edges "), lines[5])
+        self.assertTrue(lines[5].endswith("against supersampled-256"), lines[5])
+        self.assertTrue(lines[6].startswith("RESULT: PASS texture: "), lines[6])
+        self.assertEqual(len(lines), 7)
+        self.assertEqual(len(self.run_texture().stdout.splitlines()), 6, "no reference, no quality")
 
     def test_run_lists_changed_parameters(self):
         frame = os.path.join(os.path.dirname(self.out), "frame.png")
