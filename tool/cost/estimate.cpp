@@ -38,7 +38,9 @@ std::string owner_of(const tb::MemoryFigures& memory, const std::vector<Part>& p
                                  ? memory.name.substr(memory.owner.size() + 1)
                                  : memory.name;
   for (const Part& part : parts)
-    if (within.starts_with(part.unit) || memory.name.starts_with(part.name)) return part.name;
+    if (within.starts_with(part.unit)) return part.name;
+  for (const Part& part : parts)
+    if (memory.name.starts_with(part.name)) return part.name;
   for (const Part& part : parts)
     if (memory.owner.starts_with(part.name)) return part.name;
   return memory.owner;

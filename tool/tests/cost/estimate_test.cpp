@@ -149,6 +149,18 @@ TEST(Estimate, MemoriesBelongToTheUnitThatHoldsThem) {
   EXPECT_DOUBLE_EQ(estimate(result, made_up()).units[0].gates.value, alone + 160 * (4 + 3));
 }
 
+// "fill_buffer" of the MissQueue is a part of its own.
+TEST(Estimate, MemoryNamedAfterAnotherUnitIsOfThatUnit) {
+  tb::Result result;
+  result.sheets = {{"miss_queue", {.unit = "MissQueue"}}, {"fill_buffer", {.unit = "FillBuffer"}}};
+  result.memories = {memory("miss_queue_fill_buffer", "miss_queue", "sram", 4, 8),
+                     memory("miss_queue_lines", "miss_queue", "sram", 2, 8)};
+  const tb::Cost cost = estimate(result, made_up());
+  ASSERT_EQ(cost.units.size(), 3u);
+  EXPECT_EQ(cost.units[0].memory_bits, 16u);
+  EXPECT_EQ(cost.units[1].memory_bits, 32u);
+}
+
 TEST(Estimate, CountsControlOfFifosAndSlotsOfLinks) {
   tb::Result result = adder();
   const double alone = estimate(result, made_up()).units[0].gates.value;
