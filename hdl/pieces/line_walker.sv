@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Function  The LineWalker with four walkers: steps along a line, one group of columns per cycle. A group is the longest
-//           run of the next columns whose pixels are in one block of 4 x 4. The end token passes as a group without
-//           columns.
+// Function  The LineWalker with four walkers: steps along a line, one group of columns per cycle. A group is the
+//           longest run of the next columns whose pixels are in one block of 4 x 4. The end token passes as a group
+//           without columns.
 // Latency   1 with its link.
 // Interval  One group per cycle, also across the ends of lines.
 // Stalls    out_ready.

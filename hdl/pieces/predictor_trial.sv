@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Function  One trial of an EndpointPredictor, of one side of a vertical run, with `contiguous` and a search range of 32
-//           rows: tests the candidate lengths of a step, and tells the step that is taken. Bounds of `safe` are not in
-//           it. Edges outside the frame and the window arrive as 0.
+// Function  One trial of an EndpointPredictor, of one side of a vertical run, with `contiguous` and a search range of
+//           32 rows: tests the candidate lengths of a step, and chooses the step. It has no bounds of `safe`. Edges
+//           outside the frame and the window arrive as 0.
 // Latency   4: stage 0 addresses the columns, whose words arrive in stage 1; stage 3 is the choice.
 // Interval  1: predictors and sides take turns.
 // Source    docs/reference/datasheets.md, "EndpointPredictor", stages 0 to 2 and 4;
