@@ -103,12 +103,11 @@ void describe(const MemoryFigures& m, Visitor& v) {
           "Bits as built, with copies and the unused words of the last bank.");
   v.value("logical_bits_at_frame_width", m.logical_bits_at_frame_width, "bit",
           "logical_bits if built for the width of this frame.");
-  v.value("reads", m.reads, "word",
-          "Words read since the last reset; for a FIFO, entries popped. 0 for a table whose words "
-          "are all seen at once.");
-  v.value("writes", m.writes, "word",
-          "Words written since the last reset, without those loaded before the run; for a FIFO, "
-          "entries pushed.");
+  // Flip-flops are seen in every cycle, so a count of reads would say nothing.
+  if (v.has(m.kind != "flops")) {
+    v.value("reads", m.reads, "word", "Words read since the last reset, of SRAM and ROM.");
+    v.value("writes", m.writes, "word", "Words written since the last reset, of SRAM and ROM.");
+  }
   if (v.has(m.register_bits != 0))
     v.value("register_bits", m.register_bits, "bit",
             "Additional flip-flops: output registers of a FIFO, arrived bits, and the bypass of an "

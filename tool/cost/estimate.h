@@ -17,7 +17,7 @@ namespace deburr::tool {
 // By the calibration on mapped units: an estimate is within these shares of the mapped figure.
 inline constexpr double kUnitRange = 0.35;  // gates of a unit, four units of five
 inline constexpr double kSumRange = 0.20;   // gates of an engine
-inline constexpr double kPathRange = 0.25;  // ns
+inline constexpr double kPathRange = 0.40;  // ns, four units of five
 
 // The value of a parameter ("ENGINE.NAME"), null if there is none.
 using ParameterValue = std::function<nlohmann::ordered_json(std::string_view)>;

@@ -280,9 +280,10 @@ Memory|Kind|Words x bits|Ports|Read latency, clk|Built as|Bits at this width|Log
 lines|sram|2,048 x 24|1R1W|2|3 banks|12,345|49,152|65,536|Rows.
 ring|flops|4 x 5|2R1W|0|registers|19|20|21|Codes.
 Cost
-Two-input NAND gates and nanoseconds of the standard cells osu018.|Basis
-mapped|: measured on RTL of these very parameters;
-estimate|: the sum of the unit's operators, registers and flip-flop memories, with its range.
+Two-input NAND gates and nanoseconds of the standard cells osu018.
+Basis|mapped|:
+measured on RTL of these very parameters;|estimate|:
+the sum of the unit's operators, registers and flip-flop memories, with its range.
 The marked unit has the longest path.
 What|Value|Unit
 Clock limit by the longest path|206|165 to 275|MHz

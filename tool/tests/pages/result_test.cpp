@@ -227,7 +227,7 @@ constexpr const char* kFullResult = R"json({
       "content": "Lines of the cache.", "kind": "flops", "words": 80, "word_bits": 64,
       "ports": "2R1W", "read_latency": 1, "built_as": "2 copies of 1R1W", "copies": 1, "banks": 1,
       "logical_bits": 5120, "physical_bits": 5120, "logical_bits_at_frame_width": 1280,
-      "reads": 0, "writes": 0, "register_bits": 130, "high_water": 7
+      "register_bits": 130, "high_water": 7
     }
   },
   "memory_bits": {
