@@ -172,8 +172,14 @@ class ComparisonPage {
       std::vector<HtmlCell> cells{figure.value("label", key)};
       for (const Json& entry : figure.at("cells")) {
         const bool identical = entry.value("identical", false);
-        HtmlCell cell(identical ? entry.value("text", "") : figure_text(entry.at("value")),
-                      entry.value("worse", false) ? "worse fails" : entry.value("judgement", ""));
+        const bool words = entry.at("value").is_string();
+        const std::string shown =
+            identical ? entry.value("text", "") : figure_text(entry.at("value"));
+        std::string look =
+            entry.value("worse", false) ? "worse fails" : entry.value("judgement", "");
+        if (words) look += " words";
+        HtmlCell cell(words ? "" : shown, look);
+        if (words) cell.add(breakable(shown));
         for (const char* more : {"range", "change"})
           if (const std::string text = entry.value(more, ""); !text.empty())
             cell.add("<small>" + mustache::html_escape(text) + "</small>");

@@ -141,7 +141,7 @@ class Added(unittest.TestCase):
         overridden = {name for name in functions if re.search(rf"\b{name}\([^;{{]*override", own)}
         self.assertEqual({name for name, body in functions.items() if body == "= 0;"} - overridden, set())
         self.assertEqual(set(functions) - overridden, {"parts", "clock_mhz", "resolve", "prepare", "built_for_golden",
-                                                       "pixel_history"})
+                                                       "pixel_history", "describe_build"})
 
     # Its parameters define the work; a comparison knows no engine.
     def test_comparison_finds_different_work(self):
