@@ -105,8 +105,12 @@ void describe(const MemoryFigures& m, Visitor& v) {
           "logical_bits if built for the width of this frame.");
   // Flip-flops are seen in every cycle, so a count of reads would say nothing.
   if (v.has(m.kind != "flops")) {
-    v.value("reads", m.reads, "word", "Words read since the last reset, of SRAM and ROM.");
-    v.value("writes", m.writes, "word", "Words written since the last reset, of SRAM and ROM.");
+    v.value("reads", m.reads, "word",
+            "SRAM and ROM: words read since the last reset; for a FIFO, entries popped.");
+    v.value("writes", m.writes, "word",
+            "SRAM and ROM: words written since the last reset, without those loaded before the "
+            "run; for a "
+            "FIFO, entries pushed.");
   }
   if (v.has(m.register_bits != 0))
     v.value("register_bits", m.register_bits, "bit",
