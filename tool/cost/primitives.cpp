@@ -78,13 +78,14 @@ Primitives::Primitives(std::string_view text) {
   try {
     const nlohmann::json json = nlohmann::json::parse(without_rows(text));
     technology_ = json.at("technology").get<std::string>();
-    for (const auto& [name, kind] : json.at("kinds").items()) {
+    for (const auto& entry : json.at("kinds").items()) {
+      const nlohmann::json& kind = entry.value();
       const auto fit = [&](const char* of) {
         const nlohmann::json& one = kind.at(of);
         return Fit(one.at("form").get<std::string>(),
                    one.at("coefficients").get<std::vector<double>>());
       };
-      kinds_[name] = {fit("gates"), fit("ns")};
+      kinds_[entry.key()] = {fit("gates"), fit("ns")};
     }
   } catch (const nlohmann::json::exception& error) {
     throw spec::FileError(fmt::format("{}: {}", kFile, error.what()));
