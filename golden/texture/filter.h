@@ -36,6 +36,8 @@ inline Texel decode_texel(spec::texture::Format format, std::uint32_t word) {
       return {spec::texture::kSrgbToLinear[word & 255],
               spec::texture::kSrgbToLinear[word >> 8 & 255],
               spec::texture::kSrgbToLinear[word >> 16 & 255], (word >> 24) << 4};
+    default:
+      return {};
   }
   return {};
 }

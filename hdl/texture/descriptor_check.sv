@@ -18,7 +18,7 @@ module descriptor_check (
   wire [15:0] coarsest = longer >> (levels - 4'd1);
   wire size_ok = width != 16'd0 && height != 16'd0 && longer <= 16'd4096;
   wire levels_ok = levels != 4'd0 && coarsest != 16'd0;
-  wire codes_ok = words[`DESCRIPTOR_MODE_FORMAT] <= `FORMAT_LAST &&
+  wire codes_ok = words[`DESCRIPTOR_MODE_FORMAT] <= `FORMAT_SRGB8_A8 && !words[`DESCRIPTOR_MODE_SRGB] &&
                   words[`DESCRIPTOR_MODE_WRAP_S] <= `WRAP_LAST &&
                   words[`DESCRIPTOR_MODE_WRAP_T] <= `WRAP_LAST &&
                   words[`DESCRIPTOR_MODE_MIN_FILTER] <= `MIN_FILTER_LAST &&

@@ -82,7 +82,7 @@ module texel_addresser (
 
   // 4: texels and fractions; the pitch of the level, 0 if it is tiled, and its tiles.
   wire linear_3 = sample[3][`SAMPLE_TOKEN_LINEAR];
-  wire [2:0] format_3 = mode_of[3][`DESCRIPTOR_MODE_FORMAT];
+  wire [2:0] format_3 = mode_of[3][`DESCRIPTOR_MODE_FORMAT_LOW];
   wire [1:0] lb_bytes_3 = format_3 == `FORMAT_L8 ? 2'd0 :
                           format_3 == `FORMAT_RGB565 || format_3 == `FORMAT_RGBA4444 ? 2'd1 : 2'd2;
   logic [11:0] x0, x1, y0, y1, x_4[0:1], y_4[0:1];
@@ -125,7 +125,7 @@ module texel_addresser (
   assign out_data[`TEXEL_TOKEN_CONTROL_LEVEL_WEIGHT] = sample[4][`SAMPLE_TOKEN_LEVEL_WEIGHT];
   assign out_data[`TEXEL_TOKEN_CONTROL_INDEX] = sample[4][`SAMPLE_TOKEN_INDEX];
   assign out_data[`TEXEL_TOKEN_CONTROL_LAST_INDEX] = sample[4][`SAMPLE_TOKEN_LAST_INDEX];
-  assign out_data[`TEXEL_TOKEN_CONTROL_FORMAT] = mode_of[4][`DESCRIPTOR_MODE_FORMAT];
+  assign out_data[`TEXEL_TOKEN_CONTROL_FORMAT] = mode_of[4][`DESCRIPTOR_MODE_FORMAT_LOW];
   assign out_data[`TEXEL_TOKEN_CONTROL_LAST_OF_SAMPLE] = sample[4][`SAMPLE_TOKEN_LAST_OF_SAMPLE];
   assign out_data[`TEXEL_TOKEN_CONTROL_LAST_OF_FRAGMENT] = sample[4][`SAMPLE_TOKEN_LAST_OF_FRAGMENT];
   assign out_data[`TEXEL_TOKEN_ADDRESS] = addresses;

@@ -65,6 +65,8 @@ inline std::uint32_t code_of(spec::texture::Format format, const Texel& texel) {
       return narrow(r, 4) << 12 | narrow(g, 4) << 8 | narrow(b, 4) << 4 | narrow(a, 4);
     case spec::texture::Format::kL8:
       return (77 * r + 150 * g + 29 * b + 128) >> 8;
+    default:
+      break;
   }
   throw spec::ConfigError("unknown texture format");
 }
@@ -153,6 +155,8 @@ void TextureMemory::add_level(const TextureLevel& level, const spec::texture::De
       return put_texels<spec::texture::Format::kRgba4444>(level, layout, memory);
     case spec::texture::Format::kL8:
       return put_texels<spec::texture::Format::kL8>(level, layout, memory);
+    default:
+      break;
   }
   throw spec::ConfigError("unknown texture format");
 }

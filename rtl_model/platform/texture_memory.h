@@ -21,6 +21,12 @@ struct TextureLevel {
   std::span<const Texel> texels;
 };
 
+// A level of a compressed mip chain: its blocks row by row, as in DDS and KTX files; not owned.
+struct BlockLevel {
+  int width = 0, height = 0;  // texels
+  std::span<const std::uint8_t> blocks;
+};
+
 // Texel offsets of a level from its base.
 class TexelLayout {
  public:
@@ -47,6 +53,10 @@ class TextureMemory {
   // end early. ConfigError for more than 16 textures, a size over 4096, a chain that does not
   // halve, or levels with missing texels.
   int add(std::span<const TextureLevel> levels, spec::texture::Descriptor sampler);
+
+  // The same with blocks of the compressed format of `sampler`. ConfigError also if a level has too
+  // few or too many bytes.
+  int add(std::span<const BlockLevel> levels, spec::texture::Descriptor sampler);
 
   // Descriptors by handle.
   const std::vector<spec::texture::Descriptor>& descriptors() const { return descriptors_; }

@@ -14,7 +14,7 @@ namespace reg = spec::texture::reg;
 
 // Descriptor bits in the registers: SIZE, MODE, bias, limits, per level a base without its six zero
 // bits; and a valid bit.
-constexpr std::uint32_t kWordBits = 26 + 19 + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
+constexpr std::uint32_t kWordBits = 26 + 21 + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
 
 // Bits needed to number n > 0 things: lb n, rounded up.
 std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::bit_width(n - 1)); }

@@ -233,6 +233,8 @@ void FilterPipelineOf<Width>::filter_other(Cycle cycle, Request& request, std::s
     case spec::texture::Format::kSrgb8A8:
       if (!token.ticket.valid) return;  // its weight is 0
       return lerp(request, [&](std::size_t i) { return unpack_srgb(cycle, token, i, lane); });
+    default:
+      return;
   }
 }
 

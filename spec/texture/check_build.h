@@ -20,7 +20,7 @@ constexpr bool is_power_of_two(std::int32_t value) {
 // Leaves at least two directions per cycle: 1, 2, 4 for two, four, eight axes.
 constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
-inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 24> kBuildRules = {{
     {{"cache.bytes"},
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.cache_bytes); }},
@@ -116,6 +116,18 @@ inline constexpr std::array<BuildRule<Parameters>, 21> kBuildRules = {{
        return p.width == 1 || p.cache_outstanding == 0 || p.cache_outstanding >= p.cache_lookups;
      },
      [](const Parameters& p) { return "make it at least " + std::to_string(p.cache_lookups); }},
+    {{"cache.decoders", "decode"},
+     "must be 0 with decode = none, which builds no decoder",
+     [](const Parameters& p) { return p.cache_decoders == 0 || p.decode != Decode::kNone; }},
+    {{"cache.decoders", "width"},
+     "must be at most 4 with width = 1, since a request asks for at most four blocks",
+     [](const Parameters& p) { return p.width > 1 || p.cache_decoders <= kBlocksPerRequest; }},
+    {{"cache.decoders", "width"},
+     "must be at least 4 with a width above 1, so that a group of one request is decoded in one "
+     "cycle; 0: 6",
+     [](const Parameters& p) {
+       return p.width == 1 || p.cache_decoders == 0 || p.cache_decoders >= kBlocksPerRequest;
+     }},
 }};
 
 inline std::span<const BuildRule<Parameters>> build_rules(const Parameters&) { return kBuildRules; }

@@ -35,10 +35,36 @@ inline constexpr std::array<std::string_view, 3> kWrapNames = {"repeat", "mirror
 enum class Layout : std::uint8_t { kLinear, kTiled };
 inline constexpr std::array<std::string_view, 2> kLayoutNames = {"linear", "tiled"};
 
-enum class Format : std::uint8_t { kRgba8, kRgb565, kRgba4444, kL8, kSrgb8A8 };
-inline constexpr std::array<std::string_view, 5> kFormatNames = {"rgba8", "rgb565", "rgba4444",
-                                                                 "l8", "srgb8_a8"};
-inline constexpr std::array<std::uint8_t, 5> kFormatBytes = {4, 2, 2, 1, 4};
+// From kBc1 on: blocks of 4 x 4 texels (docs/reference/texture/compressed.md).
+enum class Format : std::uint8_t {
+  kRgba8,
+  kRgb565,
+  kRgba4444,
+  kL8,
+  kSrgb8A8,
+  kBc1,
+  kBc3,
+  kBc4,
+  kBc5,
+  kEtc2Rgb,
+  kEtc2RgbA1,
+  kEtc2Rgba8
+};
+inline constexpr std::array<std::string_view, 12> kFormatNames = {
+    "rgba8", "rgb565", "rgba4444", "l8",       "srgb8_a8",    "bc1",
+    "bc3",   "bc4",    "bc5",      "etc2_rgb", "etc2_rgb_a1", "etc2_rgba8"};
+// Bytes of a texel; 0 if the format has blocks.
+inline constexpr std::array<std::uint8_t, 12> kFormatBytes = {4, 2, 2, 1, 4};
+// Bytes of a block; 0 if the format has none.
+inline constexpr std::array<std::uint8_t, 12> kFormatBlockBytes = {0,  0, 0,  0, 0, 8,
+                                                                   16, 8, 16, 8, 8, 16};
+constexpr bool is_compressed(Format format) {
+  return format >= Format::kBc1 && format <= Format::kEtc2Rgba8;
+}
+// Formats whose blocks may hold sRGB codes (Descriptor::srgb).
+constexpr bool may_be_srgb(Format format) {
+  return is_compressed(format) && format != Format::kBc4 && format != Format::kBc5;
+}
 
 inline constexpr int kMaxTextures = 16;
 inline constexpr int kMaxTextureSize = 4096;
@@ -53,6 +79,7 @@ struct Descriptor {
   std::uint16_t width = 0, height = 0;  // texels of level 0, 1..4096
   std::uint8_t levels = 0;              // number of levels, 1..1 + floor(lb max(width, height))
   Format format = Format::kRgba8;
+  bool srgb = false;  // R, G and B of the blocks are sRGB codes; only with may_be_srgb()
   Layout layout = Layout::kTiled;
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
   MinFilter min_filter = MinFilter::kLinearMipmapLinear;

@@ -38,6 +38,10 @@ enum class Blend : std::uint8_t { kSample, kLevel };
 inline constexpr std::array<std::string_view, 2> kBlendNames = {"sample", "level"};
 enum class Derivatives : std::uint8_t { kFine, kCoarse };
 inline constexpr std::array<std::string_view, 2> kDerivativesNames = {"fine", "coarse"};
+enum class BlockRule : std::uint8_t { kTruncated, kRounded };
+inline constexpr std::array<std::string_view, 2> kBlockRuleNames = {"truncated", "rounded"};
+enum class Decode : std::uint8_t { kNone, kAfter };
+inline constexpr std::array<std::string_view, 2> kDecodeNames = {"none", "after"};
 enum class NamedBuild : std::uint8_t { kNarrow, kLean, kWide };
 inline constexpr std::array<std::string_view, 3> kNamedBuildNames = {"narrow", "lean", "wide"};
 
@@ -58,6 +62,9 @@ inline constexpr std::int32_t kMostAllocations = 4;
 inline constexpr std::int32_t kMostLineBanks = 8;
 inline constexpr std::int32_t kMostBankReads = 2;
 inline constexpr std::int32_t kMostFillWrites = 4;
+// A request asks for at most four blocks; a group for more (docs/reference/texture/compressed.md).
+inline constexpr std::int32_t kBlocksPerRequest = 4;
+inline constexpr std::int32_t kMostDecoders = 6;
 
 // Configuration: it changes pixels. Golden model and RTL model both implement it. The defaults are
 // those of preset `deburr`.
@@ -73,6 +80,7 @@ struct Configuration {
   SrgbOutput srgb_output = SrgbOutput::kLinear;
   Blend blend = Blend::kSample;
   Derivatives derivatives = Derivatives::kFine;
+  BlockRule bc = BlockRule::kTruncated;
 };
 
 // Build parameters: they change cycles and cost, but no pixels. Runs that differ only in these have
@@ -93,6 +101,8 @@ struct Build {
   std::int32_t cache_line_banks = 1;
   std::int32_t cache_bank_reads = 1;
   std::int32_t cache_fill_writes = 1;
+  Decode decode = Decode::kNone;
+  std::int32_t cache_decoders = 0;  // 0: 4 with width = 1, else 6
 };
 
 struct Parameters : Configuration, Build {};
@@ -126,6 +136,9 @@ void describe(Configuration& p, Visitor& v) {
   v.choice("derivatives", p.derivatives, kDerivativesNames,
            "Differences of a fragment: along its own row and column (fine), or along row 0 and "
            "column 0 of its quad (coarse).");
+  v.choice("bc", p.bc, kBlockRuleNames,
+           "Rounding of the colours between two end points of a BC block: truncated as libsquish, "
+           "or rounded as OpenImageIO.");
 }
 
 template <class Visitor>
@@ -162,6 +175,11 @@ void describe(Build& p, Visitor& v) {
             "Words read per cycle from each bank of words.");
   v.integer("cache.fill_writes", p.cache_fill_writes, 1, kMostFillWrites, "line/clk",
             "Fills written per cycle, each into another line bank; a power of two.");
+  v.choice("decode", p.decode, kDecodeNames,
+           "Where compressed textures are decoded: after the cache, or none: their descriptors "
+           "are invalid.");
+  v.integer("cache.decoders", p.cache_decoders, 0, kMostDecoders, "block/clk",
+            "Blocks decoded per cycle with decode = after; 0: 4 with width = 1, else 6.");
 }
 
 template <class Visitor>

@@ -69,8 +69,11 @@ inline constexpr Field kBlend{"blend", 13, 13, Access::kConstant, {}, kBlendName
 inline constexpr Field kDerivatives{"derivatives",     14, 14,
                                     Access::kConstant, {}, kDerivativesNames};
 inline constexpr Field kSpread{"spread", 23, 16, Access::kConstant, "U2.6 of the major axis"};
-inline constexpr std::array kFields = {kFootprint, kLog2,       kAxes,  kCount,       kCountCap,
-                                       kKernel,    kSrgbOutput, kBlend, kDerivatives, kSpread};
+inline constexpr Field kDecode{"decode", 25, 24, Access::kConstant, {}, kDecodeNames};
+inline constexpr Field kBc{"bc", 26, 26, Access::kConstant, {}, kBlockRuleNames};
+inline constexpr std::array kFields = {kFootprint,   kLog2,   kAxes,       kCount,
+                                       kCountCap,    kKernel, kSrgbOutput, kBlend,
+                                       kDerivatives, kSpread, kDecode,     kBc};
 }  // namespace configuration
 namespace size {
 inline constexpr Field kWidth{"width", 15, 0, Access::kReadWrite, "texels"};
@@ -78,8 +81,10 @@ inline constexpr Field kHeight{"height", 31, 16, Access::kReadWrite, "texels"};
 inline constexpr std::array kFields = {kWidth, kHeight};
 }  // namespace size
 namespace mode {
-inline constexpr Field kFormat{"format", 2, 0, Access::kReadWrite, {}, kFormatNames};
+inline constexpr Field kFormat{"format", 3, 0, Access::kReadWrite, {}, kFormatNames};
 inline constexpr Field kLayout{"layout", 4, 4, Access::kReadWrite, {}, kLayoutNames};
+inline constexpr Field kSrgb{"srgb", 5, 5, Access::kReadWrite,
+                             "the blocks hold sRGB codes; only bc1, bc3 and etc2"};
 inline constexpr Field kWrapS{"wrap_s", 9, 8, Access::kReadWrite, {}, kWrapNames};
 inline constexpr Field kWrapT{"wrap_t", 11, 10, Access::kReadWrite, {}, kWrapNames};
 inline constexpr Field kMinFilter{"min_filter", 14, 12, Access::kReadWrite, {}, kMinFilterNames};
@@ -87,7 +92,7 @@ inline constexpr Field kMagFilter{"mag_filter", 16, 16, Access::kReadWrite, {}, 
 inline constexpr Field kLevels{"levels", 23, 20, Access::kReadWrite,
                                "number of levels, at least 1"};
 inline constexpr Field kMaxCount{"max_count_log2", 26, 24, Access::kReadWrite, "lb N_max, 0..4"};
-inline constexpr std::array kFields = {kFormat,    kLayout,    kWrapS,  kWrapT,
+inline constexpr std::array kFields = {kFormat,    kLayout,    kSrgb,   kWrapS,   kWrapT,
                                        kMinFilter, kMagFilter, kLevels, kMaxCount};
 }  // namespace mode
 namespace lod_bias {
@@ -150,7 +155,8 @@ constexpr std::uint32_t configuration_word(const Parameters& p) {
          configuration::kSrgbOutput.in(code(p.srgb_output)) |
          configuration::kBlend.in(code(p.blend)) |
          configuration::kDerivatives.in(code(p.derivatives)) |
-         configuration::kSpread.in(code(p.spread));
+         configuration::kSpread.in(code(p.spread)) | configuration::kDecode.in(code(p.decode)) |
+         configuration::kBc.in(code(p.bc));
 }
 // Registers whose values come from the parameters.
 constexpr std::array<LoadedRegister, 1> loaded_registers(const Parameters& p) {
@@ -164,9 +170,10 @@ constexpr std::uint32_t mode_word(const Descriptor& d) {
   const auto code = [](auto value) { return static_cast<std::uint32_t>(value); };
   namespace mode = reg::mode;
   return mode::kFormat.in(code(d.format)) | mode::kLayout.in(code(d.layout)) |
-         mode::kWrapS.in(code(d.wrap_s)) | mode::kWrapT.in(code(d.wrap_t)) |
-         mode::kMinFilter.in(code(d.min_filter)) | mode::kMagFilter.in(code(d.mag_filter)) |
-         mode::kLevels.in(d.levels) | mode::kMaxCount.in(d.max_anisotropy_log2);
+         mode::kSrgb.in(code(d.srgb)) | mode::kWrapS.in(code(d.wrap_s)) |
+         mode::kWrapT.in(code(d.wrap_t)) | mode::kMinFilter.in(code(d.min_filter)) |
+         mode::kMagFilter.in(code(d.mag_filter)) | mode::kLevels.in(d.levels) |
+         mode::kMaxCount.in(d.max_anisotropy_log2);
 }
 constexpr std::uint32_t lod_bias_word(const Descriptor& d) {
   return reg::lod_bias::kBias.in(static_cast<std::uint16_t>(d.lod_bias));

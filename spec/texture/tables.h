@@ -22,6 +22,29 @@ inline constexpr std::array<std::uint16_t, 65> kLog2Table = {
 inline constexpr std::array<std::uint16_t, 8> kLog2Correction = {92,  239, 320, 349,
                                                                  329, 272, 183, 65};
 
+// ETC2: distances of the colours of a sub-block, small and large; distances in modes T and H; and
+// those of EAC alpha (Khronos Data Format Specification 1.3, chapters 21 and 22).
+inline constexpr std::array<std::array<std::uint8_t, 2>, 8> kEtcModifiers = {
+    {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}}};
+inline constexpr std::array<std::uint8_t, 8> kEtcDistances = {3, 6, 11, 16, 23, 32, 41, 64};
+inline constexpr std::array<std::array<std::int8_t, 8>, 16> kEacModifiers = {
+    {{-3, -6, -9, -15, 2, 5, 8, 14},
+     {-3, -7, -10, -13, 2, 6, 9, 12},
+     {-2, -5, -8, -13, 1, 4, 7, 12},
+     {-2, -4, -6, -13, 1, 3, 5, 12},
+     {-3, -6, -8, -12, 2, 5, 7, 11},
+     {-3, -7, -9, -11, 2, 6, 8, 10},
+     {-4, -7, -8, -11, 3, 6, 7, 10},
+     {-3, -5, -8, -11, 2, 4, 7, 10},
+     {-2, -6, -8, -10, 1, 5, 7, 9},
+     {-2, -5, -8, -10, 1, 4, 7, 9},
+     {-2, -4, -8, -10, 1, 3, 7, 9},
+     {-2, -5, -7, -10, 1, 4, 6, 9},
+     {-3, -4, -7, -10, 2, 3, 6, 9},
+     {-1, -2, -3, -10, 0, 1, 2, 9},
+     {-4, -6, -8, -9, 3, 5, 7, 8},
+     {-3, -5, -7, -9, 2, 4, 6, 8}}};
+
 // Format::kSrgb8A8: linear light of an encoded channel, U8.4 of 255: entry c = round(4080 linear(c
 // / 255)) with the sRGB transfer function of IEC 61966-2-1.
 inline constexpr std::array<std::uint16_t, 256> kSrgbToLinear = {
