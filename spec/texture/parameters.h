@@ -40,8 +40,8 @@ enum class Derivatives : std::uint8_t { kFine, kCoarse };
 inline constexpr std::array<std::string_view, 2> kDerivativesNames = {"fine", "coarse"};
 enum class BlockRule : std::uint8_t { kTruncated, kRounded };
 inline constexpr std::array<std::string_view, 2> kBlockRuleNames = {"truncated", "rounded"};
-enum class Decode : std::uint8_t { kNone, kAfter };
-inline constexpr std::array<std::string_view, 2> kDecodeNames = {"none", "after"};
+enum class Decode : std::uint8_t { kNone, kAfter, kBefore };
+inline constexpr std::array<std::string_view, 3> kDecodeNames = {"none", "after", "before"};
 enum class NamedBuild : std::uint8_t { kNarrow, kLean, kWide };
 inline constexpr std::array<std::string_view, 3> kNamedBuildNames = {"narrow", "lean", "wide"};
 
@@ -65,6 +65,7 @@ inline constexpr std::int32_t kMostFillWrites = 4;
 // A request asks for at most four blocks; a group for more (docs/reference/texture/compressed.md).
 inline constexpr std::int32_t kBlocksPerRequest = 4;
 inline constexpr std::int32_t kMostDecoders = 6;
+inline constexpr std::int32_t kLeastCompressedLines = 4, kMostCompressedLines = 64;
 
 // Configuration: it changes pixels. Golden model and RTL model both implement it. The defaults are
 // those of preset `deburr`.
@@ -102,7 +103,8 @@ struct Build {
   std::int32_t cache_bank_reads = 1;
   std::int32_t cache_fill_writes = 1;
   Decode decode = Decode::kNone;
-  std::int32_t cache_decoders = 0;  // 0: 4 with width = 1, else 6
+  std::int32_t cache_decoders = 0;          // 0: 4 with width = 1, else 6
+  std::int32_t cache_compressed_lines = 0;  // 0: 16
 };
 
 struct Parameters : Configuration, Build {};
@@ -176,10 +178,13 @@ void describe(Build& p, Visitor& v) {
   v.integer("cache.fill_writes", p.cache_fill_writes, 1, kMostFillWrites, "line/clk",
             "Fills written per cycle, each into another line bank; a power of two.");
   v.choice("decode", p.decode, kDecodeNames,
-           "Where compressed textures are decoded: after the cache, or none: their descriptors "
-           "are invalid.");
+           "Where compressed textures are decoded: after or before the cache; none: their "
+           "descriptors are invalid.");
   v.integer("cache.decoders", p.cache_decoders, 0, kMostDecoders, "block/clk",
             "Blocks decoded per cycle with decode = after; 0: 4 with width = 1, else 6.");
+  v.integer("cache.compressed_lines", p.cache_compressed_lines, 0, kMostCompressedLines, "line",
+            "Lines of 64 bytes of memory in front of the decoder of decode = before, a power of "
+            "two, at least 4; 0: 16.");
 }
 
 template <class Visitor>
