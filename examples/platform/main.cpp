@@ -7,12 +7,12 @@
 //                                           |                +--- register of the painter
 //   MorphologicalEngine.memory -- nb_t. ----+
 //
-//   Painter -> TextureUnit -> Painter -> MorphologicalEngine -> Display    (links, one beat per
-//   cycle)
+//   Painter -> TextureUnit -> Painter -> Crossing -> MorphologicalEngine -> Display    (links)
+//   core clock, core reset ------------------> | <- pixel clock, pixel reset
 //
-// A checker of the base protocol sits between every initiator and every target. Software draws a
-// frame, waits for the smoother's interrupt, and compares the picture with the result of the golden
-// models.
+// A checker of the base protocol sits between every initiator and every target. Software resets
+// each clock domain in the middle of a frame, draws a whole frame, waits for the smoother's
+// interrupt, and compares the picture with the result of the golden models.
 //
 //   platform [--out FILE.ppm] [--quantum NS] [--plant VIOLATION] [--violations]
 //
@@ -21,16 +21,20 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <systemc>
 #include <tlm>
+#include <utility>
 
+#include "crossing.h"
 #include "expected.h"
 #include "memory_map.h"
 #include "painter.h"
 #include "protocol_checker.h"
 #include "router.h"
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/clock_input.h"
 #include "rtl_model/morphological/morphological_engine.h"
 #include "rtl_model/platform/memory_model.h"
 #include "rtl_model/texture/texture_unit.h"
@@ -41,7 +45,7 @@
 namespace platform {
 namespace {
 
-const sc_core::sc_time kPeriod(2, sc_core::SC_NS);
+const sc_core::sc_time kPeriod(2, sc_core::SC_NS), kPixelPeriod(4, sc_core::SC_NS);
 constexpr std::uint64_t kMostCycles = 1'000'000;
 
 deburr::spec::texture::Parameters texture_parameters() {
@@ -95,6 +99,24 @@ struct Hop {
   }
 };
 
+// Ends the run when the frame is done, or too late.
+class End final : public deburr::rtl::Clocked {
+ public:
+  End(deburr::rtl::ClockDomain& clock, std::function<bool()> done)
+      : clock_(clock), done_(std::move(done)) {
+    clock.add_after(*this);
+  }
+  deburr::rtl::Activity tick(deburr::rtl::Cycle cycle) override {
+    if (done_() || cycle == kMostCycles) clock_.request_stop();
+    return deburr::rtl::kIdle;
+  }
+  void reset() override {}
+
+ private:
+  deburr::rtl::ClockDomain& clock_;
+  std::function<bool()> done_;
+};
+
 class Platform {
  public:
   explicit Platform(const ViolationInfo* injected) {
@@ -116,6 +138,12 @@ class Platform {
     software_.texture_interrupt(texture_.interrupt);
     software_.smoother_interrupt(smoother_.interrupt);
     software_.on_end = [this] { ended_ = true; };
+    core_input_.clock(core_clock_);
+    core_input_.reset_n(core_reset_n_);
+    pixel_input_.clock(pixel_clock_);
+    pixel_input_.reset_n(pixel_reset_n_);
+    software_.core_reset_n(core_reset_n_);
+    software_.pixel_reset_n(pixel_reset_n_);
     // One engine ends its responses with a call, the other in the return value.
     texture_.end_responses(deburr::rtl::ResponseEnd::kCall);
 
@@ -123,17 +151,19 @@ class Platform {
     texture_.quads_in(quads_);
     texture_.colours_out(colours_);
     painter_.colours_in(colours_);
-    painter_.pixels_out(pixels_);
+    painter_.pixels_out(painted_);
+    crossing_.writer.beats_in(painted_);
+    crossing_.reader.beats_out(pixels_);
     smoother_.pixels_in(pixels_);
     smoother_.pixels_out(blended_);
     display_.pixels_in(blended_);
   }
 
   void run() {
-    const auto done = [this] { return ended_ && display_.complete(); };
-    if (!clock_.run_until(done, kMostCycles))
+    clock_.run_free();
+    if (!done())
       throw deburr::spec::SimulationError("the frame was not done in " +
-                                          std::to_string(kMostCycles) + " cycles");
+                                          std::to_string(kMostCycles) + " cycles of the core");
     for (const Hop& hop : hops_) hop.checker.check_finished();
   }
 
@@ -147,9 +177,13 @@ class Platform {
                   static_cast<unsigned long long>(hop.checker.bytes()),
                   static_cast<unsigned long long>(hop.checker.most_in_flight()));
     std::printf(
-        "cycles %llu, of them the smoother's frame %u; %u bilinear samples, %u pixels blended\n",
-        static_cast<unsigned long long>(clock_.cycle()), software_.frame_cycles(),
-        software_.bilinears(), software_.blended_pixels());
+        "core cycles %llu, since its reset in mid-frame %llu; pixel cycles %llu and %llu, of them "
+        "the smoother's frame %u; %u bilinear samples, %u pixels blended\n",
+        static_cast<unsigned long long>(clock_.cycle()),
+        static_cast<unsigned long long>(clock_.cycles_since_reset()),
+        static_cast<unsigned long long>(pixels_clock_.cycle()),
+        static_cast<unsigned long long>(pixels_clock_.cycles_since_reset()),
+        software_.frame_cycles(), software_.bilinears(), software_.blended_pixels());
   }
 
   const Frame& picture() const { return display_.frame(); }
@@ -159,14 +193,23 @@ class Platform {
   bool failed() const { return software_.texture_failed(); }
 
  private:
-  deburr::rtl::ClockDomain clock_{"clock", kPeriod};
+  bool done() const { return ended_ && display_.complete(); }
+
+  sc_core::sc_clock core_clock_{"core_clock", kPeriod}, pixel_clock_{"pixel_clock", kPixelPeriod};
+  sc_core::sc_signal<bool> core_reset_n_{"core_reset_n"}, pixel_reset_n_{"pixel_reset_n"};
+  deburr::rtl::ClockDomain clock_{"clock", kPeriod}, pixels_clock_{"pixels_clock", kPixelPeriod};
+  deburr::rtl::ClockInput core_input_{"core_input", clock_},
+      pixel_input_{"pixel_input", pixels_clock_};
   deburr::rtl::texture::TextureUnit texture_{"texture", clock_, texture_parameters()};
-  deburr::rtl::morphological::MorphologicalEngine smoother_{"smoother", clock_,
+  deburr::rtl::morphological::MorphologicalEngine smoother_{"smoother", pixels_clock_,
                                                             smoother_parameters()};
   Painter painter_{"painter", clock_};
-  Display display_{"display", clock_};
+  Crossing<deburr::spec::morphological::PixelBeat> crossing_{"crossing", clock_, pixels_clock_};
+  Display display_{"display", pixels_clock_};
+  End end_{clock_, [this] { return done(); }};
   deburr::rtl::Link<deburr::spec::texture::Quad> quads_{"quads"};
   deburr::rtl::Link<deburr::spec::texture::ColourGroup> colours_{"colours"};
+  deburr::rtl::Link<deburr::spec::morphological::PixelBeat> painted_{"painted"};
   deburr::rtl::Link<deburr::spec::morphological::PixelBeat> pixels_{"pixels"};
   deburr::rtl::Link<deburr::spec::morphological::BlendedBeat> blended_{"blended"};
   deburr::platform::MemoryModel memory_{"memory", kPeriod, memory_parameters()};

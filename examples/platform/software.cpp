@@ -19,6 +19,8 @@ const sc_core::sc_time kAccess(20, sc_core::SC_NS);  // time per access
 // After a clock edge. At the edge, the order of SystemC's processes, and so the quantum, would
 // decide in which cycle the engines see an access.
 const sc_core::sc_time kPhase(1, sc_core::SC_NS);
+const sc_core::sc_time kReset(40, sc_core::SC_NS);  // ten edges of the slower clock
+const sc_core::sc_time kMidFrame(4000, sc_core::SC_NS);
 
 using Level = std::vector<std::array<std::uint8_t, 4>>;
 
@@ -54,13 +56,19 @@ Software::Software(const sc_core::sc_module_name& name) : sc_module(name) { SC_T
 
 void Software::program() {
   time_.reset();
-  wait(kPhase);
+  core_reset_n.write(false);
+  pixel_reset_n.write(false);
+  wait(kReset + kPhase);
+  core_reset_n.write(true);
+  pixel_reset_n.write(true);
+  wait(kReset);
   expect(kTextureUnit + DEBURR_TEXTURE_ID, DEBURR_TEXTURE_ID_RESET);
   expect(kSmoother + DEBURR_MORPHOLOGICAL_ID, DEBURR_MORPHOLOGICAL_ID_RESET);
   set_up_texture();
   set_up_smoother();
   look_at_memory();
-  write(kPainter + kPainterStart, 1);
+  reset_core_in_mid_frame();
+  reset_pixels_in_mid_frame();
   wait_for_frame();
   frame_cycles_ = read(kSmoother + DEBURR_MORPHOLOGICAL_FRAME_CYCLES);
   blended_pixels_ = read(kSmoother + DEBURR_MORPHOLOGICAL_BLENDED_PIXELS);
@@ -68,6 +76,44 @@ void Software::program() {
   texture_failed_ = texture_interrupt.read();  // prints only errors
   time_.sync();
   on_end();
+}
+
+// The painter has not sent a pixel yet, so the smoother does not see anything of the first frame.
+void Software::reset_core_in_mid_frame() {
+  write(kPainter + kPainterStart, 1);
+  time_.sync();
+  wait(kMidFrame);
+  require(read(kTextureUnit + DEBURR_TEXTURE_FRAGMENTS) > 0, "the texture unit has not begun");
+  time_.sync();
+  core_reset_n.write(false);
+  wait(kReset);
+  core_reset_n.write(true);
+  wait(kReset);
+  require(read(kTextureUnit + DEBURR_TEXTURE_FRAGMENTS) == 0, "the texture unit is not reset");
+  require(read(kTextureUnit + DEBURR_TEXTURE_TEXTURE0_SIZE) == 0, "the texture is not reset");
+  set_up_texture();
+  write(kPainter + kPainterStart, 1);
+}
+
+// The painter starts again while the smoother is in reset, so the next pixel that the smoother gets
+// is the first of a frame.
+void Software::reset_pixels_in_mid_frame() {
+  while (read(kSmoother + DEBURR_MORPHOLOGICAL_STATUS) & DEBURR_MORPHOLOGICAL_STATUS_IDLE_MASK)
+    time_.sync();
+  time_.sync();
+  wait(kMidFrame);
+  require(!(read(kSmoother + DEBURR_MORPHOLOGICAL_STATUS) & DEBURR_MORPHOLOGICAL_STATUS_IDLE_MASK),
+          "the smoother's frame has ended");
+  time_.sync();
+  pixel_reset_n.write(false);
+  write(kPainter + kPainterStart, 1);
+  time_.sync();
+  wait(kReset);
+  pixel_reset_n.write(true);
+  wait(kReset);
+  require(read(kSmoother + DEBURR_MORPHOLOGICAL_STATUS) == DEBURR_MORPHOLOGICAL_STATUS_IDLE_MASK,
+          "the smoother is not reset");
+  set_up_smoother();
 }
 
 // Writes the mip chain into memory, then descriptor 0. Rows of a level begin at multiples of 64
@@ -181,6 +227,10 @@ void Software::write(std::uint64_t address, std::uint32_t value) {
   std::array<std::uint8_t, 4> bytes{};
   for (unsigned i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
   access(tlm::TLM_WRITE_COMMAND, address, bytes.data(), 4);
+}
+
+void Software::require(bool holds, const char* what) const {
+  if (!holds) throw deburr::spec::SimulationError(std::string(name()) + ": " + what);
 }
 
 void Software::expect(std::uint64_t address, std::uint32_t value) {

@@ -18,6 +18,7 @@ class Software final : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<Software> bus{"bus"};
   sc_core::sc_in<bool> texture_interrupt{"texture_interrupt"};
   sc_core::sc_in<bool> smoother_interrupt{"smoother_interrupt"};
+  sc_core::sc_out<bool> core_reset_n{"core_reset_n"}, pixel_reset_n{"pixel_reset_n"};
   std::function<void()> on_end;  // of the program
 
   explicit Software(const sc_core::sc_module_name& name);
@@ -30,6 +31,8 @@ class Software final : public sc_core::sc_module {
  private:
   SC_HAS_PROCESS(Software);
   void program();
+  void reset_core_in_mid_frame();
+  void reset_pixels_in_mid_frame();
   void set_up_texture();
   void set_up_smoother();
   void wait_for_frame();
@@ -38,6 +41,7 @@ class Software final : public sc_core::sc_module {
   void access(tlm::tlm_command command, std::uint64_t address, void* data, unsigned bytes);
   std::uint32_t read(std::uint64_t address);
   void write(std::uint64_t address, std::uint32_t value);
+  void require(bool holds, const char* what) const;
   void expect(std::uint64_t address, std::uint32_t value);
 
   tlm_utils::tlm_quantumkeeper time_;

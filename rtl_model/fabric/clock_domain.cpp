@@ -209,7 +209,23 @@ void ClockDomain::keep_order(const std::vector<const Clocked*>& members) {
   for (std::size_t i = 0; i < places.size(); ++i) slots_[places[i]] = in_order[i];
 }
 
+void ClockDomain::follow() {
+  DEBURR_CHECK(cycle_ == 0 && !follows_,
+               fmt::format("{} follows a clock {}", name(), cycle_ ? "in mid-run" : "twice"));
+  follows_ = cycle_by_cycle_ = true;
+}
+
+void ClockDomain::rise() {
+  DEBURR_CHECK(
+      follows_ && !risen_ && (cycle_ == 0 || rise_time_ != sc_core::sc_time_stamp()),
+      fmt::format("{}: its clock rises twice at {}", name(), sc_core::sc_time_stamp().to_string()));
+  risen_ = true;
+  rise_time_ = sc_core::sc_time_stamp();
+  rise_.notify(sc_core::SC_ZERO_TIME);
+}
+
 sc_core::sc_time ClockDomain::time_of(Cycle cycle) const {
+  if (follows_) return rise_time_;
   return sc_core::sc_time::from_value(cycle * period_value_);
 }
 
@@ -219,6 +235,7 @@ sc_core::sc_time ClockDomain::offset() {
   for (ClockDomain* domain : domains_) {
     if (!domain->evaluating_) continue;
     domain->block_end_ = 0;
+    if (domain->follows_) break;
     return domain->time_of(domain->cycle_ - domain->block_start_);
   }
   return sc_core::SC_ZERO_TIME;
@@ -253,6 +270,10 @@ void ClockDomain::activate() {
     next_trigger(SC_ZERO_TIME);
     return;
   }
+  if (follows_ && !risen_) {
+    next_trigger(rise_);
+    return;
+  }
   if (domains_.size() > 1) {
     if (stops_now()) {
       deferred_ = true;
@@ -279,7 +300,12 @@ void ClockDomain::activate() {
     stop_requested_ = false;
     phase_ = Phase::kStop;
   }
-  next_trigger(time_of(cycle_ - block_start_));
+  if (!follows_)
+    next_trigger(time_of(cycle_ - block_start_));
+  else if (phase_ == Phase::kStop)
+    next_trigger(SC_ZERO_TIME);
+  else
+    next_trigger(rise_);
 }
 
 // Returns false and ends the run after an error.
@@ -303,7 +329,8 @@ bool ClockDomain::attempt(const Action& action) {
 // their processes depends on the length of their last blocks. Each process evaluates its own edge:
 // SystemC identifies the driver of a signal by the process.
 bool ClockDomain::is_due() const {
-  return phase_ == Phase::kEdge && !failure_ && sc_core::sc_time_stamp() == time_of(cycle_);
+  return phase_ == Phase::kEdge && !failure_ &&
+         (follows_ ? risen_ : sc_core::sc_time_stamp() == time_of(cycle_));
 }
 
 void ClockDomain::hand_on() {
@@ -326,6 +353,7 @@ inline void ClockDomain::evaluate_edge() {
                fmt::format("{}: edge {} came at the wrong time", name(), cycle_));
   block_start_ = cycle_;
   block_end_ = 0;
+  risen_ = false;
   evaluate();
 }
 
@@ -414,12 +442,21 @@ void ClockDomain::reset_all() {
   for (Clocked* clocked : after_) clocked->reset();
 }
 
+void ClockDomain::check_generates() const {
+  DEBURR_CHECK(!follows_,
+               fmt::format("{} follows a clock, so it cannot count its cycles in advance: call "
+                           "sc_start() or run_free()",
+                           name()));
+}
+
 void ClockDomain::run(Cycle cycles) {
+  check_generates();
   if (cycles == 0) return;
   start(cycle_ + cycles, (cycle_ + cycles) * period_value_);
 }
 
 bool ClockDomain::run_until(const std::function<bool()>& done, Cycle limit) {
+  check_generates();
   if (done()) return true;
   if (limit == 0) return false;
   done_ = &done;

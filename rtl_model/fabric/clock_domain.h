@@ -13,6 +13,9 @@
 // know where sc_start() will end, so it runs on only inside run(), run_until() and run_free(); a
 // bare sc_start() gives the same results cycle by cycle.
 //
+// A domain that follows a clock of the platform (ClockInput) has its edges where that clock rises,
+// each an activation of its own; it runs in a bare sc_start() or run_free().
+//
 // Edges of several domains at the same time are evaluated in the order of the module hierarchy; at
 // the top level, in the order of construction.
 #pragma once
@@ -71,6 +74,14 @@ class ClockDomain final : public sc_core::sc_module {
     block_end_ = 0;
   }
 
+  // --- A clock of the platform (ClockInput) ---
+  // Call before the first edge: edge c is the rise number c. The period remains that of reports and
+  // of memory timing in cycles.
+  void follow();
+  bool follows() const { return follows_; }
+  // The clock rises now: the edge is evaluated at this time, after all other processes.
+  void rise();
+
   // --- Running ---
   void run(Cycle cycles);
   // Returns true once `done` is true after an edge, false after `limit` cycles.
@@ -87,6 +98,7 @@ class ClockDomain final : public sc_core::sc_module {
   const sc_core::sc_time& period() const { return period_; }
   Cycle cycle() const { return cycle_; }  // inside tick: the current edge; outside: the next one
   Cycle cycles_since_reset() const { return cycle_ - reset_cycle_; }
+  // Of a domain that follows a clock only of the latest edge.
   sc_core::sc_time time_of(Cycle cycle) const;
   // Offset of the edge being evaluated from sc_time_stamp(). For a call into SystemC made
   // immediately after: the domain then checks for events that the call caused.
@@ -124,6 +136,7 @@ class ClockDomain final : public sc_core::sc_module {
   bool stops_now() const;
   void find_domains();
   void rethrow_failure() const;
+  void check_generates() const;
   [[gnu::always_inline]] void evaluate_edge();
   void evaluate();
   void evaluate_block();
@@ -162,11 +175,13 @@ class ClockDomain final : public sc_core::sc_module {
   Phase phase_ = Phase::kEdge;
   bool shuffled_ = false, fast_path_ = true, cycle_by_cycle_ = false, reset_n_ = true;
   bool deferred_ = false, stop_requested_ = false, in_run_ = false, evaluating_ = false;
-  bool observed_ = false;
+  bool observed_ = false, follows_ = false, risen_ = false;
+  sc_core::sc_time rise_time_;                    // of the latest edge of the clock that it follows
   std::uint64_t stopped_in_ = ~std::uint64_t{0};  // delta cycle of the last stop
   const std::function<bool()>* done_ = nullptr;
   bool done_reached_ = false;
   sc_core::sc_event edge_{"edge"}, turn_{"turn"};  // turn_: evaluates an edge at this time
+  sc_core::sc_event rise_{"rise"};
   std::exception_ptr failure_;
 };
 

@@ -128,8 +128,7 @@ Activity MemoryPort::work(Cycle cycle) {
     const bool completes = (starts ? 1 : gathering_->next_line + 1) == beats;
     if (starts && in_flight_.size() >= parameters_.outstanding) {
       lost = stalled_outstanding_;
-    } else if (completes &&
-               (requesting_ || channel_free_.value() > cycle * clock().period().value())) {
+    } else if (completes && (requesting_ || channel_free_ > clock().time_of(cycle))) {
       lost = stalled_channel_;
     } else {
       if (starts) {
@@ -294,6 +293,12 @@ void MemoryPort::arrived(Transaction& t, const sc_core::sc_time& now,
     t.release();
     return;
   }
+  if (clock().follows()) {  // its edges are not known in advance
+    t.come = 0;
+    put_in_order(coming_, t);
+    next_comes_ = 0;
+    return;
+  }
   const std::uint64_t period = clock().period().value();
   t.visible = when.value() / period + 1;
   t.come = (when.value() + period - 1) / period;
@@ -325,8 +330,13 @@ void MemoryPort::count(Transaction& t) {
 
 // Takes the responses that have arrived by now, of those announced by the target.
 void MemoryPort::take_coming(Cycle cycle) {
+  const bool follows = clock().follows();
   while (!coming_.empty() && coming_.front()->come <= cycle) {
     Transaction& t = *coming_.front();
+    if (follows) {
+      if (t.when >= clock().time_of(cycle)) break;
+      t.visible = cycle;
+    }
     coming_.pop_front();
     if (t.epoch != epoch_) {  // requested before a reset
       t.release();

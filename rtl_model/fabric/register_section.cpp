@@ -198,11 +198,16 @@ constexpr std::string_view kKeywords[] = {"abstract",    "accesstype", "addressi
                                           "wset",        "wuser",      "wzc",
                                           "wzs",         "wzt"};
 
-// A name as an identifier; reserved words are escaped with a backslash.
-std::string rdl_name(std::string_view name) {
+std::string rdl_identifier(std::string_view name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
   if (std::isdigit(static_cast<unsigned char>(text[0]))) text.insert(0, 1, '_');
+  return text;
+}
+
+// A name as an identifier; reserved words are escaped with a backslash.
+std::string rdl_name(std::string_view name) {
+  const std::string text = rdl_identifier(name);
   const bool reserved =
       std::find(std::begin(kKeywords), std::end(kKeywords), text) != std::end(kKeywords);
   return reserved ? "\\" + text : text;
@@ -292,6 +297,110 @@ std::string rdl_map(const RegisterSection& section) {
   return text + "};\n";
 }
 
+// ---- UVM ----
+
+// Fields of IEEE 1800.2. A command reads as 0, so a monitor must not expect what was written.
+std::string uvm_field(const spec::Field& field, std::uint32_t reset, const std::string& name) {
+  struct Kind {
+    const char* access;
+    bool changes;  // by hardware
+  };
+  const auto kind = [&]() -> Kind {
+    switch (field.access) {
+      case spec::Access::kConstant:
+        return {"RO", false};
+      case spec::Access::kReadOnly:
+        return {"RO", true};
+      case spec::Access::kReadWrite:
+        return {"RW", false};
+      case spec::Access::kShared:
+        return {"RW", true};
+      case spec::Access::kWriteOnly:
+        return {"WO", false};
+      case spec::Access::kCommand:
+        return {"WO", true};
+      case spec::Access::kWriteOneToClear:
+        return {"W1C", true};
+    }
+    return {"", false};
+  }();
+  const int width = field.high - field.low + 1;
+  return fmt::format(
+      "    {0} = uvm_reg_field::type_id::create(\"{0}\");\n"
+      "    {0}.configure(this, {1}, {2}, \"{3}\", {4}, {1}'h{5:X}, {6}, {7}, 0);\n",
+      name, width, field.low, kind.access, kind.changes ? 1 : 0, field.of(reset),
+      field.reset ? 1 : 0, field.access == spec::Access::kReadWrite ? 1 : 0);
+}
+
+// A name as an identifier of SystemVerilog that is no keyword and no member of a class of UVM.
+std::string uvm_name(const spec::Field& field) {
+  return field.name.empty() || field.name == "value"
+             ? "value"
+             : fmt::format("{}_", rdl_identifier(field.name));
+}
+
+std::string uvm_register(const RegisterSection& section, const spec::RegisterInfo& info,
+                         const std::string& type) {
+  const std::uint32_t reset = reset_word(info, section.loaded);
+  std::string members, codes, build;
+  for (const spec::Field& field : info.fields) {
+    const std::string name = uvm_name(field);
+    members += fmt::format("  rand uvm_reg_field {};\n", name);
+    for (std::size_t code = 0; code < field.codes.size(); ++code)
+      codes +=
+          fmt::format("  localparam {}{} = {};\n", upper(name), upper(field.codes[code]), code);
+    build += uvm_field(field, reset, name);
+  }
+  return fmt::format(
+      "\n// {0}\nclass {1} extends uvm_reg;\n  `uvm_object_utils({1})\n{2}{3}"
+      "  function new(string name = \"{1}\");\n    super.new(name, 32, UVM_NO_COVERAGE);\n"
+      "  endfunction\n  virtual function void build();\n{4}  endfunction\nendclass\n",
+      info.meaning, type, members, codes, build);
+}
+
+std::string uvm_block(const RegisterSection& section) {
+  const std::string map = lower(section.macros), block = map + "_block";
+  const std::string prefix = section.repeated ? section.repeated->name + "0_" : "";
+  std::string types, members, build;
+  for (const spec::RegisterInfo& info : section.rows) {
+    const bool copied = !prefix.empty() && info.name.starts_with(prefix);
+    const std::string name =
+        copied ? fmt::format("{}_{}", section.repeated->name, info.name.substr(prefix.size()))
+               : std::string(info.name);
+    const std::string type = fmt::format("{}_{}", map, name);
+    types += uvm_register(section, info, type);
+    const bool reads = info.readable() != 0, writes = info.written() != 0;
+    const char* const rights = reads && writes ? "RW" : reads ? "RO" : "WO";
+    if (!copied) {
+      members += fmt::format("  rand {} {};\n", type, name);
+      build += fmt::format(
+          "    {0} = {1}::type_id::create(\"{0}\");\n    {0}.configure(this);\n    {0}.build();\n"
+          "    default_map.add_reg({0}, 'h{2:03X}, \"{3}\");\n",
+          name, type, info.offset, rights);
+      continue;
+    }
+    members += fmt::format("  rand {} {}[{}];\n", type, name, section.repeated->count);
+    build += fmt::format(
+        "    foreach ({0}[i]) begin\n"
+        "      {0}[i] = {1}::type_id::create($sformatf(\"{0}[%0d]\", i));\n"
+        "      {0}[i].configure(this);\n      {0}[i].build();\n"
+        "      default_map.add_reg({0}[i], 'h{2:03X} + i * 'h{3:X}, \"{4}\");\n    end\n",
+        name, type, info.offset, section.repeated->stride, rights);
+  }
+  const char* const note = section.busy_ignores_writes
+                               ? "// While the engine is busy, writes to all registers but CONTROL "
+                                 "and STATUS are ignored.\n"
+                               : "";
+  return fmt::format(
+      "{0}\n// {1}\n{2}class {3} extends uvm_reg_block;\n  `uvm_object_utils({3})\n{4}"
+      "  function new(string name = \"{3}\");\n    super.new(name, UVM_NO_COVERAGE);\n  "
+      "endfunction\n"
+      "  virtual function void build();\n"
+      "    default_map = create_map(\"default_map\", 0, 4, UVM_LITTLE_ENDIAN);\n{5}"
+      "    lock_model();\n  endfunction\nendclass\n",
+      types, section.module, note, block, members, build);
+}
+
 }  // namespace
 
 std::string register_page(const RegisterSection& section) {
@@ -317,6 +426,19 @@ std::string register_systemrdl(std::span<const RegisterSection> sections) {
       "// Generated by `deburr params --systemrdl`; do not edit.\n";
   for (const RegisterSection& section : sections) text += rdl_map(section);
   return text;
+}
+
+std::string register_uvm(std::span<const RegisterSection> sections) {
+  std::string text =
+      "// SPDX-License-Identifier: MIT\n"
+      "// Registers of Deburr's engines as UVM register models (IEEE 1800.2), one block each, from "
+      "address 0 on.\n// Fields have a trailing underscore, codes of choices are localparams. "
+      "Reset "
+      "values are those of default\n// parameters. Commands (WO, volatile) read as 0.\n"
+      "// Generated by `deburr params --uvm`; do not edit.\n"
+      "`include \"uvm_macros.svh\"\npackage deburr_registers_pkg;\nimport uvm_pkg::*;\n";
+  for (const RegisterSection& section : sections) text += uvm_block(section);
+  return text + "\nendpackage\n";
 }
 
 std::string register_c_header(std::span<const RegisterSection> sections) {

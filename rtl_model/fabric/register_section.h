@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Generated descriptions of an engine's registers: a section of docs/reference/registers.md, C
-// macros, and SystemRDL 2.0, from which other tools generate IP-XACT and UVM register models. Each
+// macros, SystemRDL 2.0, from which other tools generate IP-XACT, and UVM register models. Each
 // engine provides one by register_section() (rtl_model/NAME/register_section.h).
 #pragma once
 
@@ -42,6 +42,8 @@ std::string register_c_macros(std::span<const spec::RegisterInfo> table, std::st
 std::string register_page(const RegisterSection& section);
 // One address map per section.
 std::string register_systemrdl(std::span<const RegisterSection> sections);
+// A package of SystemVerilog with one uvm_reg_block per section.
+std::string register_uvm(std::span<const RegisterSection> sections);
 // The macros of all sections, as a header.
 std::string register_c_header(std::span<const RegisterSection> sections);
 

@@ -34,7 +34,7 @@ constexpr std::size_t kLeastMeaning = 24;  // columns; narrower texts get their 
 
 struct ParamsCommand {
   std::string unit, markdown;
-  bool c_header = false, systemrdl = false, cost = false;
+  bool c_header = false, systemrdl = false, uvm = false, cost = false;
   std::vector<std::string> sets;
 };
 
@@ -125,6 +125,10 @@ Outcome print_params(const ParamsCommand& command, bool json) {
   }
   if (command.systemrdl) {
     fmt::print("{}", registers_systemrdl(all));
+    return {};
+  }
+  if (command.uvm) {
+    fmt::print("{}", registers_uvm(all));
     return {};
   }
   if (command.markdown == "parameters") {
@@ -244,6 +248,13 @@ void add_params(CLI::App& app, CommandLine& line) {
                      "Print the registers of every engine as SystemRDL instead")
           ->excludes(markdown)
           ->excludes(c_header);
+  CLI::Option* const uvm =
+      command
+          ->add_flag("--uvm", options->uvm,
+                     "Print the registers of every engine as UVM register models instead")
+          ->excludes(markdown)
+          ->excludes(c_header)
+          ->excludes(systemrdl);
   CLI::Option* const cost =
       command
           ->add_flag("--cost", options->cost,
@@ -251,7 +262,8 @@ void add_params(CLI::App& app, CommandLine& line) {
                      "without a run")
           ->excludes(markdown)
           ->excludes(c_header)
-          ->excludes(systemrdl);
+          ->excludes(systemrdl)
+          ->excludes(uvm);
   command
       ->add_option("--set", options->sets,
                    "With --cost: any parameter of the engine; may be repeated")
@@ -264,7 +276,8 @@ void add_params(CLI::App& app, CommandLine& line) {
                  "Print one JSON object: exit code, outcome, parameters, limits")
       ->excludes(markdown)
       ->excludes(c_header)
-      ->excludes(systemrdl);
+      ->excludes(systemrdl)
+      ->excludes(uvm);
   command->callback([options, &line] {
     line.action = [options, &line] { return print_params(*options, line.json); };
   });

@@ -275,7 +275,7 @@ std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines) 
       "Reset values are those of default parameters; CONFIG, SMAA and thresholds reset to the "
       "parameters of the build.\n"
       "`deburr params --c-header` prints the registers as C macros, `deburr params --systemrdl` as "
-      "SystemRDL.\n\n"
+      "SystemRDL,\n`deburr params --uvm` as UVM register models.\n\n"
       "| access | software | hardware | SystemRDL |\n|---|---|---|---|\n"
       "| RO | reads; a write to a register with only RO fields is rejected | writes, or nothing "
       "does | `sw = r; hw = w;` or `hw = na;` |\n"
@@ -299,6 +299,10 @@ std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines
 
 std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engines) {
   return rtl::register_systemrdl(register_sections(engines));
+}
+
+std::string registers_uvm(const std::vector<std::unique_ptr<Engine>>& engines) {
+  return rtl::register_uvm(register_sections(engines));
 }
 
 namespace {

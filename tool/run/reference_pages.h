@@ -28,6 +28,7 @@ std::string registers_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string registers_header(const std::vector<std::unique_ptr<Engine>>& engines);
 // The same registers as SystemRDL.
 std::string registers_systemrdl(const std::vector<std::unique_ptr<Engine>>& engines);
+std::string registers_uvm(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string coverage_page(const std::vector<std::unique_ptr<Engine>>& engines);
 std::string datasheets_page(const std::vector<std::unique_ptr<Engine>>& engines);
 // Names of the faults that an engine's environment can inject, as accepted by --fault. Elaborates

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rtl_model/fabric/clock_domain.h"
+#include "rtl_model/fabric/clock_input.h"
 #include "rtl_model/fabric/fifo.h"
 #include "rtl_model/fabric/memory.h"
 #include "rtl_model/fabric/ownership.h"
@@ -649,6 +650,173 @@ TEST(ClockDomains, CoincidingEdgesFollowConstructionOrder) {
                 return log;
               }),
               "a0 b0 c0 c1 a1 b1 c2 a2 c3 a3 b2 c4 c5 a4 b3 c6 a5 c7 a6 b4 c8 ");
+}
+
+// ---- Clock and reset of a platform -------------------------------------------------------------
+
+// A clock and an active-low reset, driven by time.
+struct Signals : sc_core::sc_module {
+  sc_core::sc_signal<bool> clock{"clock_signal"}, reset_n{"reset_n_signal"};
+  Signals(const sc_core::sc_module_name& name, std::function<void(Signals&)> drive)
+      : sc_module(name), drive_(std::move(drive)) {
+    reset_n.write(true);
+    SC_HAS_PROCESS(Signals);
+    SC_THREAD(run);
+  }
+  void run() { drive_(*this); }
+  // One period with the rise in its middle.
+  void pulse(std::uint64_t period) {
+    wait(ns(period - period / 2));
+    clock.write(true);
+    wait(ns(period / 2));
+    clock.write(false);
+  }
+  std::function<void(Signals&)> drive_;
+};
+
+void bind(rtl::ClockInput& input, Signals& signals) {
+  input.clock(signals.clock);
+  input.reset_n(signals.reset_n);
+}
+
+TEST(ClockInput, GivesTheCyclesOfADomainWithItsOwnClock) {
+  const std::string own = in_child([] {
+    Pipeline p(500);
+    p.clock.run(2000);
+    return p.fingerprint();
+  });
+  EXPECT_GT(own.size(), 1000U);
+  // A regular clock that starts late; one that stops and changes its period.
+  for (const bool regular : {true, false}) {
+    const auto drive = [regular](Signals& s) {
+      if (regular) sc_core::wait(ns(37));
+      for (std::uint64_t i = 0; i < 2000; ++i) {
+        s.pulse(regular ? 10 : 2 + i * i % 17);
+        if (!regular && i % 100 == 7) sc_core::wait(ns(1000));
+      }
+    };
+    EXPECT_EQ(in_child([&] {
+                Pipeline p(500);
+                rtl::ClockInput input("input", p.clock);
+                Signals signals("signals", drive);
+                bind(input, signals);
+                sc_core::sc_start();
+                if (p.clock.cycle() != 2000) return fmt::format("cycle {}", p.clock.cycle());
+                p.clock.check_accounting();
+                return p.fingerprint();
+              }),
+              own)
+        << regular;
+  }
+}
+
+// Cycles that are reset are not cycles of the pipeline: it does the same again from its start.
+// Edges in reset are 10 to 12, or 11 to 13 if a process that the rise triggers writes the reset: a
+// value written at the rise counts from the next one on.
+TEST(ClockInput, SamplesTheResetAtTheRise) {
+  for (const bool before : {true, false})
+    EXPECT_EQ(in_child([&] {
+                Pipeline p(500);
+                rtl::ClockInput input("input", p.clock);
+                Signals signals("signals", [&](Signals& s) {
+                  for (int i = 0; i < 30; ++i) s.pulse(10);
+                });
+                Signals resets("resets", [&](Signals&) {
+                  const auto next = [&](int edges) {
+                    for (int i = 0; i < edges; ++i)
+                      sc_core::wait(before ? signals.clock.negedge_event()
+                                           : signals.clock.posedge_event());
+                  };
+                  next(before ? 10 : 11);
+                  signals.reset_n.write(false);
+                  next(3);
+                  signals.reset_n.write(true);
+                });
+                bind(input, signals);
+                sc_core::sc_start();
+                return fmt::format("{} {}", p.clock.cycle(), p.clock.cycles_since_reset());
+              }),
+              before ? "30 17" : "30 16");
+}
+
+TEST(ResetInput, CountsAtTheEdgeOfItsTime) {
+  for (const std::uint64_t early : {0U, 1U})
+    EXPECT_EQ(in_child([&] {
+                Pipeline p(500);
+                rtl::ResetInput input("input", p.clock);
+                Signals signals("signals", [&](Signals& s) {
+                  sc_core::wait(ns(100 - early));
+                  s.reset_n.write(false);
+                  sc_core::wait(ns(30));
+                  s.reset_n.write(true);
+                });
+                input.reset_n(signals.reset_n);
+                p.clock.run(30);
+                return fmt::format("{} {}", p.clock.cycle(), p.clock.cycles_since_reset());
+              }),
+              "30 17");
+}
+
+TEST(ClockInput, EdgesOfSeveralDomainsKeepTheirOrder) {
+  EXPECT_EQ(in_child([] {
+              std::string log;
+              struct Log final : rtl::Clocked {
+                std::string& log;
+                char name;
+                Log(std::string& text, char own) : log(text), name(own) {}
+                rtl::Activity tick(Cycle cycle) override {
+                  log += fmt::format("{}{} ", name, cycle);
+                  return rtl::kIdle;
+                }
+                void reset() override {}
+              };
+              rtl::ClockDomain a("a", ns(4)), b("b", ns(6));
+              rtl::ClockInput input("input", a);
+              Log in_a(log, 'a'), in_b(log, 'b');
+              a.add(in_a);
+              b.add(in_b);
+              // Rises at 3, 6, 9 ...: every second one with an edge of b.
+              Signals signals("signals", [](Signals& s) {
+                sc_core::wait(ns(1));
+                for (int i = 0; i < 6; ++i) s.pulse(3);
+              });
+              bind(input, signals);
+              b.run(4);
+              return log;
+            }),
+            "b0 a0 a1 b1 a2 a3 b2 a4 a5 b3 ");
+}
+
+TEST(ClockInput, RejectsWhatItCannotFollow) {
+  EXPECT_THAT(
+      in_child([] {
+        Pipeline p(5);
+        rtl::ClockInput input("input", p.clock);
+        Signals signals("signals", [](Signals&) {});
+        bind(input, signals);
+        return text_of<spec::CheckFailed>([&] { p.clock.run(3); });
+      }),
+      testing::HasSubstr("clock follows a clock, so it cannot count its cycles in advance"));
+  EXPECT_THAT(
+      in_child([] {
+        Pipeline p(5);
+        rtl::ClockInput first("first", p.clock);
+        return text_of<spec::CheckFailed>([&] { rtl::ClockInput second("second", p.clock); });
+      }),
+      testing::HasSubstr("clock follows a clock twice"));
+  EXPECT_THAT(in_child([] {
+                Pipeline p(5);
+                rtl::ClockInput input("input", p.clock);
+                Signals signals("signals", [](Signals& s) {
+                  for (int i = 0; i < 4; ++i) {
+                    s.clock.write(i % 2 == 0);
+                    sc_core::wait(sc_core::SC_ZERO_TIME);
+                  }
+                });
+                bind(input, signals);
+                return text_of<spec::CheckFailed>([&] { p.clock.run_free(); });
+              }),
+              testing::HasSubstr("clock: its clock rises twice at 0 s"));
 }
 
 // ---- Ownership of parts by a domain ------------------------------------------------------------

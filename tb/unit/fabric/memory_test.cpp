@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/fabric/clock_input.h"
 #include "rtl_model/platform/memory_host.h"
 #include "tb/harness/link_checker.h"
 #include "tb/unit/fabric/memory_bench.h"
@@ -53,6 +54,41 @@ TEST(MemoryPort, LatencyIsExact) {
                 fmt::format("{} 1x{}", 1 + rtl::MemoryPort::datasheet().latency.cycles + latency,
                             latency + 1))
           << write;
+    }
+}
+
+// At a clock of the platform with the memory's period, latency is that of a domain with its own
+// clock, wherever the rises are. While the clock stands still, a response waits for the next rise.
+TEST(MemoryPort, LatencyFollowsTheClock) {
+  for (const std::uint32_t latency : {0U, 1U, 20U})
+    for (const std::uint32_t shift : {0U, 3U}) {
+      const auto received = [&](std::uint32_t stop) {
+        return in_child([&] {
+          System s({}, with_latency(latency));
+          rtl::ClockInput input("input", s.clock);
+          const std::uint64_t period = s.clock.period().value();
+          sc_core::sc_signal<bool> clock("clock_signal"), reset_n("reset_n_signal");
+          reset_n.write(true);
+          input.clock(clock);
+          input.reset_n(reset_n);
+          s.driver.send(read_of(5));
+          const auto run = [](std::uint64_t time) {
+            sc_core::sc_start(sc_core::sc_time::from_value(time));
+          };
+          run(shift * period / 10 + 1);
+          std::uint32_t edges = 0;
+          for (; s.sink.received() == 0 && edges < 50; ++edges) {
+            clock.write(true);
+            run(period / 2);
+            clock.write(false);
+            run(period - period / 2 + (edges == 1 ? stop * period : 0));
+          }
+          return fmt::format("{} {}", edges, s.sink.received() != 0 && right(s.sink.beats()[0]));
+        });
+      };
+      EXPECT_EQ(received(0), fmt::format("{} true", latency + 4)) << latency << ' ' << shift;
+      // It has arrived when the clock rises again: as without latency.
+      EXPECT_EQ(received(latency + 1), "4 true") << latency << ' ' << shift;
     }
 }
 

@@ -181,7 +181,7 @@ TEST_F(CommandLine, CompletionKnowsCommandsOptionsAndValues) {
     words[(*it)[1]] = (*it)[2];
   for (const auto& [place, expected] : std::map<std::string, std::string>{
            {"help@1", "made other "},
-           {"params", "--help --markdown --c-header --systemrdl --cost --set --json "},
+           {"params", "--help --markdown --c-header --systemrdl --uvm --cost --set --json "},
            {"params@0", "run frame made other "},
            {"regress@0", "plan run rerun status collect"},
            {"run", "made other --help "},
@@ -263,6 +263,7 @@ TEST_F(CommandLine, ParamsPrintsReferencePages) {
                                      {"--markdown registers", "# Registers"},
                                      {"--markdown datasheets", "# Datasheets"},
                                      {"--c-header", "#ifndef DEBURR_REGISTERS_H"},
+                                     {"--uvm", "package deburr_registers_pkg;"},
                                      {"--systemrdl",
                                       "// Registers of Deburr's engines as SystemRDL 2.0, one "
                                       "address map each. Bits without a field, and"}})

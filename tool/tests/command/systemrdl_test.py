@@ -3,13 +3,17 @@
 """Reads back the output of `deburr params --systemrdl` with a parser for the part of SystemRDL 2.0 that it uses. The
 output obeys the standard's rules for properties, bits and addresses. Some fields are checked against the contract,
 fields loaded by parameters against the defaults, and all against the C header (whose values c_header_test.py
-checks against the contract). tb/harness/register_suite.h compares it with the hardware.
+checks against the contract). tb/harness/register_suite.h compares it with the hardware. The UVM register models of
+`deburr params --uvm` have the same registers and fields.
 
 usage: systemrdl_test.py DEBURR"""
 import json
+import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 
 TOKEN = re.compile(r'\s+|//[^\n]*|("(?:\\.|[^"\\])*"|\\?\w+(?:\'[hd]\w+)?|@|\+=|[{}\[\];:=])')
 # The resulting properties of a field.
@@ -284,6 +288,115 @@ def header_macros(header):
     return values, accesses
 
 
+# UVM's access and "volatile" of a field.
+UVM_ACCESS = {"RW": ("RW", 0), "RWH": ("RW", 1), "WO": ("WO", 0), "W1P": ("WO", 1), "W1C": ("W1C", 1)}
+
+
+def uvm_model(text):
+    """block -> register -> offset, distance, number, fields: name -> access, volatile, width, lowest bit, reset, codes."""
+    classes = {name: body for name, body in re.findall(r"^class (\w+) extends uvm_reg;\n(.*?)^endclass$", text, re.M | re.S)}
+    blocks = {}
+    for block, body in re.findall(r"^class (\w+)_block extends uvm_reg_block;\n(.*?)^endclass$", text, re.M | re.S):
+        blocks[block] = {}
+        for kind, name, count in re.findall(r"^  rand (\w+) (\w+)(?:\[(\d+)\])?;$", body, re.M):
+            at, stride = re.search(rf"default_map\.add_reg\({name}(?:\[i\])?, 'h(\w+)(?: \+ i \* 'h(\w+))?,", body).groups()
+            members = re.findall(r"^  rand uvm_reg_field (\w+);$", classes[kind], re.M)
+            codes = {code: int(value) for code, value in re.findall(r"^  localparam (\w+) = (\d+);$", classes[kind], re.M)}
+            fields = {}
+            for field in members:
+                size, low, access, volatile, bits, reset, has_reset = re.search(
+                    rf"^    {field}\.configure\(this, (\d+), (\d+), \"(\w+)\", ([01]), (\d+)'h(\w+), ([01]), [01], 0\);$",
+                    classes[kind], re.M).groups()
+                assert size == bits, field
+                fields[field] = (access, int(volatile), int(size), int(low), int(reset, 16) if has_reset == "1" else None,
+                                 {code: value for code, value in codes.items()
+                                  if field == max((one for one in members if code.startswith(one.upper())), key=len)})
+            blocks[block][name] = (int(at, 16), int(stride or "0", 16), int(count or 1), fields)
+    return blocks
+
+
+def as_uvm(maps):
+    """The same of SystemRDL."""
+    blocks = {}
+    for prefix, registers in maps.items():
+        group = registers.get("repeated")
+        blocks[prefix] = {}
+        for name, register in registers.items():
+            if name == "repeated":
+                continue
+            copied = bool(group) and register["offset"] >= group["base"]
+            fields = {}
+            for field, bits in register["fields"].items():
+                full = field if field == "value" else field + "_"
+                has = bits["properties"]
+                effects = sorted(value if key == "onwrite" else key for key, value in has.items()
+                                 if key in ("singlepulse", "onwrite", "hwset", "we"))
+                access = ACCESS[has["sw"], has["hw"], *effects]
+                access, volatile = UVM_ACCESS.get(access) or ("RO", 0 if has["hw"] == "na" else 1)
+                fields[full] = (access, volatile, bits["width"], bits["shift"], bits["reset"],
+                                {full.upper() + code.upper(): value for code, value in bits["codes"].items()})
+            shown = re.sub(r"^([A-Z]+)0_", r"\1_", name) if copied else name
+            blocks[prefix][shown] = (register["offset"], *((group["stride"], group["count"]) if copied else (0, 1)), fields)
+    return blocks
+
+
+def uvm_differences(uvm, maps):
+    try:
+        mine, theirs = uvm_model(uvm), as_uvm(maps)
+    except (AttributeError, KeyError, AssertionError) as error:
+        return [f"the UVM model cannot be read: {error!r}"]
+    return [f"{block}.{name}: {mine.get(block, {}).get(name)} in the UVM model, {theirs.get(block, {}).get(name)} in SystemRDL"
+            for block in sorted(set(mine) | set(theirs))
+            for name in sorted(set(mine.get(block, {})) | set(theirs.get(block, {})))
+            if mine.get(block, {}).get(name) != theirs.get(block, {}).get(name)]
+
+
+# The part of UVM that the model uses, for its syntax.
+UVM_STUB = """
+`define uvm_object_utils(T) typedef T type_id; \\
+  static function T create(string name); T made; made = new(name); return made; endfunction
+package uvm_pkg;
+typedef enum {UVM_NO_COVERAGE} uvm_coverage_e;
+typedef enum {UVM_LITTLE_ENDIAN} uvm_endianness_e;
+typedef class uvm_reg;
+class uvm_reg_field;
+  `uvm_object_utils(uvm_reg_field)
+  function new(string name = ""); endfunction
+  function void configure(uvm_reg parent, int unsigned size, int unsigned lsb_pos, string access, bit volatile_,
+    bit [63:0] reset, bit has_reset, bit is_rand, bit individually_accessible); endfunction
+endclass
+typedef class uvm_reg_block;
+class uvm_reg;
+  function new(string name, int unsigned n_bits, int has_coverage); endfunction
+  function void configure(uvm_reg_block parent); endfunction
+endclass
+class uvm_reg_map;
+  function void add_reg(uvm_reg rg, bit [63:0] offset, string rights); endfunction
+endclass
+class uvm_reg_block;
+  uvm_reg_map default_map;
+  function new(string name, int has_coverage); endfunction
+  function uvm_reg_map create_map(string name, bit [63:0] base_addr, int unsigned n_bytes, uvm_endianness_e endian);
+    uvm_reg_map made = new; return made;
+  endfunction
+  function void lock_model(); endfunction
+endclass
+endpackage
+"""
+
+
+def broken_syntax(uvm):
+    """What Verilator finds, where it is installed."""
+    if not shutil.which("verilator"):
+        return []
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "uvm_macros.svh").write_text("", encoding="utf-8")
+        pathlib.Path(folder, "all.sv").write_text(UVM_STUB + uvm + "\nmodule top; endmodule\n", encoding="utf-8")
+        done = subprocess.run(["verilator", "--lint-only", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", "top", "-I" + folder,
+                               str(pathlib.Path(folder, "all.sv"))], capture_output=True, text=True, check=False)
+        return [done.stderr] if done.returncode else []
+
+
 def differences(text, header, defaults):
     try:
         maps = Reader(text).file()
@@ -300,8 +413,8 @@ def main():
     if len(sys.argv) != 2:
         print(__doc__)
         return 2
-    text, header = (subprocess.run([sys.argv[1], "params", option], check=True, capture_output=True, text=True).stdout
-                    for option in ("--systemrdl", "--c-header"))
+    text, header, uvm = (subprocess.run([sys.argv[1], "params", option], check=True, capture_output=True, text=True).stdout
+                    for option in ("--systemrdl", "--c-header", "--uvm"))
     listed = json.loads(subprocess.run([sys.argv[1], "params", "--json"], check=True, capture_output=True).stdout)
     defaults = {(f"deburr_{one['engine']}", one["name"].partition(".")[2].replace(".", "_")): one["default"]
                 for one in listed["parameters"]}
@@ -323,6 +436,15 @@ def main():
             wrong.append(f"nothing is {before!r}")
         elif not differences(text.replace(before, after, 1), header, defaults):
             wrong.append(f"{before!r} as {after!r} was not noticed")
+    maps = Reader(text).file()
+    wrong += [*uvm_differences(uvm, maps), *broken_syntax(uvm)]
+    for before, after in (("'h008, ", "'h00C, "), ('"W1C", 1', '"RW", 1'), ('"RO", 1', '"RO", 0'), ("32'hDEB00005", "32'hDEB00002"),
+                          ("(this, 1, 1,", "(this, 1, 2,"), ("localparam LAYOUT_TILED = 1", "localparam LAYOUT_TILED = 0"),
+                          ("i * 'h80", "i * 'h40"), ("TEXTURE_MODE[16]", "TEXTURE_MODE[15]"), ("  rand uvm_reg_field idle_;\n", "")):
+        if before not in uvm:
+            wrong.append(f"nothing is {before!r} in the UVM model")
+        elif not uvm_differences(uvm.replace(before, after, 1), maps):
+            wrong.append(f"{before!r} as {after!r} was not noticed in the UVM model")
     print("\n".join(wrong))
     return 1 if wrong else 0
 
