@@ -53,9 +53,9 @@ package deburr_golden_pkg;
   import "DPI-C" deburr_dpi_counter_name = function int deburr_counter_name(input chandle golden,
       input int unsigned index, output string text);
 
-  // Addresses of memory lines that memory answers with an error: their bytes read as zero. They
-  // replace earlier ones, apply from the next quad or frame on, and remain until the next call;
-  // lines_size 0: no errors. Of the texture unit they are line numbers, as in deburr_texture_fills.
+  // Memory lines that memory answers with an error: their bytes read as zero. They are addresses, or
+  // line numbers for an engine whose functions return line numbers. They replace earlier ones, apply
+  // from the next quad or frame on, and remain until the next call; lines_size 0: no errors.
   import "DPI-C" deburr_dpi_error_lines = function int deburr_error_lines(input chandle golden,
       input int unsigned lines[]);
 

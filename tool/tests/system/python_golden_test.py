@@ -719,6 +719,7 @@ class BadCalls(unittest.TestCase):
         self.rejected("threshold = 2.000000 is outside 0..1", ideal.fxaa, image, threshold=2)
         self.rejected("fxaa: unknown parameter 'treshold'; known: pixels, threshold, least_threshold", ideal.fxaa,
                       image, treshold=1)
+        self.rejected("TextureImage: unknown parameter 'wrap'; known: texels, wrap_s", ideal.TextureImage, image, wrap=1)
         self.rejected("disc: unknown parameter 'r'; known: x, y, radius, width, height", ideal.disc, 1, 1, r=1)
         self.rejected("'wrap_s' = 'mirror' must be one of repeat", ideal.TextureImage, image, wrap_s="mirror")
         self.rejected("footprints: expected an array of FOOTPRINT", ideal.box, ideal.TextureImage(image), numpy.zeros(3))
