@@ -52,6 +52,7 @@ void measure_flicker(int frames, RunContext& context, tb::Result& result,
   tb::Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
   tb::FlickerMeter after, before;
   bool reference = true;
+  std::string first, last;  // files
   std::string rows =
       "frame,file,psnr_db,psnr_before_db,psnr_edge_db,psnr_edge_before_db,flip,flip_before,ssim,"
       "ssim_before\n";
@@ -67,7 +68,9 @@ void measure_flicker(int frames, RunContext& context, tb::Result& result,
                         i, now.after.width, now.after.height, after.width(), after.height()));
       const tb::Mask drawn = now.drawn ? *now.drawn : tb::FlickerMeter::everywhere(now.after);
       reference = reference && !now.reference.empty();
-      rows += row_of(i, context.add_frame(i, now.after), now);
+      last = context.add_frame(i, now.after);
+      if (i == 0) first = last;
+      rows += row_of(i, last, now);
       if (now.reference.empty()) now.reference = now.before;
       after.add(std::move(now.after), now.reference, drawn);
       before.add(std::move(now.before), now.reference, drawn);
@@ -85,6 +88,9 @@ void measure_flicker(int frames, RunContext& context, tb::Result& result,
                                                 : "",
                               reference ? fmt::format("against {:.2f} of the input", before.mean())
                                         : "beyond that of the input")});
+  if (!last.empty())
+    result.terminal.push_back(
+        {"frames", fmt::format("{} to {}, their quality in frames.csv", first, last)});
   result.figures.push_back(
       {reference ? "Flicker over the frames" : "Flicker beyond that of the input", "work.flicker",
        "largest between two successive frames", "work.flicker_worst"});

@@ -87,7 +87,9 @@ TEST(Flicker, ComparesEachPairOfFramesWithItsReference) {
   EXPECT_DOUBLE_EQ(m.work.at("flicker_worst"), std::sqrt(18.0));
   EXPECT_EQ(m.work.at("flicker_worst_frame"), 2);
   EXPECT_DOUBLE_EQ(m.work.at("flicker_before"), std::sqrt((100.0 / 2 + 0 + 400.0 / 2) / 3));
-  ASSERT_EQ(m.result.terminal.size(), 1u);
+  ASSERT_EQ(m.result.terminal.size(), 2u);
+  EXPECT_EQ(m.result.terminal[1].text,
+            "frame_0000.png to frame_0003.png, their quality in frames.csv");
   EXPECT_EQ(m.result.terminal[0].text,
             "3.19/255 over 4 frames (worst 4.24, at frame 2), against 9.13 of the input");
   ASSERT_EQ(m.result.figures.size(), 2u);
