@@ -333,6 +333,20 @@ class Packages(Scratch):
         call(self.folder / "a.out")
         self.assertEqual(pkg_config("--modversion", "deburr-golden"), pkg_config("--modversion", "deburr-models"))
 
+    def test_version_ranges(self):
+        """A version that lies in a range is accepted, whatever its second number."""
+        here = pkg_config("--modversion", "deburr-golden")[0]
+        major, minor, _ = map(int, here.split("."))
+        for asked, found in (("0.1...<99", True), (f"{major}.{minor}...<{major}.{minor + 1}", True),
+                             (f"0.1...{here}", True), (f"0.1...<{here}", False), (f"{major}.{minor + 1}...99", False), ("0.1", False),
+                             (f"{major}.{minor}", True)):
+            with self.subTest(asked):
+                shutil.rmtree(self.folder / "build", ignore_errors=True)
+                self.project(f"deburr {asked} REQUIRED COMPONENTS golden", "deburr::golden")
+                said = self.configure(code=0 if found else 1)
+                if not found:
+                    self.assertIn(f"Deburr {asked} was asked for", said)
+
     def test_missing_component_is_reported(self):
         here = pkg_config("--modversion", "deburr-golden")[0]
         for find, options, words in (

@@ -127,6 +127,7 @@ struct ModelHandle : FrameHandle {
     model.drop();
     clear_frame();
   }
+  void set_error_lines(ErrorLines lines) override { error_lines = std::move(lines); }
   FrameSize result_size() const override { return model.size(); }
   bool has_detail() const override { return model.everything(); }
   void keep_everything(bool on) override {
@@ -137,6 +138,7 @@ struct ModelHandle : FrameHandle {
   ParameterTexts<Parameters> texts;
   FrameModel<Golden, Parameters> model;
   bool everything = false;
+  ErrorLines error_lines;
   std::vector<Counter> shown;
 };
 

@@ -44,8 +44,11 @@ struct GeometricHandle final : GeometricModel {
     input.edges = edges;
     input.vertices = vertices;
     input.facing = {facing, faces};
-    model.process(texts.values(), everything,
-                  [&](geometric::GeometricGolden& golden) { golden.process(input); });
+    input.bases = bases;
+    model.process(texts.values(), everything, [&](geometric::GeometricGolden& golden) {
+      golden.set_memory_errors(error_lines);
+      golden.process(input);
+    });
   }
   Rgba8 plane_pixel(std::size_t plane, int x, int y) const override {
     const geometric::GeometricGolden& golden = *model.get();
@@ -59,6 +62,7 @@ struct GeometricHandle final : GeometricModel {
   std::vector<spec::geometric::Edge> edges;
   std::vector<std::uint8_t> facing;
   std::uint32_t faces = 0;
+  geometric::Bases bases;
 };
 
 // Decodes records from words. Throws ArgumentError for an incomplete record or too many records.
@@ -86,6 +90,14 @@ extern "C" {
 
 deburr_golden* deburr_geometric_new(void) {
   return deburr::golden::c::new_handle<GeometricHandle>();
+}
+
+int deburr_geometric_base(deburr_golden* golden, const char* region, uint32_t address) {
+  namespace c = deburr::golden::c;
+  return c::call_of<GeometricHandle>(golden, __func__, [&](GeometricHandle& h) {
+    c::require_pointer(region, "region");
+    c::set_base(h.bases, region, address);
+  });
 }
 
 int deburr_geometric_vertices(deburr_golden* golden, const uint32_t* words, size_t words_size) {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <new>
+#include <unordered_set>
+#include <utility>
 
 #include "spec/error.h"
 
@@ -64,6 +67,12 @@ std::size_t row_distance(std::string_view what, std::size_t size, std::uint64_t 
   require(size >= needed, name + "_size is " + std::to_string(size) + "; " +
                               std::to_string(height) + " rows need " + std::to_string(needed));
   return static_cast<std::size_t>(distance);
+}
+
+ErrorLines error_lines_of(std::span<const std::uint32_t> lines) {
+  if (lines.empty()) return nullptr;
+  auto known = std::make_shared<std::unordered_set<std::uint32_t>>(lines.begin(), lines.end());
+  return [known](std::uint32_t line) { return known->contains(line); };
 }
 
 int status_of_exception(deburr_golden& golden, const char* function) noexcept {
@@ -202,6 +211,13 @@ int deburr_counter_name(deburr_golden* golden, uint32_t index, char* text, size_
     const auto counters = g.counters();
     require_below(index, counters.size(), "index");
     put_text(counters[index].name, text, text_size);
+  });
+}
+
+int deburr_error_lines(deburr_golden* golden, const uint32_t* lines, size_t lines_size) {
+  namespace c = deburr::golden::c;
+  return call(golden, __func__, [&](deburr_golden& g) {
+    g.set_error_lines(c::error_lines_of(c::array_of(lines, lines_size, "lines")));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -47,6 +48,10 @@ struct Counter {
   std::uint64_t value;
 };
 
+// Memory lines with an error response; empty: none.
+using ErrorLines = std::function<bool(std::uint32_t)>;
+ErrorLines error_lines_of(std::span<const std::uint32_t> lines);
+
 }  // namespace deburr::golden::c
 
 // A model with its parameters. Functions throw; call() converts exceptions to a status.
@@ -63,6 +68,7 @@ struct deburr_golden {
   virtual std::span<const std::string> parameter_names() const = 0;
   virtual std::span<const deburr::golden::c::Counter> counters() = 0;
   virtual void reset() = 0;
+  virtual void set_error_lines(deburr::golden::c::ErrorLines lines) = 0;
 
   // Set while a thread is in a call; members below belong to that thread.
   std::atomic<bool> busy{false};

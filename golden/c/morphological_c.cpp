@@ -39,6 +39,7 @@ struct MorphologicalHandle final : MorphologicalModel {
     const int w = static_cast<int>(width), h = static_cast<int>(height);
     const morphological::ImageView image(pixels, w, h);
     model.process(texts.values(), everything, [&](morphological::MorphologicalGolden& golden) {
+      golden.set_read_errors(error_lines);
       if (edges) {
         golden.process(image, *edges);
       } else {

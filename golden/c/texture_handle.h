@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "golden/c/handle.h"
@@ -57,6 +58,11 @@ struct TextureHandle final : deburr_golden {
     if (golden) golden->reset();
   }
 
+  void set_error_lines(ErrorLines lines) override {
+    if (golden) golden->set_error_lines(lines);
+    error_lines = std::move(lines);
+  }
+
   // The model; a changed parameter or memory creates a new one.
   texture::TextureGolden& model() {
     if (golden && !stale) return *golden;
@@ -64,6 +70,7 @@ struct TextureHandle final : deburr_golden {
     for (std::size_t i = 0; i < textures.size(); ++i)
       fresh->set_texture(static_cast<int>(i), descriptor_of(textures[i]));
     fresh->record_fills(true);
+    fresh->set_error_lines(error_lines);
     golden = std::move(fresh);
     stale = false;
     return *golden;
@@ -85,6 +92,7 @@ struct TextureHandle final : deburr_golden {
   std::array<DescriptorWords, spec::texture::kMaxTextures> textures{};
   std::unique_ptr<texture::TextureGolden> golden;
   bool stale = false;
+  ErrorLines error_lines;
   std::vector<Counter> shown;
   // The advice in the error about addresses beyond the memory.
   std::string_view remedy = "deburr_texture_memory makes it larger";

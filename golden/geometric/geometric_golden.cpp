@@ -10,6 +10,7 @@
 #include "golden/geometric/resolve.h"
 #include "spec/error.h"
 #include "spec/geometric/check_build.h"
+#include "spec/poll.h"
 
 namespace deburr::golden::geometric {
 namespace {
@@ -74,9 +75,13 @@ GeometricGolden::GeometricGolden(const spec::geometric::Parameters& parameters, 
 
 const std::vector<Rgba8>& GeometricGolden::process(const FrameInput& input) {
   start(input);
-  for (const Edge& edge : input_.edges) draw_edge(edge);
+  for (const Edge& edge : input_.edges) {
+    spec::poll();
+    draw_edge(edge);
+  }
   if (follow_) empty_write_buffer();
   for (int by = 0; by < layout_.block_rows(); ++by) {
+    spec::poll();
     const std::uint8_t* row = touched_.data() + std::ptrdiff_t{by} * layout_.block_columns();
     for (int bx = 0; bx < layout_.block_columns(); ++bx) {
       if (row[bx] != 0) resolve_block(bx, by);
@@ -181,6 +186,7 @@ void GeometricGolden::read_with_errors() {
   read_depth_.assign(weights_.size(), 0);
   read_image_ = pixels_;
   for (int y = 0; y < height_; ++y) {
+    spec::poll();
     for (int x = 0; x < width_; ++x) {
       const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                      static_cast<std::size_t>(x);

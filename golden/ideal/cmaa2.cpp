@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <initializer_list>
 
+#include "spec/poll.h"
+
 namespace deburr::golden::ideal {
 namespace {
 
@@ -83,15 +85,19 @@ class Filter {
         samples_(frame.pixels.size()) {}
 
   std::vector<Rgba8> run() {
-    for (int y = 0; y < frame_.height; ++y)
+    for (int y = 0; y < frame_.height; ++y) {
+      spec::poll();
       for (int x = 0; x < frame_.width; ++x) blend_corner(x, y);
+    }
     for (const bool turned : {false, true}) {
       const Cmaa2Axis axis{edges_, turned};
       const int width = turned ? frame_.height : frame_.width,
                 height = turned ? frame_.width : frame_.height;
-      for (int y = 0; y < height; ++y)
+      for (int y = 0; y < height; ++y) {
+        spec::poll();
         for (int x = 0; x < width; ++x)
           for (const int side : {-1, 1}) blend_step(axis, x, y, side);
+      }
     }
     std::vector<Rgba8> result = frame_.pixels;
     for (std::size_t i = 0; i < result.size(); ++i)
@@ -175,6 +181,7 @@ Cmaa2Edges cmaa2_edges(const ColourFrame& frame, const Cmaa2Settings& settings) 
     return own - settings.contrast_adaptation * std::max(crossing) > settings.threshold - kRounding;
   };
   for (int y = 0; y < frame.height; ++y) {
+    spec::poll();
     for (int x = 0; x < frame.width; ++x) {
       edges.right[edges.index(x, y)] =
           edge(right(x, y), {below(x, y - 1), below(x + 1, y - 1), below(x, y), below(x + 1, y)});

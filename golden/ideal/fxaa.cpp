@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "spec/poll.h"
+
 namespace deburr::golden::ideal {
 namespace {
 
@@ -88,6 +90,7 @@ std::vector<Rgba8> fxaa(const ColourFrame& frame, const FxaaSettings& settings) 
   const ColourScale scale(settings.linear_light);
   std::vector<Rgba8> result = frame.pixels;
   for (int y = 0; y < frame.height; ++y) {
+    spec::poll();
     for (int x = 0; x < frame.width; ++x) {
       const Surroundings rows(frame, x, y, true), columns(frame, x, y, false);
       const int middle = rows.luma(0, 0);

@@ -9,6 +9,7 @@
 
 #include "golden/morphological/bypass.h"
 #include "golden/morphological/colour.h"
+#include "spec/poll.h"
 
 namespace deburr::golden::morphological {
 namespace {
@@ -202,6 +203,7 @@ void apply_local_contrast(spec::morphological::LocalContrast mode, const LumaPla
   // Keeps a bit if keeps(step of the edge, largest step around it).
   const auto apply = [&](const auto& around_left, const auto& around_top, const auto& keeps) {
     for (int y = 0; y < luma.height; ++y) {
+      spec::poll();
       c.advance_to(y);
       filter(edges.left.row(y), edges.left.words(),
              [&](int x) { return keeps(c.across(0, x), around_left(c, x)); });
@@ -234,6 +236,7 @@ void raw_edges(const Rule& rule, const LumaPlane& luma, const DepthView& depth, 
     return Row{luma.row(y), depth.empty() ? no_depth.data() : depth.row(y)};
   };
   for (int y = 0; y < luma.height; ++y) {
+    spec::poll();
     const Row own = row(y);
     // Pairs (x + 1, x) give the left bits of x + 1, so the result is shifted by one bit.
     std::fill(flags.begin(), flags.end(), std::uint8_t{0});

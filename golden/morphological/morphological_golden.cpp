@@ -15,6 +15,7 @@
 #include "golden/morphological/traffic.h"
 #include "spec/error.h"
 #include "spec/morphological/check_build.h"
+#include "spec/poll.h"
 
 namespace deburr::golden::morphological {
 namespace {
@@ -145,7 +146,10 @@ void MorphologicalGolden::smooth(const ImageView& image) {
   }
   memory_errors_ = 0;
   const ImageView source = as_read_back(image);
-  for (int y = 0; y < image.height; ++y) blend_row(source, y);
+  for (int y = 0; y < image.height; ++y) {
+    spec::poll();
+    blend_row(source, y);
+  }
   if (everything_) {
     coverage_.count_pixels(Decision::kNone, pixels - work_.blended_pixels - work_.bypassed_pixels);
   }
@@ -157,6 +161,7 @@ void MorphologicalGolden::process_axis(AxisWeights& axis) {
                             ? work_.horizontal_runs
                             : work_.vertical_runs;
   for (int line = 0; line < axis.edges.along.height(); ++line) {
+    spec::poll();
     for_each_run(axis.edges, parameters_.ends, line, [&](int first, int end) {
       ++runs;
       const RunParts parts = descriptors_of(parameters_, axis.edges, line, first, end);
@@ -290,6 +295,7 @@ void MorphologicalGolden::count_thresholds(const ImageView& image) {
     smaa_coverage_.count_threshold(parameters_.dynamic_luma, floor_decides(parameters_, pair));
   };
   for (int y = 0; y < image.height; ++y) {
+    spec::poll();
     for (int x = 0; x < image.width; ++x) {
       count(edges_.left.at(x, y), x, y, x - 1, y);
       count(edges_.top.at(x, y), x, y, x, y - 1);
@@ -302,6 +308,7 @@ void MorphologicalGolden::process_diagonals() {
                        ? spec::morphological::kMaxDiagonalWeight
                        : spec::morphological::kMaxWeight;
   for (int y = 0; y < edges_.top.height(); ++y) {
+    spec::poll();
     for (int i = 0; i < edges_.top.words(); ++i) {
       for (std::uint64_t rest = edges_.top.row(y)[i]; rest != 0; rest &= rest - 1) {
         const int x = 64 * i + std::countr_zero(rest);
@@ -429,6 +436,7 @@ ImageView MorphologicalGolden::as_read_back(const ImageView& image) {
       spec::morphological::kFrameLineBytes / spec::morphological::kFramePixelBytes;
   read_back_.clear();
   for (int y = 0; y < image.height; ++y) {
+    spec::poll();
     const std::uint32_t row =
         pixel_base_ + static_cast<std::uint32_t>(y) * frame_stride(image.width);
     for (int x = 0; x < image.width; x += kPixels) {

@@ -42,9 +42,7 @@ struct GeometricFrame {
   bool detail = false;
 
   Shape shape() const { return {golden->height(), golden->width()}; }
-  void require_detail(const char* what) const {
-    golden::c::require(detail, std::string(what) + " were not recorded: give detail=True");
-  }
+  py::object kept;  // of an unpickled frame: its properties; else null
 };
 
 // A copy of the mesh that the frame was drawn from.
@@ -90,27 +88,11 @@ golden::geometric::Bases bases_of(const py::object& given) {
   if (given.is_none()) return bases;
   golden::c::require(py::isinstance<py::dict>(given),
                      "bases: expected a dictionary of addresses, got " + described(given));
-  const struct {
-    const char* name;
-    std::uint32_t* base;
-  } regions[] = {
-      {"edges", &bases.edges}, {"vertices", &bases.vertices}, {"facing", &bases.facing},
-      {"depth", &bases.depth}, {"colour", &bases.colour},     {"weights", &bases.weights},
-      {"copy", &bases.copy},   {"pairs", &bases.pairs},       {"coarse", &bases.coarse}};
   for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(given)) {
     const std::string wanted = py::cast<std::string>(py::str(name));
-    std::vector<std::string> known;
-    std::uint32_t* base = nullptr;
-    for (const auto& region : regions) {
-      known.emplace_back(region.name);
-      if (wanted == region.name) base = region.base;
-    }
-    if (!base) golden::c::reject_name("region of memory", wanted, known);
-    *base = static_cast<std::uint32_t>(
-        golden::c::number_in_range(wanted, text_of(value), 0, 0xFFFFFFFF));
-    golden::c::require(*base % spec::geometric::kLineBytes == 0,
-                       "the base of " + wanted + ", " + std::to_string(*base) +
-                           ", is not a multiple of " + std::to_string(spec::geometric::kLineBytes));
+    golden::c::set_base(bases, wanted,
+                        static_cast<std::uint32_t>(
+                            golden::c::number_in_range(wanted, text_of(value), 0, 0xFFFFFFFF)));
   }
   return bases;
 }
@@ -132,7 +114,7 @@ GeometricFrame smooth_geometric(const py::object& pixels, const py::object& dept
   using Detail = GeometricGolden::Detail;
   GeometricFrame result;
   result.detail = detail;
-  const py::gil_scoped_release others_run;
+  const WithoutGil others_run;
   result.golden = std::make_unique<GeometricGolden>(texts.values(),
                                                     detail ? Detail::kEverything : Detail::kPixels);
   if (errors) result.golden->set_memory_errors(std::move(errors));
@@ -147,9 +129,7 @@ GeometricFrame smooth_geometric(const py::object& pixels, const py::object& dept
   return result;
 }
 
-py::dict traffic_of(const py::object& self) {
-  const auto& frame = py::cast<const GeometricFrame&>(self);
-  frame.require_detail("lines of memory");
+py::dict traffic_of(const GeometricFrame& frame, const py::object& self) {
   const auto& traffic = frame.golden->traffic();
   py::dict regions;
   for (std::size_t i = 0; i < spec::geometric::kRegionNames.size(); ++i) {
@@ -164,76 +144,50 @@ py::dict traffic_of(const py::object& self) {
 }  // namespace
 
 void add_geometric(py::module_& module) {
-  const auto of = [](const py::object& self) -> const GeometricFrame& {
-    return py::cast<const GeometricFrame&>(self);
-  };
-  py::class_<GeometricFrame>(module, "GeometricFrame",
-                             "A frame that the geometric engine's golden model smoothed.")
-      .def_property_readonly(
-          "pixels",
-          [of](const py::object& self) {
-            return view(of(self).golden->pixels(), of(self).shape(), self);
-          },
-          "The smoothed frame, uint8 of (height, width, 4).")
-      .def_property_readonly(
-          "weights",
-          [of](const py::object& self) {
-            return view(of(self).golden->weights(), of(self).shape(), self);
-          },
-          "uint8 of (height, width, 4), U0.8: blend weights of the upper, lower, left and right "
-          "neighbour.")
-      .def_property_readonly(
-          "work",
-          [](const GeometricFrame& frame) {
+  using Frame = GeometricFrame;
+  using Self = py::object;
+  ResultClass<Frame>(module, "GeometricFrame",
+                     "A frame that the geometric engine's golden model smoothed.")
+      .property("pixels", "The smoothed frame, uint8 of (height, width, 4).",
+                [](const Frame& frame, const Self& self) {
+                  return view(frame.golden->pixels(), frame.shape(), self);
+                })
+      .property("weights",
+                "uint8 of (height, width, 4), U0.8: blend weights of the upper, lower, left and "
+                "right neighbour.",
+                [](const Frame& frame, const Self& self) {
+                  return view(frame.golden->weights(), frame.shape(), self);
+                })
+      .property(
+          "work", "Work counters, by the names of the registers.",
+          [](const Frame& frame, const Self&) {
             return figures(golden::c::counters_of(
                 spec::geometric::kWorkCounts, spec::geometric::kRegisters, frame.golden->work()));
-          },
-          "Work counters, by the names of the registers.")
-      .def_property_readonly(
-          "classes",
-          [of](const py::object& self) {
-            of(self).require_detail("classes");
-            return view(of(self).golden->classes(), self);
-          },
-          "Class of each edge, as an index into EDGE_CLASSES; with detail.")
-      .def_property_readonly(
-          "lines",
-          [of](const py::object& self) {
-            of(self).require_detail("lines");
-            return view(of(self).golden->lines(), self);
-          },
-          "Records of the walked lines; with detail.")
-      .def_property_readonly(
-          "candidates",
-          [of](const py::object& self) {
-            of(self).require_detail("candidates");
-            return view(of(self).golden->candidates(), self);
-          },
-          "Pixels that a line would blend with a neighbour; with detail.")
-      .def_property_readonly(
-          "blocks",
-          [of](const py::object& self) {
-            of(self).require_detail("blocks");
-            return view(of(self).golden->blocks(), self);
-          },
-          "Blocks of 4 x 4 pixels as they were resolved; with detail.")
-      .def_property_readonly(
-          "traffic", traffic_of,
-          "Memory lines by region, reads and writes separately, each in order; with detail.")
-      .def_property_readonly(
-          "memory_errors",
-          [](const GeometricFrame& frame) { return frame.golden->memory_errors(); },
-          "Accesses that memory answered with an error.")
-      .def_property_readonly(
-          "coverage",
-          [](const GeometricFrame& frame) {
-            frame.require_detail("bins of coverage");
-            py::dict bins;
-            add_bins(bins, frame.golden->coverage().bins());
-            return bins;
-          },
-          "Bins of functional coverage and how often each was met; with detail.")
-      .def_property_readonly("detail", [](const GeometricFrame& frame) { return frame.detail; });
+          })
+      .detail(
+          "classes", "Class of each edge, as an index into EDGE_CLASSES; with detail.",
+          [](const Frame& frame, const Self& self) { return view(frame.golden->classes(), self); })
+      .detail(
+          "lines", "Records of the walked lines; with detail.",
+          [](const Frame& frame, const Self& self) { return view(frame.golden->lines(), self); })
+      .detail("candidates", "Pixels that a line would blend with a neighbour; with detail.",
+              [](const Frame& frame, const Self& self) {
+                return view(frame.golden->candidates(), self);
+              })
+      .detail(
+          "blocks", "Blocks of 4 x 4 pixels as they were resolved; with detail.",
+          [](const Frame& frame, const Self& self) { return view(frame.golden->blocks(), self); })
+      .detail("traffic",
+              "Memory lines by region, reads and writes separately, each in order; with detail.",
+              &traffic_of)
+      .property("memory_errors", "Accesses that memory answered with an error.",
+                [](const Frame& frame, const Self&) { return frame.golden->memory_errors(); })
+      .detail("coverage", "Bins of functional coverage and how often each was met; with detail.",
+              [](const Frame& frame, const Self&) {
+                py::dict bins;
+                add_bins(bins, frame.golden->coverage().bins());
+                return bins;
+              });
   module.def("geometric", &smooth_geometric);
   module.def("geometric_parameters", [] { return parameter_rows(spec::geometric::Parameters{}); });
   module.attr("VERTEX") = dtype_of<Vertex>();

@@ -20,6 +20,7 @@
 #include "python/bindings/arrays.h"
 #include "python/bindings/frames.h"
 #include "python/bindings/module.h"
+#include "spec/poll.h"
 #include "spec/texture/packets.h"
 
 namespace deburr::golden::ideal {
@@ -72,7 +73,7 @@ py::array filtered(const py::object& pixels, Filter&& filter) {
   const ideal::ColourFrame frame = colour_frame(pixels);
   std::vector<Rgba8> result;
   {
-    const py::gil_scoped_release others_run;
+    const WithoutGil others_run;
     result = filter(frame);
   }
   return owned(std::move(result), {frame.height, frame.width});
@@ -160,8 +161,9 @@ py::array smaa_weights(const py::object& edges, int search_steps, int diagonal_s
   const ideal::SmaaEdges all = smaa_edges_of(edges);
   std::vector<std::array<double, 4>> weights;
   {
-    const py::gil_scoped_release others_run;
+    const WithoutGil others_run;
     for (int y = 0; y < all.height(); ++y) {
+      spec::poll();
       for (int x = 0; x < all.width(); ++x) {
         const ideal::SmaaPixelWeights pixel = ideal::smaa_weights(all, settings, x, y);
         weights.push_back({pixel.top.first, pixel.top.second, pixel.left.first, pixel.left.second});
@@ -182,9 +184,11 @@ py::array coverage_plane(const Shape& shape, int width, int height,
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   {
-    const py::gil_scoped_release others_run;
-    for (int y = 0; y < height; ++y)
+    const WithoutGil others_run;
+    for (int y = 0; y < height; ++y) {
+      spec::poll();
       for (int x = 0; x < width; ++x) values.push_back(coverage(shape, x, y));
+    }
   }
   return owned(std::move(values), {height, width});
 }
@@ -234,7 +238,7 @@ py::array colours(const py::object& footprints, Filter&& filter) {
   while (!left.empty()) {
     const auto part = left.first(std::min(left.size(), kFootprintsAtATime));
     {
-      const py::gil_scoped_release others_run;
+      const WithoutGil others_run;
       const std::vector<ideal::Colour> made = filter(part);
       all.insert(all.end(), made.begin(), made.end());
     }
@@ -279,7 +283,7 @@ py::array geometric_weights(const py::object& lines, const py::object& depth,
                                        static_cast<std::size_t>(depths.size()));
   std::vector<ideal::SideWeights> weights;
   {
-    const py::gil_scoped_release others_run;
+    const WithoutGil others_run;
     weights = ideal::side_weights(elements<ideal::ScreenLine>(all), values, width, height, options);
   }
   return owned(std::move(weights), {height, width});
@@ -297,7 +301,7 @@ py::array geometric_blend(const py::object& light, const py::object& weights) {
   const auto count = static_cast<std::size_t>(height) * static_cast<std::size_t>(width);
   std::vector<ideal::Light> result;
   {
-    const py::gil_scoped_release others_run;
+    const WithoutGil others_run;
     result = ideal::blended({static_cast<const ideal::Light*>(frame.data()), count},
                             {static_cast<const ideal::SideWeights*>(sides.data()), count}, width,
                             height);

@@ -5,12 +5,14 @@
 #include <pybind11/numpy.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <stdexcept>
 
 #include "golden/c/handle.h"
 #include "python/bindings/frames.h"
 #include "spec/error.h"
+#include "spec/poll.h"
 
 namespace deburr::python {
 
@@ -54,6 +56,18 @@ Figures figures(std::span<const golden::c::Counter> counters) {
 
 namespace {
 
+// Takes the GIL only now and then: other threads may hold it for some milliseconds.
+void check_signals() {
+  using std::chrono::steady_clock;
+  constexpr auto kPeriod = std::chrono::milliseconds(50);
+  static thread_local steady_clock::time_point next;
+  const auto now = steady_clock::now();
+  if (now < next) return;
+  next = now + kPeriod;
+  const py::gil_scoped_acquire own_turn;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 // Errors in arguments raise ValueError; errors of the models raise RuntimeError.
 void translate(std::exception_ptr exception) {
   try {
@@ -71,6 +85,9 @@ void translate(std::exception_ptr exception) {
 }
 
 }  // namespace
+
+WithoutGil::WithoutGil() { spec::poll_function = &check_signals; }
+WithoutGil::~WithoutGil() { spec::poll_function = nullptr; }
 
 PYBIND11_MODULE(_golden, module) {
   module.doc() = "The golden models of deburr.golden and deburr.ideal.";

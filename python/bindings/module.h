@@ -74,6 +74,19 @@ void add_bins(py::dict& all, const Bins& bins) {
   for (const auto& bin : bins) all[py::str(bin.name)] = bin.hits;
 }
 
+// Releases the GIL while a model runs. Ctrl-C ends the model with KeyboardInterrupt, between two
+// rows (spec/poll.h).
+class WithoutGil {
+ public:
+  WithoutGil();
+  ~WithoutGil();
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+ private:
+  py::gil_scoped_release release_;
+};
+
 // Registers the submodules: one per engine with bindings, and the ideal filters.
 void add_engines(py::module_& module);
 void add_ideal(py::module_& module);

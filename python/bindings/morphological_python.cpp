@@ -48,9 +48,7 @@ struct MorphologicalFrame {
 
   Shape shape() const { return {golden->height(), golden->width()}; }
   Shape shape(py::ssize_t channels) const { return {golden->height(), golden->width(), channels}; }
-  void require_detail(const char* what) const {
-    golden::c::require(detail, std::string(what) + " were not recorded: give detail=True");
-  }
+  py::object kept;  // of an unpickled frame: its properties; else null
 };
 
 MorphologicalFrame smooth_morphological(const py::object& pixels, const py::object& depth,
@@ -78,7 +76,7 @@ MorphologicalFrame smooth_morphological(const py::object& pixels, const py::obje
   using Detail = MorphologicalGolden::Detail;
   MorphologicalFrame result;
   result.detail = detail;
-  const py::gil_scoped_release others_run;
+  const WithoutGil others_run;
   result.golden = std::make_unique<MorphologicalGolden>(
       texts.values(), detail ? Detail::kEverything : Detail::kPixels);
   if (errors) result.golden->set_read_errors(std::move(errors));
@@ -130,69 +128,46 @@ py::dict coverage_of(const MorphologicalGolden& golden) {
 }  // namespace
 
 void add_morphological(py::module_& module) {
-  const auto of = [](const py::object& self) -> const MorphologicalFrame& {
-    return py::cast<const MorphologicalFrame&>(self);
-  };
-  py::class_<MorphologicalFrame>(module, "MorphologicalFrame",
-                                 "A frame that the morphological engine's golden model smoothed.")
-      .def_property_readonly(
-          "pixels",
-          [of](const py::object& self) {
-            return view(of(self).golden->pixels(), of(self).shape(), self);
-          },
-          "The smoothed frame, uint8 of (height, width, 4).")
-      .def_property_readonly("edges", edges_of,
-                             "uint8 of (height, width): bit 0 an edge to the left neighbour, bit 1 "
-                             "to the upper one.")
-      .def_property_readonly(
-          "weights", weights_of,
-          "uint8 of (height, width, 4), U0.8: blend weights at the upper edge for the upper pixel "
-          "and for this one, then at the left edge for the left pixel and for this one.")
-      .def_property_readonly(
-          "work",
-          [](const MorphologicalFrame& frame) {
-            return figures(golden::c::counters_of(spec::morphological::kWorkCounts,
-                                                  spec::morphological::kRegisters,
-                                                  frame.golden->work()));
-          },
-          "Work counters, by the names of the registers.")
-      .def_property_readonly(
-          "probes",
-          [of](const py::object& self) {
-            of(self).require_detail("probes");
-            return view(of(self).golden->probes(), of(self).shape(), self);
-          },
-          "How each pixel was blended, records of (height, width); with detail.")
-      .def_property_readonly(
-          "decisions",
-          [of](const py::object& self) {
-            of(self).require_detail("decisions");
-            return view(of(self).golden->decisions(), of(self).shape(), self);
-          },
-          "Rule that chose the axis of each pixel, uint8 of (height, width); with detail.")
-      .def_property_readonly(
-          "runs",
-          [of](const py::object& self) {
-            of(self).require_detail("runs");
-            return view(of(self).golden->runs(), self);
-          },
-          "Every run of edges with its line and the predictor's result; with detail.")
-      .def_property_readonly(
-          "traffic", [](const MorphologicalFrame& frame) { return owned(frame.golden->traffic()); },
-          "Memory lines that storage = memory writes and reads, in order.")
-      .def_property_readonly(
-          "memory_errors",
-          [](const MorphologicalFrame& frame) { return frame.golden->memory_errors(); },
-          "Reads that memory answered with an error.")
-      .def_property_readonly(
-          "coverage",
-          [](const MorphologicalFrame& frame) {
-            frame.require_detail("bins of coverage");
-            return coverage_of(*frame.golden);
-          },
-          "Bins of functional coverage and how often each was met; with detail.")
-      .def_property_readonly("detail",
-                             [](const MorphologicalFrame& frame) { return frame.detail; });
+  using Frame = MorphologicalFrame;
+  using Self = py::object;
+  ResultClass<Frame>(module, "MorphologicalFrame",
+                     "A frame that the morphological engine's golden model smoothed.")
+      .property("pixels", "The smoothed frame, uint8 of (height, width, 4).",
+                [](const Frame& frame, const Self& self) {
+                  return view(frame.golden->pixels(), frame.shape(), self);
+                })
+      .property("edges",
+                "uint8 of (height, width): bit 0 an edge to the left neighbour, bit 1 to the upper "
+                "one.",
+                [](const Frame& frame, const Self&) { return edges_of(frame); })
+      .property("weights",
+                "uint8 of (height, width, 4), U0.8: blend weights at the upper edge for the upper "
+                "pixel and for this one, then at the left edge for the left pixel and for this "
+                "one.",
+                [](const Frame& frame, const Self&) { return weights_of(frame); })
+      .property("work", "Work counters, by the names of the registers.",
+                [](const Frame& frame, const Self&) {
+                  return figures(golden::c::counters_of(spec::morphological::kWorkCounts,
+                                                        spec::morphological::kRegisters,
+                                                        frame.golden->work()));
+                })
+      .detail("probes", "How each pixel was blended, records of (height, width); with detail.",
+              [](const Frame& frame, const Self& self) {
+                return view(frame.golden->probes(), frame.shape(), self);
+              })
+      .detail("decisions",
+              "Rule that chose the axis of each pixel, uint8 of (height, width); with detail.",
+              [](const Frame& frame, const Self& self) {
+                return view(frame.golden->decisions(), frame.shape(), self);
+              })
+      .detail("runs", "Every run of edges with its line and the predictor's result; with detail.",
+              [](const Frame& frame, const Self& self) { return view(frame.golden->runs(), self); })
+      .property("traffic", "Memory lines that storage = memory writes and reads, in order.",
+                [](const Frame& frame, const Self&) { return owned(frame.golden->traffic()); })
+      .property("memory_errors", "Reads that memory answered with an error.",
+                [](const Frame& frame, const Self&) { return frame.golden->memory_errors(); })
+      .detail("coverage", "Bins of functional coverage and how often each was met; with detail.",
+              [](const Frame& frame, const Self&) { return coverage_of(*frame.golden); });
   module.def("morphological", &smooth_morphological);
   module.def("morphological_parameters",
              [] { return parameter_rows(spec::morphological::Parameters{}); });

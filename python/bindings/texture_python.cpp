@@ -67,7 +67,7 @@ constexpr std::size_t kQuadsAtATime = 4096;
 class TextureUnit {
  public:
   TextureUnit(std::uint64_t memory, const py::dict& parameters) {
-    handle_.remedy = "resize() makes it larger";
+    handle_.remedy = "load() and TextureUnit(memory=...) make it larger";
     set_all(handle_.texts, parameters);
     c::resize_memory(handle_, memory);
     handle_.check();
@@ -218,7 +218,7 @@ class TextureUnit {
   }
   void fail_lines(const py::object& lines) {
     auto errors = error_lines(lines);
-    turn([&](c::TextureHandle& h) { h.model().set_error_lines(std::move(errors)); });
+    turn([&](c::TextureHandle& h) { h.set_error_lines(std::move(errors)); });
   }
 
  private:

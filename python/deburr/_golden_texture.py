@@ -9,28 +9,52 @@ import numpy
 from deburr import _golden
 from deburr._declared import declare
 from deburr._figures import Figures
-from deburr._given import Array, described, rgba
+from deburr._given import Array, byte_array, described, rgba, whole
 from deburr._golden import COLOUR, QUAD
 
 __all__ = ["COLOUR", "QUAD", "TextureUnit", "image_of", "mip_levels", "quads_of", "texture"]
 
 _ONE = 1 << 24  # S7.24
+_TEXTURES = 16
 
 
 class TextureUnit:
     """A texture unit's golden model: a memory, up to 16 textures, a cache with predicted hits, and counters.
 
     memory is its size in bytes; load() enlarges it if needed. Only one thread may use a unit at a time: a concurrent
-    call raises RuntimeError and changes nothing."""
+    call raises RuntimeError and changes nothing. A pickled unit has the same parameters, memory and textures, and an
+    empty cache; it shows the original's work and fills until its first filter(), set() or reset(), and counts from 0
+    then."""
 
     def __init__(self, memory: int = 0, **parameters: typing.Any) -> None:
-        self._unit = _golden.TextureUnit(memory, parameters)
+        self._unit = _golden.TextureUnit(whole("memory", memory), parameters)
         self._end = 0
+        self._error_lines: Array | None = None
+        self._before: tuple[Array, Figures] | None = None  # fills and work of the unit that was pickled
+
+    def __getstate__(self) -> dict[str, typing.Any]:
+        return {"parameters": self.parameters, "memory": self.read(0, self._unit.size()), "end": self._end,
+                "words": [self._unit.words(texture) for texture in range(_TEXTURES)],
+                "error_lines": self._error_lines, "before": (self.fills, self.work)}
+
+    def __setstate__(self, state: dict[str, typing.Any]) -> None:
+        self._unit = _golden.TextureUnit(state["memory"].size, state["parameters"])
+        self._unit.write(0, state["memory"])
+        for texture, words in enumerate(state["words"]):
+            self._put(texture, words)
+        self._end = state["end"]
+        self.set_error_lines(state["error_lines"])
+        self._before = state["before"]
+
+    def _put(self, texture, words):
+        for number, word in enumerate(words):
+            self._unit.set_register(texture, 4 * number, word)
 
     def set(self, **parameters: typing.Any) -> None:
         """Sets parameters from the next quad on: all of them or, if one is rejected, none. Empties the cache and resets
         the counters."""
         self._unit.set(parameters)
+        self._before = None
 
     @property
     def parameters(self) -> dict[str, str]:
@@ -48,12 +72,12 @@ class TextureUnit:
         levels = [levels] if isinstance(levels, numpy.ndarray) else list(levels)
         if not levels:
             raise ValueError("levels: expected at least one")
+        texture = _number(texture)
         before = self._unit.words(texture)
         try:
             end = self._describe(texture, levels, fields)
         except BaseException:
-            for number, word in enumerate(before):
-                self._unit.set_register(texture, 4 * number, word)
+            self._put(texture, before)
             raise
         if end > self._unit.size():
             self._unit.resize(end)
@@ -75,23 +99,26 @@ class TextureUnit:
 
     def set_fields(self, texture: int = 0, **fields: typing.Any) -> None:
         """Sets fields of a texture's registers by name: wrap_s="clamp_to_edge", bias=-128. All of them or none."""
-        self._unit.set_fields(texture, fields)
+        self._unit.set_fields(_number(texture), fields)
 
     def describe(self, texture: int = 0) -> dict[str, typing.Any]:
         """Returns size, levels, bases and fault (None: quads may use it) of a texture."""
-        return self._unit.describe(texture)
+        return self._unit.describe(_number(texture))
 
-    def write(self, address: int, values: Array) -> None:
-        """Writes bytes to memory. A cached line remains a predicted hit: call invalidate(), as software must."""
-        self._unit.write(address, values)
+    def write(self, address: int, values: bytes | bytearray | memoryview | Array) -> None:
+        """Writes bytes to memory, from a bytes-like object or uint8 of (n,). A cached line remains a predicted hit: call
+        invalidate(), as software must."""
+        self._unit.write(whole("address", address), byte_array(values))
 
     def read(self, address: int, size: int) -> Array:
         """Reads bytes of memory."""
-        return self._unit.read(address, size)
+        return self._unit.read(whole("address", address), whole("size", size))
 
     def filter(self, quads: Array) -> Array:
         """Filters an array of QUAD; returns an array of COLOUR, one for each covered lane, in order."""
-        return self._unit.filter(quads)
+        colours = self._unit.filter(quads)
+        self._before = None
+        return colours
 
     def analyse(self, quads: Array) -> Array:
         """Returns the decisions for each lane of quads before its first texel is read: records of (n, 4)."""
@@ -100,16 +127,17 @@ class TextureUnit:
     @property
     def fills(self) -> Array:
         """Returns the memory lines that the last filter() fetched, in order: address / cache_line_bytes."""
-        return self._unit.fills()
+        return self._unit.fills() if self._before is None else self._before[0]
 
     @property
     def work(self) -> Figures:
         """Returns the counters since the unit was created or reset, with histograms by samples and by level."""
-        return self._unit.work()
+        return self._unit.work() if self._before is None else self._before[1]
 
     def set_error_lines(self, lines: Array | None) -> None:
         """Sets the numbers of lines that memory answers with an error, uint32; None: no errors."""
         self._unit.fail_lines(lines)
+        self._error_lines = None if lines is None else lines.copy()
 
     def invalidate(self) -> None:
         """Empties the cache."""
@@ -118,6 +146,11 @@ class TextureUnit:
     def reset(self) -> None:
         """Resets like the hardware: counters 0, cache empty. Textures and memory are kept."""
         self._unit.reset()
+        self._before = None
+
+
+def _number(texture):
+    return whole("texture", texture, most=_TEXTURES - 1)
 
 
 def texture(quads: Array, levels: Array | list[Array], *, fields: dict[str, typing.Any] | None = None,

@@ -32,6 +32,9 @@ class RunError(RuntimeError):
         super().__init__(text)
         self.code, self.result = code, result
 
+    def __reduce__(self) -> tuple[typing.Any, ...]:
+        return type(self), (str(self), self.code, self.result)
+
 
 def program():
     """Returns the command's path: next to this package as installed, or on the PATH."""

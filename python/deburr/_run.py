@@ -67,13 +67,13 @@ class Run(Figures):
     `run.throughput.value`, `run.units`, `run.work`; `run["units.filter_pipeline.busy"]` selects one by its key.
 
     pictures and maps are arrays by name, intervals has one array per series by key, directory holds the files. It is
-    deleted with this object unless run() was given `out`."""
+    deleted with this object unless run() was given `out`. A pickled Run has its pictures and maps with it."""
 
     directory: pathlib.Path
     meaning: dict[str, dict[str, str]]
     intervals: Figures
-    maps: _Files
-    pictures: _Files
+    maps: collections.abc.Mapping[str, Array]
+    pictures: collections.abc.Mapping[str, Array]
 
     def __init__(self, result, directory, kept):
         histogram = result.get("latency", {}).get("histogram")
@@ -92,6 +92,13 @@ class Run(Figures):
             _kept=kept, directory=directory, meaning=meaning, intervals=Figures(intervals),
             maps=_Files(directory, "map_*.pfm", "map_", _pictures.read_pfm),
             pictures=_Files(directory, "*.png", "", _pictures.read_png))
+
+    def __getstate__(self) -> dict[str, typing.Any]:
+        # The directory of the copy may be gone: it takes the contents of the files along.
+        return {**self.__dict__, "_kept": None, "maps": dict(self.maps), "pictures": dict(self.pictures)}
+
+    def __setstate__(self, state: dict[str, typing.Any]) -> None:
+        self.__dict__.update(state)
 
     def __repr__(self):
         rate = self.throughput

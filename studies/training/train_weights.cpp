@@ -3,6 +3,7 @@
 // frames, and writes spec/morphological/learned_weights.h and its recipe. Called by
 // scripts/train-weights.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -30,6 +31,7 @@
 #include "studies/training/weight_trainer.h"
 #include "tb/base/atomic_file.h"
 #include "tb/base/file.h"
+#include "tb/base/terminal.h"
 #include "tb/scene/quality.h"
 #include "tb/stimuli/weight_file.h"
 
@@ -251,8 +253,10 @@ int run(int argc, char** argv) {
     for (FrameSource& source : mesh_set(options)) sources.push_back(std::move(source));
   const std::vector<FrameSource> held_out_sources =
       check.empty() ? held_out_set(options) : std::vector<FrameSource>();
+  const bool overwrites = tb::takes_control_sequences(STDERR_FILENO);
   const auto made = [&](const FrameSource& source) {
-    if (!quiet) std::cerr << "\r\x1b[K" << source.name;
+    if (!quiet)
+      std::cerr << (overwrites ? "\r\x1b[K" : "") << source.name << (overwrites ? "" : "\n");
     return source.make();
   };
   std::vector<ReferenceFrame> training;
@@ -275,7 +279,8 @@ int run(int argc, char** argv) {
       groups.push_back(frame.group);
   }
   const std::string text = recipe_text(recipe, options, hashed);
-  if (!quiet) std::cerr << "\r\x1b[Ktraining on " << all.size() << " frames\n";
+  if (!quiet)
+    std::cerr << (overwrites ? "\r\x1b[K" : "") << "training on " << all.size() << " frames\n";
   const WeightTables tables = trained(all, samples, recipe);
   std::cout << fmt::format("recipe {:016x}, {} frames, sum of the weights {}\n", hash_of(text),
                            all.size(), tb::stimuli::sum_of(tables));

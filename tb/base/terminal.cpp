@@ -54,6 +54,12 @@ std::size_t terminal_columns(int descriptor) {
   return columns > 0 ? columns : kUsualColumns;
 }
 
+bool takes_control_sequences(int descriptor) {
+  const char* const kind = std::getenv("TERM");
+  return ::isatty(descriptor) == 1 && kind != nullptr && *kind != '\0' &&
+         std::string_view(kind) != "dumb";
+}
+
 std::size_t output_columns() {
   if (::isatty(STDOUT_FILENO) != 1) return 0;
   return std::max<std::size_t>(terminal_columns(STDOUT_FILENO), 2) - 1;

@@ -12,6 +12,9 @@ namespace deburr::tb {
 // Width from the terminal, else from the variable COLUMNS, else 80.
 std::size_t terminal_columns(int descriptor);
 
+// Whether control sequences may be written: a terminal, and TERM is set and not "dumb".
+bool takes_control_sequences(int descriptor);
+
 // Columns available for lines on standard output; 0 if it is not a terminal, so lines are not
 // limited. The last column stays free, because some terminals start a new line once it is filled.
 std::size_t output_columns();

@@ -125,7 +125,7 @@ void add_flicker(Result& result, const FlickerMeter& after, const FlickerMeter& 
                          "square of a pixel's change from frame to frame, minus the change of its "
                          "reference (without one, of the input)."});
   result.work.push_back(
-      {"flicker_worst", after.worst(), "1/255", "The same for the worst pair of frames."});
+      {"flicker_worst", after.worst(), "1/255", "Largest flicker between two successive frames."});
   const bool flickers = after.worst() > 0;
   result.work.push_back(
       {"flicker_worst_frame",

@@ -355,7 +355,8 @@ const std::vector<Calls::Call>& Calls::all() {
         const std::uint32_t texture = c.number();
         c.expect(golden,
                  texture == 99 ? deburr_check(golden) : deburr_texture_check(golden, texture));
-      }};
+      },
+      [](Calls& c) { c.give<std::uint32_t>(deburr_error_lines, c.handle()); }};
   return calls;
 }
 

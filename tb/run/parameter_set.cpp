@@ -353,6 +353,7 @@ std::vector<const Parameter*> ParameterSet::changed() const {
 }
 
 void ParameterSet::reject(std::string_view name, std::string_view why) const {
+  unused_.emplace(name);
   const auto given = given_.find(name);
   if (given == given_.end()) return;
   const Parameter& p = *find(name);

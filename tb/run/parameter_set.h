@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -124,10 +125,11 @@ class ParameterSet {
   // Origin of the value, for the manifest: "given", the preset that implied it, or "default".
   std::string_view origin(const Parameter& parameter) const;
   // Throws ConfigError if the parameter, which has no effect, was given. The default is allowed in
-  // a file, since a file may be a complete resolved configuration.
+  // a file, since a file may be a complete resolved configuration. Then has_effect() is false.
   void reject(std::string_view name, std::string_view why) const;
   // Applies reject() to every parameter whose name starts with `prefix`.
   void reject_all(std::string_view prefix, std::string_view why) const;
+  bool has_effect(std::string_view name) const { return !unused_.contains(name); }
   // Throws ConfigError for the first violated build constraint.
   void check_build() const;
   const std::vector<BuildLimit>& build_limits() const { return build_limits_; }
@@ -205,6 +207,7 @@ class ParameterSet {
   std::vector<BuildLimit> build_limits_;
   std::vector<std::function<void()>> build_checks_;
   std::map<std::string, Given, std::less<>> given_;
+  mutable std::set<std::string, std::less<>> unused_;  // names that reject() was called with
 };
 
 }  // namespace deburr::tb

@@ -22,6 +22,8 @@ constexpr std::size_t kLeastBar = 8, kMostBar = 24;
 std::string rate_text(double rate, std::string_view unit) {
   if (rate >= 1e6) return fmt::format("{:.2f} M{}/s", rate / 1e6, unit);
   if (rate >= 1e3) return fmt::format("{:.1f} k{}/s", rate / 1e3, unit);
+  if (rate <= 0) return "";
+  if (rate < 1) return fmt::format("{:.{}f} s/{}", 1 / rate, rate > 0.1 ? 1 : 0, unit);
   return fmt::format("{:.0f} {}/s", rate, unit);
 }
 
@@ -46,14 +48,16 @@ struct Parts {
   std::string start, rate, left;
 };
 Parts parts_of(std::string_view label, std::string_view unit, std::uint64_t done,
-               std::uint64_t total, double seconds) {
+               std::uint64_t total, double seconds, double idle) {
   const double fraction =
       total ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 1.0;
-  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  const double active = seconds - idle;
+  const double rate = active > 0 ? static_cast<double>(done) / active : 0;
   Parts parts{fmt::format("{}  {:3.0f} %", label, std::floor(fraction * 100)),
               rate_text(rate, unit), ""};
   if (rate > 0 && done < total)
-    parts.left = fmt::format("{} left", time_text(static_cast<double>(total - done) / rate));
+    if (const double left = static_cast<double>(total - done) / rate - idle; left > 0)
+      parts.left = fmt::format("{} left", time_text(left));
   return parts;
 }
 
@@ -84,15 +88,15 @@ std::string out_of_cycles(std::uint64_t cycles, std::uint64_t done, std::uint64_
 }
 
 std::string Progress::line(std::string_view label, std::string_view unit, std::uint64_t done,
-                           std::uint64_t total, double seconds) {
-  const Parts parts = parts_of(label, unit, done, total, seconds);
+                           std::uint64_t total, double seconds, double idle) {
+  const Parts parts = parts_of(label, unit, done, total, seconds, idle);
   return joined({parts.start, parts.rate, parts.left});
 }
 
 std::string Progress::fitted(std::size_t columns, std::string_view label, std::string_view unit,
                              std::uint64_t done, std::uint64_t total, double seconds,
-                             std::string_view note) {
-  const Parts parts = parts_of(label, unit, done, total, seconds);
+                             std::string_view note, double idle) {
+  const Parts parts = parts_of(label, unit, done, total, seconds, idle);
   const std::string whole = joined({parts.start, parts.rate, parts.left, note});
   constexpr std::size_t kFrame = 3;  // "[] "
   if (const std::size_t used = columns_of(whole) + kFrame; used + kLeastBar <= columns) {
@@ -114,9 +118,10 @@ Progress::Progress(std::string_view label, std::uint64_t total, std::string_view
       unit_(unit),
       total_(total),
       quiet_(quiet),
-      terminal_(::isatty(STDERR_FILENO) == 1),
+      terminal_(takes_control_sequences(STDERR_FILENO)),
       start_(Clock::now()),
-      last_(start_) {}
+      last_(start_),
+      grown_(start_) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) {
@@ -127,8 +132,8 @@ Progress::~Progress() {
 
 void Progress::update(std::uint64_t delivered, std::uint64_t taken) {
   if (quiet_) return;
-  done_ = done(delivered, taken);
   const Clock::time_point now = Clock::now();
+  if (const std::uint64_t known = done_; (done_ = done(delivered, taken)) != known) grown_ = now;
   if (now - last_ < (terminal_ ? Clock::duration(kTerminalPeriod) : kPlainPeriod)) return;
   show(done_, now);
 }
@@ -136,7 +141,7 @@ void Progress::update(std::uint64_t delivered, std::uint64_t taken) {
 Waiting::Waiting(std::string label, bool quiet)
     : label_(std::move(label)),
       quiet_(quiet),
-      terminal_(::isatty(STDERR_FILENO) == 1),
+      terminal_(takes_control_sequences(STDERR_FILENO)),
       start_(Clock::now()),
       last_(start_) {}
 
@@ -157,10 +162,11 @@ void Waiting::update() {
 void Progress::show(std::uint64_t done, Clock::time_point now) {
   last_ = now;
   shown_ = true;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  tell(terminal_
-           ? fmt::format("\r{}\033[K", fitted(room(), label_, unit_, done, total_, seconds, note_))
-           : joined({line(label_, unit_, done, total_, seconds), note_}) + "\n");
+  const double seconds = std::chrono::duration<double>(now - start_).count(),
+               idle = std::chrono::duration<double>(now - grown_).count();
+  tell(terminal_ ? fmt::format("\r{}\033[K",
+                               fitted(room(), label_, unit_, done, total_, seconds, note_, idle))
+                 : joined({line(label_, unit_, done, total_, seconds, idle), note_}) + "\n");
 }
 
 }  // namespace deburr::tb

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Progress of long work on the error stream. On a terminal: a bar with rate and remaining time,
-// fitted to the current width. Otherwise: a plain line every few seconds. Input that was taken
-// counts as half of the progress, since a pipeline that first buffers input delivers nothing for a
-// long time.
+// Progress of long work on the error stream. On a terminal that takes control sequences: a bar with
+// rate and remaining time, fitted to the current width. Otherwise: a plain line every few seconds.
+// Input that was taken counts as half of the progress, since a pipeline that first buffers input
+// delivers nothing for a long time.
 #pragma once
 
 #include <chrono>
@@ -33,14 +33,16 @@ class Progress {
   static std::uint64_t done(std::uint64_t delivered, std::uint64_t taken) {
     return delivered + (taken > delivered ? (taken - delivered) / 2 : 0);
   }
-  // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left".
+  // The line shown, for tests: "texture  42 %  1.2 Mfragment/s  3 s left". `idle`: seconds since
+  // `done` last grew. Rate and remaining time are those of that moment, and the remaining time is
+  // counted down from it: it does not rise while a slow item is under way.
   static std::string line(std::string_view label, std::string_view unit, std::uint64_t done,
-                          std::uint64_t total, double seconds);
+                          std::uint64_t total, double seconds, double idle = 0);
   // Fits that line into `columns`, with a bar before it and a note after it. In a narrow terminal
   // the bar is dropped first, then rate, remaining time and note; finally the line is truncated.
   static std::string fitted(std::size_t columns, std::string_view label, std::string_view unit,
                             std::uint64_t done, std::uint64_t total, double seconds,
-                            std::string_view note);
+                            std::string_view note, double idle = 0);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -51,7 +53,7 @@ class Progress {
   std::uint64_t done_ = 0;
   bool quiet_, terminal_;
   bool shown_ = false;
-  Clock::time_point start_, last_;
+  Clock::time_point start_, last_, grown_;
 };
 
 // Shows the elapsed time of work whose remaining amount is unknown, such as rendering a reference.

@@ -249,6 +249,10 @@ Outcome show_status(const PointOptions& options, const std::string& what, const 
                       {"running", slurm.running},
                       {"advice", slurm.advice}};
   }
+  if (status.seconds_per_point > 0) {
+    text += fmt::format("pace        {} s per point\n", tb::amount(status.seconds_per_point, 3));
+    details["seconds_per_point"] = status.seconds_per_point;
+  }
   if (!status.time_left.empty()) {
     text += fmt::format("time left   {}\n", status.time_left);
     details["time_left"] = status.time_left;

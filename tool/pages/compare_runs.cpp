@@ -119,7 +119,9 @@ Json parameters_of(const std::vector<Run>& runs) {
       if (std::none_of(values.begin(), values.end(),
                        [&](const auto& known) { return known.contains(name); }))
         all.push_back(entry);
-      values[i][name] = entry.contains("value") ? value_text(entry["value"]) : "-";
+      values[i][name] = !entry.value("effect", true) ? "no effect"
+                        : entry.contains("value")    ? value_text(entry["value"])
+                                                     : "-";
     }
   Json differing = Json::array();
   for (const Json& entry : all) {

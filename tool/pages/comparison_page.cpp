@@ -79,7 +79,7 @@ class ComparisonPage {
       data.set("command", text_of(input.value("command", Json())));
       list << data;
       HtmlCell path = text_of(input.at("path"));
-      if (&input == &inputs.front()) path.add(" " + muted("(baseline)"));
+      if (&input == &inputs.front()) path.add(" " + muted("baseline"));
       table.row({letter(input.at("name")), path,
                  HtmlCell(text_of(input.at("title")))
                      .add(" " + muted(text_of(input.value("summary", Json()))))});
@@ -137,16 +137,19 @@ class ComparisonPage {
     fill_pictures();
   }
 
-  // For each run after the first: what became better and worse.
+  // For each run after the first: what became better and worse, as the verdict counts it, and what
+  // costs more.
   void fill_tiles(const Json& runs) {
     mustache::data tiles{mustache::data::type::list};
     for (std::size_t i = 1; i < runs.size(); ++i) {
-      std::string better, worse;
+      std::string better, worse, cost;
       for (const Json& figure : comparison_.at("figures")) {
         const Json& checked = figure.at("cells").at(i);
         const std::string state = checked.value("judgement", "");
-        std::string& list = state == "better" ? better : worse;
         if (state != "better" && state != "worse") continue;
+        std::string& list = state == "better"               ? better
+                            : checked.value("worse", false) ? worse
+                                                            : cost;
         const std::string change = checked.value("change", "");
         list += (list.empty() ? "" : ", ") + figure.at("label").get<std::string>() +
                 (change.empty() ? "" : " " + change);
@@ -155,6 +158,8 @@ class ComparisonPage {
       tile.set("name", text_of(runs[i].at("name")) + " against " + text_of(runs[0].at("name")));
       tile.set("better", better.empty() ? "nothing" : better);
       tile.set("worse", worse.empty() ? "nothing" : worse);
+      tile.set("has_cost", !cost.empty());
+      tile.set("cost", cost);
       tiles << tile;
     }
     page_.set("tiles", tiles);
@@ -275,7 +280,7 @@ class ComparisonPage {
         const bool has_direction = !metrics[m].at("maximise").is_null();
         for (const char* key : {"better", "equal", "worse"})
           cells.emplace_back(has_direction ? figure_text(sum.at(key)) : "-");
-        if (sum.at("worse") != 0) cells.back().look = "worse";
+        if (sum.at("worse") != 0 && metrics[m].at("counts") == true) cells.back().look = "worse";
         for (const char* key : {"mean", "least", "most"})
           cells.emplace_back(sum.contains(key) ? fmt::format("{:+.2f} {}", sum[key].get<double>(),
                                                              sum["unit"].get<std::string>())

@@ -165,11 +165,22 @@ Json& RunContext::list(const fs::path& file, std::string_view content, std::stri
   return listed_->inputs.emplace_back(std::move(entry));
 }
 
+bool RunContext::writes_images() const {
+  const Parameter* wanted = parameters_.find("run.images");
+  return wanted == nullptr || wanted->text() != "false";
+}
+
+std::string RunContext::add_frame(int number, const tb::Image& image) {
+  if (!writes_images()) return "";
+  std::string file = fmt::format("frame_{:04}.png", number);
+  tb::write_file_atomically(directory_.draft() / file, listed_->png_of(image));
+  return file;
+}
+
 void RunContext::add_image(const std::string& name, const tb::Image& image, std::string title,
                            std::string caption) {
   check_declared(name, leaves_.pictures, "picture");
-  const Parameter* wanted = parameters_.find("run.images");
-  if (wanted != nullptr && wanted->text() == "false") return;
+  if (!writes_images()) return;
   tb::write_file_atomically(directory_.draft() / (name + ".png"), listed_->png_of(image));
   listed_->images.push_back({{"file", name + ".png"},
                              {"role", name},
@@ -274,6 +285,7 @@ Json RunContext::manifest(const tb::Result& result) const {
                                   {"range", p.range},
                                   {"unit", p.unit},
                                   {"meaning", p.meaning}});
+    if (!parameters_.has_effect(p.name)) json["parameters"].back()["effect"] = false;
     if (p.work != tb::GivenWork::kNone)
       json["parameters"].back()["work"] = std::string(name_of(p.work, tb::kGivenWorkNames));
   }

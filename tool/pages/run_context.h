@@ -104,6 +104,9 @@ class RunContext {
   // pictures that the run may write.
   void add_image(const std::string& name, const tb::Image& image, std::string title,
                  std::string caption);
+  // Writes frame_NNNN.png, the output for a frame of a sequence; returns the file's name, or
+  // nothing without pictures.
+  std::string add_frame(int number, const tb::Image& image);
   // Writes map_NAME.png, which is listed for the report, and map_NAME.pfm. NAME must be one of the
   // maps that the run may write.
   void add_map(const tb::PictureMap& map);
@@ -117,6 +120,7 @@ class RunContext {
   const std::string& command() const { return command_; }
 
  private:
+  bool writes_images() const;
   std::filesystem::path draft_file(const char* name) const;
   nlohmann::ordered_json& list(const std::filesystem::path& file, std::string_view content,
                                std::string_view role);

@@ -46,7 +46,7 @@ Json read_json(const fs::path& file) {
 // The files listed in a manifest, in order. Only names that a run can have written are returned,
 // since a manifest of unknown origin must not cause other files to be deleted.
 std::vector<std::string> files_of(const fs::path& manifest) {
-  constexpr std::array<std::string_view, 6> kExtensions = {".png",  ".pfm", ".json",
+  constexpr std::array<std::string_view, 7> kExtensions = {".png",  ".pfm", ".json", ".csv",
                                                            ".html", ".vcd", ".trace"};
   std::vector<std::string> names;
   const Json json = read_json(manifest);

@@ -311,6 +311,7 @@ mustache::data data_of(const Json& feature, HtmlTable& rates) {
     bins += covered.at("bins").get<std::uint64_t>();
     hit += covered.at("hit").get<std::uint64_t>();
   }
+  data.set("has_traces", traces.is_non_empty_list());
   data.set("traces", traces);
   data.set("has_checks", all_checks > 0);
   data.set("checks", checks);

@@ -64,6 +64,14 @@ class Pages {
     return entry->second ? &*entry->second : nullptr;
   }
   const std::vector<fs::path>& found() const { return found_; }
+  // Whether there is documentation above the testplan.
+  bool any() const {
+    for (fs::path folder = folder_;; folder = folder.parent_path()) {
+      std::error_code error;
+      if (fs::is_directory(folder / "docs", error)) return true;
+      if (folder == folder.parent_path()) return false;
+    }
+  }
 
  private:
   std::optional<std::vector<std::string>> read(const fs::path& page) {
@@ -136,6 +144,7 @@ class TestplanFile {
   }
 
   const std::vector<fs::path>& pages() const { return pages_.found(); }
+  bool needs_traces() const { return pages_.any(); }
 
   void read(const PendingGlob& glob, Testplan& plan) const {
     const std::string where = yaml_.where(glob.node);
@@ -218,7 +227,7 @@ class TestplanFile {
     feature.id = name_of(node, "id");
     feature.title = text_of(node, "title");
     // Included files may supply missing keys.
-    if (!includes_ || node["traces"]) read_traces_of(node, feature);
+    if (node["traces"] || (!includes_ && needs_traces())) read_traces_of(node, feature);
     if (!includes_ || node["stimuli"]) read_stimuli_of(node, feature);
     if (!includes_ && !node["checks"] && !node["coverage"])
       yaml_.fail(
@@ -403,6 +412,7 @@ Testplan read_testplan(const fs::path& file) {
   };
   TestplanFile whole = open(file);
   plan.included = whole.read_whole(plan);
+  const bool needs_traces = whole.needs_traces();
   note_pages(whole);
   for (const fs::path& included : plan.included) {
     TestplanFile part = open(included);
@@ -425,7 +435,7 @@ Testplan read_testplan(const fs::path& file) {
                       feature.id, what));
   };
   for (const Feature& feature : plan.features) {
-    require(!feature.traces.empty(), feature, "traces");
+    require(!feature.traces.empty() || !needs_traces, feature, "traces");
     require(!feature.stimuli.empty(), feature, "stimuli");
     require(!feature.checks.empty() || !feature.coverage.empty(), feature, "checks");
   }

@@ -63,7 +63,8 @@ struct Testplan {
 //
 // ConfigError with file and line for every invalid entry: unknown keys and parameters, duplicate
 // features and stimuli, headings missing in their page, unknown bins. Pages are searched for in the
-// testplan's folder and its parents. Every file may have `coverage` and `unmet` of the whole plan.
+// testplan's folder and its parents; if none of these has a folder docs, 'traces' may be missing.
+// Every file may have `coverage` and `unmet` of the whole plan.
 Testplan read_testplan(const std::filesystem::path& file);
 
 // A subset of the runs of the whole plan: for each configuration one seed in `divisor`, but at

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
 #include "tb/run/progress.h"
 #include "tb/scene/quality.h"
+#include "tool/run/pictures.h"
 
 namespace deburr::tool {
 std::vector<Shorthand> sequence_shorthands() {
@@ -27,11 +30,32 @@ int frames_of(const tb::ParameterSet& set, const tb::SequenceParameters& sequenc
   return sequence.frames;
 }
 
-void measure_flicker(int frames, const RunContext& context, tb::Result& result,
+namespace {
+
+// A row of frames.csv; figures of an unknown reference are empty.
+std::string row_of(int frame, const std::string& file, const SequencePicture& picture) {
+  std::string row = fmt::format("{},{}", frame, file);
+  tb::Quality quality;
+  if (!picture.reference.empty())
+    quality = measure_quality("", picture.before, picture.after, picture.reference, nullptr);
+  for (const std::optional<double>& figure :
+       {quality.psnr_db, quality.psnr_before_db, quality.psnr_edge_db, quality.psnr_edge_before_db,
+        quality.flip, quality.flip_before, quality.ssim, quality.ssim_before})
+    row += figure ? fmt::format(",{}", *figure) : ",";
+  return row + "\n";
+}
+
+}  // namespace
+
+void measure_flicker(int frames, RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture) {
   tb::Progress progress("flicker", static_cast<std::uint64_t>(frames), "picture", context.quiet());
   tb::FlickerMeter after, before;
   bool reference = true;
+  std::string first, last;  // files
+  std::string rows =
+      "frame,file,psnr_db,psnr_before_db,psnr_edge_db,psnr_edge_before_db,flip,flip_before,ssim,"
+      "ssim_before\n";
   try {
     for (int i = 0; i < frames; ++i) {
       progress.update(static_cast<std::uint64_t>(i));
@@ -44,6 +68,9 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                         i, now.after.width, now.after.height, after.width(), after.height()));
       const tb::Mask drawn = now.drawn ? *now.drawn : tb::FlickerMeter::everywhere(now.after);
       reference = reference && !now.reference.empty();
+      last = context.add_frame(i, now.after);
+      if (i == 0) first = last;
+      rows += row_of(i, last, now);
       if (now.reference.empty()) now.reference = now.before;
       after.add(std::move(now.after), now.reference, drawn);
       before.add(std::move(now.before), now.reference, drawn);
@@ -52,6 +79,7 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
     result.interrupted = true;
     return;
   }
+  context.add_record("frames", "frames.csv", rows);
   add_flicker(result, after, before);
   result.terminal.push_back(
       {"flicker", fmt::format("{:.2f}/255 over {} frames{}, {}", after.mean(), frames,
@@ -60,9 +88,12 @@ void measure_flicker(int frames, const RunContext& context, tb::Result& result,
                                                 : "",
                               reference ? fmt::format("against {:.2f} of the input", before.mean())
                                         : "beyond that of the input")});
+  if (!last.empty())
+    result.terminal.push_back(
+        {"frames", fmt::format("{} to {}, their quality in frames.csv", first, last)});
   result.figures.push_back(
       {reference ? "Flicker over the frames" : "Flicker beyond that of the input", "work.flicker",
-       "worst pair of frames", "work.flicker_worst"});
+       "largest between two successive frames", "work.flicker_worst"});
   if (reference)
     result.figures.push_back(
         {"Flicker, compared with the input", "work.flicker", "went in", "work.flicker_before"});

@@ -35,9 +35,10 @@ struct SequencePicture {
   tb::Image reference;              // empty: unknown
   std::optional<tb::Mask> drawn{};  // measured pixels; nullopt: all
 };
-// Adds work and figures to the result. ConfigError if frames differ in size. Ctrl-C cancels the
-// measurement, and the result is marked.
-void measure_flicker(int frames, const RunContext& context, tb::Result& result,
+// Adds work and figures to the result, and writes each output frame and frames.csv, with the
+// quality of each. ConfigError if frames differ in size. Ctrl-C cancels the measurement, and the
+// result is marked.
+void measure_flicker(int frames, RunContext& context, tb::Result& result,
                      const std::function<SequencePicture(int)>& picture);
 
 }  // namespace deburr::tool

@@ -2,6 +2,7 @@
 #include "tool/sweep/status.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -34,18 +35,24 @@ std::string in_words(double time) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-// At the rate of the most recently started run.
-std::string time_left(const SweepPlace& place) {
+// At the pace of the most recently started run. A worker notes the end of a point together with the
+// start of its next one, so the last note is about as old as the last result. The time left is
+// counted down from there: it does not rise while slow points run.
+void estimate(const SweepPlace& place, Status& status) {
   std::error_code error;
   const auto ended = static_cast<double>(read_progress(place.directory).ended());
-  if (ended == 0 || !fs::exists(start_file(place), error)) return "";
+  if (ended == 0 || !fs::exists(start_file(place), error)) return;
   const auto start = tb::try_parse_json(tb::read_file(start_file(place), 1 << 16));
-  if (!start.is_object()) return "";
-  const double passed =
+  struct stat noted {};
+  if (!start.is_object() || ::stat(progress_file(place.directory).c_str(), &noted) != 0) return;
+  const auto last = static_cast<double>(noted.st_mtime);
+  const double idle =
       static_cast<double>(duration_cast<seconds>(system_clock::now().time_since_epoch()).count()) -
-      start.value("began", 0.0);
-  const double rest = start.value("points", 0.0) - ended;
-  return rest > 0 ? in_words(passed / ended * rest) : "";
+      last;
+  status.seconds_per_point = std::max(0.0, last - start.value("began", last)) / ended;
+  const double left =
+      status.seconds_per_point * (start.value("points", 0.0) - ended) - std::max(0.0, idle);
+  if (left > 0) status.time_left = in_words(left);
 }
 
 }  // namespace
@@ -72,7 +79,7 @@ Status look(const SweepPlace& place, const Plan& plan) {
         break;
     }
   });
-  if (status.running > 0) status.time_left = time_left(place);
+  if (status.running > 0) estimate(place, status);
   return status;
 }
 

@@ -20,7 +20,9 @@ struct FailedPoint {
 struct Status {
   std::uint64_t done = 0, running = 0, failed = 0, missing = 0;
   std::vector<FailedPoint> failures;  // the first ones
-  std::string time_left;              // of a run in progress; empty: none
+  // Of a run in progress; 0 and empty: unknown.
+  double seconds_per_point = 0;
+  std::string time_left;
 };
 // `plan` is the plan stored at `place`.
 Status look(const SweepPlace& place, const Plan& plan);

@@ -39,6 +39,11 @@ int deburr_dpi_counter_name(void* golden, uint32_t index, const char** text) {
   return deburr_counter_name((deburr_golden*)golden, index, text_of_thread, sizeof text_of_thread);
 }
 
+int deburr_dpi_error_lines(void* golden, const svOpenArrayHandle lines) {
+  return deburr_error_lines((deburr_golden*)golden,
+      (const uint32_t*)svGetArrayPtr(lines), (size_t)svSize(lines, 1));
+}
+
 int deburr_dpi_frame_pixels(void* golden, const svOpenArrayHandle pixels, uint32_t stride) {
   return deburr_frame_pixels((deburr_golden*)golden,
       (const uint8_t*)svGetArrayPtr(pixels), (size_t)svSize(pixels, 1), stride);

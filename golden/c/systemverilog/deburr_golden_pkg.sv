@@ -53,6 +53,12 @@ package deburr_golden_pkg;
   import "DPI-C" deburr_dpi_counter_name = function int deburr_counter_name(input chandle golden,
       input int unsigned index, output string text);
 
+  // Memory lines that memory answers with an error: their bytes read as zero. They are addresses, or
+  // line numbers for an engine whose functions return line numbers. They replace earlier ones, apply
+  // from the next quad or frame on, and remain until the next call; lines_size 0: no errors.
+  import "DPI-C" deburr_dpi_error_lines = function int deburr_error_lines(input chandle golden,
+      input int unsigned lines[]);
+
   // Acts like a hardware reset: clears counters and caches, and drops the frame. Parameters, memory
   // and its contents are kept.
   import "DPI-C" function int deburr_reset(input chandle golden);
@@ -160,6 +166,11 @@ package deburr_golden_pkg;
 
   // Returns NULL if out of memory.
   import "DPI-C" function chandle deburr_geometric_new();
+
+  // Sets the base address of a region of memory, a multiple of 64, by its name; initially 0. It
+  // decides which reads deburr_error_lines hits.
+  import "DPI-C" function int deburr_geometric_base(input chandle golden, input string region,
+      input int unsigned address);
 
   // Inputs of the frame, in the layout of memory: four words per vertex, four words per edge, one
   // facing bit per face. They are kept until they are replaced.

@@ -201,6 +201,12 @@ TEST_F(TestplanParts, DividedPlanHasFewerSeedsAndItsOwnFolder) {
 )");
 }
 
+TEST_F(TestplanParts, TracesAreOptionalWithoutDocumentation) {
+  write("t.yaml", patched("-traces"));
+  EXPECT_THAT(result("regress t.yaml plan --seed 3"),
+              testing::HasSubstr("PASS regression t --seed 3"));
+}
+
 TEST_F(TestplanParts, RunsHaveDerivedSeedsAndDrawnConfigurations) {
   write("docs/unit.md", "# Unit\n");
   write("t.yaml",

@@ -474,13 +474,31 @@ TEST_F(Runs, IdenticalPictureIsLabelled) {
   EXPECT_TRUE(compare_runs(paths({"b", "c"}), {})["values"].empty());
 }
 
+TEST_F(Runs, ParametersWithoutEffectAreNotListed) {
+  const auto values = [&](bool in_a, bool in_b) {
+    for (const auto& [name, ways, effect] :
+         {std::tuple("a", "2", in_a), std::tuple("b", "4", in_b)}) {
+      Json manifest = leave(name, 1000, ways);
+      if (!effect) manifest["parameters"][0]["effect"] = false;
+      put(fs::path(name) / "manifest.json", manifest.dump());
+    }
+    const Json all = compare_runs(paths({"a", "b"}), {})["parameters"];
+    return all.empty() ? Json() : all[0]["values"];
+  };
+  EXPECT_EQ(values(true, true), (Json{"2", "4"}));
+  EXPECT_EQ(values(true, false), (Json{"2", "no effect"}));
+  EXPECT_EQ(values(false, false), Json());
+}
+
 TEST_F(Runs, PageIsSelfContainedAndEscapes) {
   leave("a", 1000, "2");
-  leave("b", 900, "<4>");
+  leave("b", 900, "<4>", 1024);
   const std::string page = comparison_page(compare_runs(paths({"a", "b"}), {}));
   EXPECT_THAT(page, HasSubstr("&lt;4&gt;"));
   EXPECT_THAT(page, HasSubstr("Hits &lt;b&gt;."));
   EXPECT_THAT(page, HasSubstr("<b>Better:</b> Cycles -10.00 %"));
+  EXPECT_THAT(page, HasSubstr("<b>Worse:</b> nothing</p><p><b>Higher cost, not judged:</b> Memory, "
+                              "physical +"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
   EXPECT_THAT(page, HasSubstr("nothing is worse"));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
@@ -539,7 +557,7 @@ TEST_F(Runs, PageShowsEveryKindOfCell) {
          {"label", "PSNR"},
          {"unit", "dB"},
          {"meaning", "Peak."},
-         {"cells", {cell(30.5, "", ""), same, cell(20.25, "-10.25 dB", "worse")}}},
+         {"cells", {cell(30.5, "", ""), same, cell(20.25, "-10.25 dB", "worse", true)}}},
         {{"key", "work.rate"},
          {"label", "Rate"},
          {"unit", ""},
@@ -557,7 +575,7 @@ Arun, Brun, Crun|badge fail|worse
 Look.
 Parameters|Figures|Pictures|Values|Commands
 Directory|Title
-A|out/Arun|(baseline)|Title A|of it
+A|out/Arun|baseline|Title A|of it
 B|out/Brun|Title B|of it
 C|out/Crun|Title C|of it
 --columns: 2
@@ -573,7 +591,7 @@ ways|2|other|4|2|way|Ways.
 Figures
 Figure|A|B|C|Unit|Meaning
 Cycles|1,000|width: 80.0%|better|800|-20.00 %|width: 64.0%|worse fails|1,250|+25.00 %|width: 100.0%|clk|All.
-PSNR|30.5|better|identical|worse|20.25|-10.25 dB|dB|Peak.
+PSNR|30.5|better|identical|worse fails|20.25|-10.25 dB|dB|Peak.
 Rate|-2.5|width: 0.2%|-|equal|1,234.6|width: 100.0%|R.
 Green is better and red is worse than A by more than the tolerance, bold where it fails the comparison;
 bars are relative to the row's largest value.
@@ -753,7 +771,7 @@ comparison of sweeps · texture
 A, B|badge fail|worse
 Parameters|Common points|Fronts|Matched points|Other points
 Directory|Title
-A|out/A|(baseline)|Cache|3 points, 3 done, 1 on its front, 1 on the joint front
+A|out/A|baseline|Cache|3 points, 3 done, 1 on its front, 1 on the joint front
 B|out/B|Cache|4 points, 4 done, 1 on its front, 1 on the joint front
 Different parameters, except the axes
 Parameter|A|B

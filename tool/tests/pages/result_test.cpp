@@ -934,7 +934,14 @@ TEST(Progress, ShowsRateAndTimeLeft) {
             "texture   50 %  2.00 Mfragment/s  0 s left");
   EXPECT_EQ(Progress::line("x", "y", 100, 4000, 10), "x    2 %  10 y/s  6 min 30 s left");
   EXPECT_EQ(Progress::line("x", "y", 10, 10, 1), "x  100 %  10 y/s");
-  EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %  0 y/s");
+  EXPECT_EQ(Progress::line("x", "y", 0, 10, 0), "x    0 %");
+}
+
+TEST(Progress, SlowItemsHaveSecondsPerItemAndFallingEstimate) {
+  EXPECT_EQ(Progress::line("x", "y", 2, 6, 15), "x   33 %  7.5 s/y  30 s left");
+  EXPECT_EQ(Progress::line("x", "y", 2, 6, 25, 10), "x   33 %  7.5 s/y  20 s left");
+  EXPECT_EQ(Progress::line("x", "y", 2, 6, 50, 35), "x   33 %  7.5 s/y") << "overdue";
+  EXPECT_EQ(Progress::line("x", "y", 1, 2, 90), "x   50 %  90 s/y  1 min 30 s left");
 }
 
 TEST(Progress, ShowsTimesInTwoUnits) {
@@ -943,9 +950,9 @@ TEST(Progress, ShowsTimesInTwoUnits) {
   };
   EXPECT_EQ(left(59.4), "x    0 %  2 y/s  59 s left");
   EXPECT_EQ(left(59.6), "x    0 %  2 y/s  1 min 00 s left");
-  EXPECT_EQ(left(3599.4), "x    0 %  0 y/s  59 min 59 s left");
-  EXPECT_EQ(left(3600), "x    0 %  0 y/s  1 h 00 min left");
-  EXPECT_EQ(left(7 * 3600 + 5 * 60 + 59), "x    0 %  0 y/s  7 h 05 min left");
+  EXPECT_EQ(left(3599.4), "x    0 %  36 s/y  59 min 59 s left");
+  EXPECT_EQ(left(3600), "x    0 %  36 s/y  1 h 00 min left");
+  EXPECT_EQ(left(7 * 3600 + 5 * 60 + 59), "x    0 %  256 s/y  7 h 05 min left");
   EXPECT_EQ(Progress::line("x", "y", 999, 1000, 1), "x   99 %  999 y/s  0 s left")
       << "not before all are done";
   EXPECT_EQ(Progress::line("x", "y", 1000, 1000, 1), "x  100 %  1.0 ky/s");

@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "spec/error.h"
+#include "tb/base/file.h"
 #include "tb/base/interrupt.h"
 
 namespace deburr::tool::flicker_test {
@@ -30,14 +33,28 @@ struct Frame {
   std::optional<tb::Mask> drawn{};
 };
 
+// A directory for the files of a run.
+struct Folder {
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "deburr-XXXXXX").string();
+    path = ::mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
 struct Measured {
   tb::Result result;
   std::map<std::string, double> work;
+  std::string rows;          // of frames.csv
+  std::size_t pictures = 0;  // frame_NNNN.png
 };
 Measured measured(const std::vector<Frame>& frames) {
+  const Folder folder;
   const tb::ParameterSet set;
-  RunContext context("", set, "", 1);
+  RunContext context(folder.path, set, "", 1);
   context.set_quiet(true);
+  context.claim();
   Measured m;
   std::vector<int> asked;
   measure_flicker(static_cast<int>(frames.size()), context, m.result, [&](int i) {
@@ -46,6 +63,10 @@ Measured measured(const std::vector<Frame>& frames) {
     return SequencePicture{frame.before, frame.after, frame.reference, frame.drawn};
   });
   for (std::size_t i = 0; i < asked.size(); ++i) EXPECT_EQ(asked[i], static_cast<int>(i));
+  const auto draft = folder.path / ".deburr_run";
+  m.rows = tb::read_file(draft / "frames.csv", 1 << 20);
+  for (const auto& entry : std::filesystem::directory_iterator(draft))
+    if (entry.path().extension() == ".png") ++m.pictures;
   for (const tb::WorkItem& item : m.result.work) {
     if (const auto* real = std::get_if<double>(&item.value)) m.work[item.name] = *real;
     if (const auto* whole = std::get_if<std::uint64_t>(&item.value))
@@ -66,7 +87,9 @@ TEST(Flicker, ComparesEachPairOfFramesWithItsReference) {
   EXPECT_DOUBLE_EQ(m.work.at("flicker_worst"), std::sqrt(18.0));
   EXPECT_EQ(m.work.at("flicker_worst_frame"), 2);
   EXPECT_DOUBLE_EQ(m.work.at("flicker_before"), std::sqrt((100.0 / 2 + 0 + 400.0 / 2) / 3));
-  ASSERT_EQ(m.result.terminal.size(), 1u);
+  ASSERT_EQ(m.result.terminal.size(), 2u);
+  EXPECT_EQ(m.result.terminal[1].text,
+            "frame_0000.png to frame_0003.png, their quality in frames.csv");
   EXPECT_EQ(m.result.terminal[0].text,
             "3.19/255 over 4 frames (worst 4.24, at frame 2), against 9.13 of the input");
   ASSERT_EQ(m.result.figures.size(), 2u);
@@ -74,6 +97,16 @@ TEST(Flicker, ComparesEachPairOfFramesWithItsReference) {
   EXPECT_EQ(m.result.figures[0].against, "work.flicker_worst");
   EXPECT_EQ(m.result.figures[1].against, "work.flicker_before");
   EXPECT_FALSE(m.result.interrupted);
+}
+
+TEST(Flicker, WritesEveryFrameWithItsQuality) {
+  const tb::Image before(16, 16, {100, 100, 100, 255}), reference(16, 16, {110, 110, 110, 255});
+  const Measured m = measured({{before, reference, reference}, {before, before, {}}});
+  EXPECT_EQ(m.pictures, 2u);
+  EXPECT_THAT(m.rows, testing::StartsWith("frame,file,psnr_db,psnr_before_db,"));
+  // 20 lg(255 / 10)
+  EXPECT_THAT(m.rows, testing::HasSubstr("\n0,frame_0000.png,inf,28.13"));
+  EXPECT_THAT(m.rows, testing::EndsWith("\n1,frame_0001.png,,,,,,,,\n"));
 }
 
 // Frames without a reference use the input instead.
@@ -113,9 +146,11 @@ TEST(Flicker, RejectsFramesOfDifferentSizes) {
 }
 
 TEST(Flicker, InterruptedRunHasNoFigures) {
+  const Folder folder;
   const tb::ParameterSet set;
-  RunContext context("", set, "", 1);
+  RunContext context(folder.path, set, "", 1);
   context.set_quiet(true);
+  context.claim();
   tb::Result result;
   measure_flicker(3, context, result, [&](int i) -> SequencePicture {
     if (i == 2) throw tb::Interrupted();

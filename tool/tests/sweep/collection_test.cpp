@@ -4,8 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -13,7 +15,9 @@
 #include <vector>
 
 #include "spec/error.h"
+#include "tool/pages/run_directory.h"
 #include "tool/sweep/status.h"
+#include "tool/sweep/worker.h"
 #include "tool/tests/sweep/kept_points.h"
 
 namespace deburr::tool::collection_test {
@@ -301,6 +305,32 @@ TEST_F(SweepCollection, StatusCountsStatesAndShowsFirstFailures) {
   EXPECT_EQ(status.failures.front().arguments,
             "run texture --set run.images=false --set scene.width=32 --set texture.cache.ways=2");
   EXPECT_EQ(status.time_left, "") << "nobody is at it";
+}
+
+// Two of fourteen points ended within 75 s, and the third has been running for 60 s since then: the
+// time left falls while it runs.
+TEST_F(SweepCollection, StatusGivesPaceAndFallingTimeLeft) {
+  plan(kSweep, {{"10", Sample{kWide, "2"}}});
+  RunDirectory running(folder_of("10"));
+  running.claim("deburr run", {}, IfTaken::kReject);
+  std::filesystem::create_directories(place().directory);
+  const auto now = std::chrono::duration_cast<std::chrono::seconds>(
+                       std::chrono::system_clock::now().time_since_epoch())
+                       .count();
+  std::ofstream(place().directory / "start.json")
+      << nlohmann::ordered_json{{"began", now - 135}, {"points", 14}}.dump();
+  const std::filesystem::path file = progress_file(place().directory);
+  std::ofstream(file) << ">.>x>";
+  const auto idle = [&](int seconds) {
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() - std::chrono::seconds(seconds));
+    return look(place(), plan_);
+  };
+  const Status status = idle(60);
+  EXPECT_EQ(status.running, 1u);
+  EXPECT_NEAR(status.seconds_per_point, 37.5, 1);
+  EXPECT_EQ(status.time_left, "6 min");  // 12 points of 37.5 s, less 60 s
+  EXPECT_EQ(idle(130).time_left, "") << "overdue";
 }
 
 // ---- inputs -----------------------------------------------------------------------------------

@@ -6,9 +6,11 @@ the golden model's picture equal to the hardware's, errors in the command's word
 usage: python_run_test.py MODULES [CLASS]"""
 import builtins
 import csv
+import gc
 import json
 import os
 import pathlib
+import pickle
 import re
 import signal
 import subprocess
@@ -134,6 +136,25 @@ class Runs(Scratch):
         self.assertTrue((directory / "report.html").exists())
         del run
         self.assertFalse(directory.exists())
+
+    def test_runs_and_errors_can_be_pickled(self):
+        run = deburr.run("texture", **TINY, windows=500, maps=True)
+        copy = pickle.loads(pickle.dumps(run))
+        self.assertIsInstance(copy, deburr.Run)
+        directory, maps, pictures = run.directory, dict(run.maps), dict(run.pictures)
+        figures, intervals = repr(run.as_dict()), repr(run.intervals.as_dict())
+        del run
+        gc.collect()
+        self.assertFalse(directory.exists())
+        self.assertEqual((repr(copy.as_dict()), repr(copy.intervals.as_dict())), (figures, intervals))
+        self.assertEqual((list(copy.maps), list(copy.pictures)), (list(maps), list(pictures)))
+        self.assertTrue((copy.pictures["after"] == pictures["after"]).all())
+        self.assertIn("[line/texel]", copy.explain("work.misses_per_texel"))
+        with self.assertRaises(deburr.RunError) as caught:
+            deburr.run("texture", **TINY, fault="flip-bit")
+        error = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(error), error.code, error.result.cycles),
+                         (str(caught.exception), caught.exception.code, caught.exception.result.cycles))
 
     def test_parallel_runs(self):
         found = {}

@@ -4,6 +4,7 @@
 flicker equals the one computed here from the pictures of one run per frame.
 
 usage: sequence_test.py DEBURR [CLASS]"""
+import csv
 import json
 import os
 import pathlib
@@ -171,6 +172,16 @@ class Images(SequenceTest):
                    [read_png(self.path("t_" + name)) for name in self.NAMES])
         with open(self.path("all/report.html"), encoding="utf-8") as file:
             self.assertIn("Flicker over the frames", file.read())
+        # Every frame is left, with its quality: that of frame 0 is the result's.
+        with open(self.path("all/frames.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([read_png(self.path(f"all/{row['file']}")) for row in rows], self.pictures("one", 3))
+        for key in ("psnr_db", "psnr_before_db", "psnr_edge_db", "psnr_edge_before_db", "flip", "ssim", "ssim_before"):
+            self.assertEqual(float(rows[0][key]), result["quality"][key])
+        self.result(self.ENGINE, "all", "--in", "f1.png;f2.png", "--no-images")
+        self.assertFalse(list(pathlib.Path(self.path("all")).glob("*.png")), "of the run before")
+        with open(self.path("all/frames.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.read().splitlines()[1:], ["0,,,,,,,,,", "1,,,,,,,,,"])
 
     def test_list_in_configuration_equals_command_line(self):
         with open(self.path("run.yaml"), "w", encoding="utf-8") as file:

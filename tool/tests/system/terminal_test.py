@@ -412,7 +412,7 @@ class Bar(Many):
         """Everything written to a terminal of this width; `resized` to another width after the first bytes."""
         mine, its = pty.openpty()
         self.resize(its, columns)
-        environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"} | (variables or {})
+        environment = {k: v for k, v in os.environ.items() if k != "COLUMNS"} | {"TERM": "xterm"} | (variables or {})
         process = subprocess.Popen([DEBURR, *arguments], cwd=self.directory, env=environment,
                                    stdin=its, stdout=subprocess.DEVNULL, stderr=its)
         os.close(its)
@@ -466,11 +466,19 @@ class Bar(Many):
         self.assertEqual(screen.wraps, 0, screen.rows)
         self.assertIn("rendering reference", screen.rows)
 
+    def test_no_control_sequences_on_a_dumb_terminal(self):
+        for terminal in ("dumb", ""):
+            text = "".join(self.run_on(80, *self.COMMANDS[0][1], "--out", f"out_{terminal}",
+                                       variables={"TERM": terminal}))
+            self.assertNotIn("\033", text)
+            self.assertNotIn("\r", text.replace("\r\n", ""))
+        self.assertIn("\033", "".join(self.run_on(80, *self.COMMANDS[0][1])))
+
     def test_message_after_search_starts_a_row(self):
         mine, its = pty.openpty()
         self.resize(its, 120)
         process = subprocess.Popen([DEBURR, "search", "cache.yaml", "run", "-j1", "--runs", "8"], cwd=self.directory,
-                                   stdin=its, stdout=its, stderr=its)
+                                   env=os.environ | {"TERM": "xterm"}, stdin=its, stdout=its, stderr=its)
         os.close(its)
         text = ""
         while True:

@@ -186,6 +186,8 @@ TEST(Calls, NullHandlesAreErrors) {
       deburr_counter_count(nullptr, &number),
       deburr_counter_name(nullptr, 0, text, sizeof text),
       deburr_reset(nullptr),
+      deburr_error_lines(nullptr, &word, 1),
+      deburr_geometric_base(nullptr, "depth", 0),
       deburr_texture_memory(nullptr, 64),
       deburr_texture_write(nullptr, 0, &byte, 1),
       deburr_texture_read(nullptr, 0, out, 1),
@@ -233,6 +235,8 @@ TEST(Calls, NullArgumentsAreErrors) {
     rejected("name is NULL", deburr_get(golden, nullptr, text, sizeof text));
     rejected("text is NULL", deburr_get(golden, "preset", nullptr, 10));
     rejected("count is NULL", deburr_parameter_count(golden, nullptr));
+    rejected("lines is NULL", deburr_error_lines(golden, nullptr, 1));
+    EXPECT_EQ(deburr_error_lines(golden, nullptr, 0), DEBURR_OK);
     rejected("text is NULL", deburr_parameter_name(golden, 0, nullptr, 10));
     rejected("count is NULL", deburr_counter_count(golden, nullptr));
     rejected("name is NULL", deburr_counter(golden, nullptr, &value));

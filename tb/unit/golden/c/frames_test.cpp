@@ -230,6 +230,36 @@ TEST(Morphological, UsesGivenDepthAndEdges) {
   expect_same(handle.get(), golden);
 }
 
+// Every third line; they apply until the next call, also in later frames and after a reset.
+TEST(Morphological, LinesWithErrorsReadAsZero) {
+  const Image image = tb::stimuli::rendered_like(90, 70, 30);
+  const golden::morphological::ImageView view(image.pixels, image.width, image.height);
+  spec::morphological::Parameters parameters;
+  parameters.storage = spec::morphological::Storage::kMemory;
+  MorphologicalGolden golden(parameters), clean(parameters);
+  golden.set_read_errors([](std::uint32_t address) { return address / 64 % 3 == 0; });
+  golden.process(view);
+  clean.process(view);
+  EXPECT_GT(golden.memory_errors(), 100u);
+  std::vector<std::uint32_t> lines;
+  for (std::uint32_t i = 0; i < 1000; i += 3) lines.push_back(64 * i);
+  const Handle handle(deburr_morphological_new());
+  expect_ok(handle, deburr_set(handle.get(), "storage", "memory"));
+  const auto pixels = [&] {
+    begin_frame(handle.get(), image, 0);
+    expect_ok(handle, deburr_frame_process(handle.get()));
+    return plane_of(handle.get(), "pixels", 0);
+  };
+  EXPECT_EQ(pixels(), bytes_of(clean.pixels()));
+  expect_ok(handle, deburr_error_lines(handle.get(), lines.data(), lines.size()));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(pixels(), bytes_of(golden.pixels()));
+    expect_ok(handle, deburr_reset(handle.get()));
+  }
+  expect_ok(handle, deburr_error_lines(handle.get(), nullptr, 0));
+  EXPECT_EQ(pixels(), bytes_of(clean.pixels()));
+}
+
 // ---- geometric ----------------------------------------------------------------------------------
 
 struct Words {
@@ -270,8 +300,18 @@ TEST(Geometric, FramesMatchGoldenWithEveryPreset) {
     input.edges = frame.edges;
     input.vertices = frame.vertices;
     input.facing = {words.facing, faces};
+    // Two of the lines with depths read as zero.
+    input.bases.depth = 0x40000;
+    input.bases.colour = 0x80000;
+    const std::vector<std::uint32_t> lines = {0x40040, 0x40100};
+    const auto bad = [&](std::uint32_t a) { return a == lines[0] || a == lines[1]; };
     golden.process(input);
     EXPECT_GT(golden.work().blended_pixels, 50u);
+    GeometricGolden failing(
+        spec::geometric::preset_parameters(static_cast<spec::geometric::Preset>(i)));
+    failing.set_memory_errors(bad);
+    failing.process(input);
+    EXPECT_NE(failing.weights(), golden.weights());
 
     const Handle handle(deburr_geometric_new());
     expect_ok(handle, deburr_set(handle.get(), "geometric.preset",
@@ -300,6 +340,18 @@ TEST(Geometric, FramesMatchGoldenWithEveryPreset) {
     expect_rejected(handle, "classes_size is 299, but there are 300 edges",
                     deburr_geometric_classes(handle.get(), classes.data(), classes.size() - 1));
     EXPECT_EQ(counter_of(handle.get(), "edges"), golden.work().edges);
+    expect_rejected(handle, "unknown region of memory 'texels'",
+                    deburr_geometric_base(handle.get(), "texels", 0));
+    expect_rejected(handle, "is not a multiple of 64",
+                    deburr_geometric_base(handle.get(), "depth", 4));
+    expect_ok(handle, deburr_geometric_base(handle.get(), "depth", input.bases.depth));
+    expect_ok(handle, deburr_geometric_base(handle.get(), "colour", input.bases.colour));
+    expect_ok(handle, deburr_error_lines(handle.get(), lines.data(), lines.size()));
+    expect_ok(handle, deburr_frame_process(handle.get()));
+    EXPECT_EQ(plane_of(handle.get(), "weights", 0), bytes_of(failing.weights()));
+    expect_ok(handle, deburr_error_lines(handle.get(), nullptr, 0));
+    expect_ok(handle, deburr_frame_process(handle.get()));
+    EXPECT_EQ(plane_of(handle.get(), "weights", 0), bytes_of(golden.weights()));
     EXPECT_EQ(counter_of(handle.get(), "kept_edges"), golden.work().kept_edges);
     EXPECT_EQ(counter_of(handle.get(), "candidates"), golden.work().candidates);
     EXPECT_EQ(counter_of(handle.get(), "blended_pixels"), golden.work().blended_pixels);
