@@ -446,7 +446,7 @@ CyclePredictor::DataStall CyclePredictor::data_stage() {
     --group.lines;
   }
   if (group.lines > 0) return used_ > used_before_ ? DataStall::kWriteFill : DataStall::kWaitFill;
-  if (parameters_.decode != spec::texture::Decode::kNone) read_ = group.decoding;
+  if (parameters_.decode == spec::texture::Decode::kAfter) read_ = group.decoding;
   fifo_.pop(cycle_);
   last_left_ = cycle_;
   return DataStall::kNone;

@@ -125,7 +125,7 @@ const char* descriptor_fault(const spec::texture::Descriptor& descriptor,
   if (descriptor.levels > std::bit_width(longest)) return "more levels than the size allows";
   if (!known(descriptor.format, spec::texture::kFormatNames)) return "unknown format";
   if (spec::texture::is_compressed(descriptor.format) && decode == spec::texture::Decode::kNone)
-    return "the format is compressed, which needs decode = after";
+    return "the format is compressed, and decode is none";
   if (descriptor.srgb && !spec::texture::may_be_srgb(descriptor.format))
     return "srgb is set, which only bc1, bc3 and etc2 have";
   if (!known(descriptor.layout, spec::texture::kLayoutNames)) return "unknown layout";

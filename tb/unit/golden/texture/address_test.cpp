@@ -250,7 +250,7 @@ TEST(Descriptor, EachInvalidFieldIsNamed) {
             "unknown filter");
   EXPECT_EQ(fault([](D& d) { d.max_anisotropy_log2 = 5; }), "N_max is over 16");
   EXPECT_EQ(fault([](D& d) { d.base[6] += 32; }), "the base of a level is not a multiple of 64");
-  constexpr const char* kCompressed = "the format is compressed, which needs decode = after";
+  constexpr const char* kCompressed = "the format is compressed, and decode is none";
   constexpr const char* kSrgb = "srgb is set, which only bc1, bc3 and etc2 have";
   for (std::uint8_t code = 0; code < 12; ++code) {
     const auto set = [code](D& d) { d.format = static_cast<Format>(code); };
