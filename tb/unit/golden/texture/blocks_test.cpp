@@ -32,8 +32,8 @@ std::uint32_t rgba(double r, double g, double b, double a = 255) {
 
 // ---- BC -----------------------------------------------------------------------------------------
 
-// A channel of n bits in real arithmetic. Truncated: repeating its bits multiplies by 33 / 4 or
-// 65 / 16. Rounded: the nearest eighth bits.
+// A channel of 5 or 6 bits in real arithmetic. Truncated: repeating its bits multiplies by 33 / 4
+// or 65 / 16. Rounded: the nearest value of 8 bits.
 double widened(BlockRule rule, int v, int bits) {
   const double most = bits == 5 ? 31 : 63;
   if (rule == BlockRule::kRounded) return std::floor(v * 255 / most + 0.5);
@@ -59,12 +59,10 @@ double colour(BlockRule rule, bool four, unsigned selector, double a, double b) 
   }
 }
 
-// All 2^16 pairs of end points of each channel, in one block: both have the other's bits too, so
-// that either may be the greater.
+// All pairs of 5 bits of red and of blue and all pairs of 6 bits of green, by both kinds of blocks.
 TEST(Bc, ColoursOfAllEndPoints) {
   for (const BlockRule rule : kRules) {
     for (std::uint32_t ends = 0; ends < 65536; ++ends) {
-      // Red and blue take the same ten bits, green the low twelve.
       const auto p5 = static_cast<int>(ends & 31), q5 = static_cast<int>(ends >> 5 & 31);
       const auto p6 = static_cast<int>(ends & 63), q6 = static_cast<int>(ends >> 6 & 63);
       const auto r0 = static_cast<int>(ends >> 11), r1 = p5;
@@ -83,9 +81,9 @@ TEST(Bc, ColoursOfAllEndPoints) {
           const auto channel = [&](int p, int q, int bits) {
             return colour(rule, four, s, widened(rule, p, bits), widened(rule, q, bits));
           };
-          const double alpha = always_four ? block[0] : (four || s < 3) ? 255 : 0;
+          const double alpha = four || s < 3 ? 255 : 0;
           const Format format = always_four ? Format::kBc3 : Format::kBc1;
-          // Selectors of the values are 0 in the first texel; the others are not compared.
+          // Alpha of bc3 is that of its values.
           const std::uint32_t mask = always_four ? 0xFFFFFF : 0xFFFFFFFF;
           ASSERT_EQ(block_texel(format, rule, block.data(), s, 0) & mask,
                     rgba(channel(r0, r1, 5), channel(p6, q6, 6), channel(q5, p5, 5), alpha) & mask)
@@ -228,7 +226,7 @@ Rgb any_colour(tb::Random& random, int bits) {
   return {channel(), channel(), channel()};
 }
 
-// A block with its texels. `opaque`: bit 33, where it is not fixed by the mode.
+// A block and its texels.
 struct Sample {
   Bits bits;
   Texels texels{};
@@ -246,8 +244,8 @@ std::array<unsigned, 16> put_any_selectors(tb::Random& random, Bits& bits) {
   return selectors;
 }
 
-// Sets bits that carry nothing to any values with which each channel, of base and difference, is
-// within 0..31 or not, as asked; only the last one matters for a mode.
+// Sets the spare bits of a mode so that R + dR, G + dG, B + dB (channels 0, 1, 2) select it:
+// `outside` is the first one that is not in 0..31.
 void put_mode(tb::Random& random, Bits& bits, std::initializer_list<int> spare, int outside) {
   const auto of = [&](int channel) {
     const int high = 63 - 8 * channel;
