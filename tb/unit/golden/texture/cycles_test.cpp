@@ -494,7 +494,7 @@ TEST(Cycles, BlockDecoderStallsTheDataStage) {
     EXPECT_EQ(growth(passes), expected[static_cast<std::size_t>(passes)]) << passes;
 }
 
-TEST(Cycles, EveryWordOfABlockIsReadFromItsBank) {
+TEST(Cycles, BlocksInTheSameBanksTakePasses) {
   const Parameters p = with_decoders(narrow(), 0);
   const auto passes = [&](const CacheRequest& request) {
     const Quads before = {{at(0, kLine, 2 * kLine, 3 * kLine)}, {kInvalid}};
@@ -540,6 +540,22 @@ TEST(Cycles, GroupHasAtMostDBlocks) {
   };
   EXPECT_EQ(fifth(spec::texture::Format::kBc1), 0u);
   EXPECT_EQ(fifth(spec::texture::Format::kEtc2Rgb), 3u);
+}
+
+// Blocks of one format share all banks or none; blocks and texels of other sizes may share a bank
+// by any of their words.
+TEST(Cycles, GroupReadsEveryWordOfABlock) {
+  Parameters p = with_decoders(wide(), 0);
+  p.cache_bank_reads = 1;
+  const auto two = [&](const CacheRequest& a, const CacheRequest& b) {
+    return formed(p, {a, b}).slots.banks;
+  };
+  const std::uint32_t same_line_bank = 4 * kLine;
+  for (std::uint32_t word = 0; word < 8; ++word) {
+    const CacheRequest texel = at(same_line_bank + 4 * word);
+    EXPECT_EQ(two(bc1(0, 0, 0, 0), texel), word < 2 ? 3u : 0u) << word;
+    EXPECT_EQ(two(texel, bc3(0, 0, 0, 0)), word < 4 ? 3u : 0u) << word;
+  }
 }
 
 TEST(Cycles, DecodersAreTheLastCause) {
