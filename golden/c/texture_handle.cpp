@@ -45,15 +45,38 @@ void set_field(DescriptorWords& words, std::string_view name, std::string_view t
   reject_name("field of a texture", name, known);
 }
 
-// Writes the texels of a level, row by row, to their addresses.
-void put_texels(TextureHandle& h, const spec::texture::Descriptor& d, int level,
-                const std::uint8_t* texels, std::size_t distance) {
+// A level as it is given: rows of texels, or of blocks of 4 x 4 texels.
+struct LevelRows {
+  std::size_t side;  // texels of an item in each direction
+  std::size_t bytes, columns, rows;
+};
+LevelRows rows_of(const spec::texture::Descriptor& d, int level) {
+  const auto format = static_cast<std::size_t>(d.format);
+  const std::size_t side = spec::texture::is_compressed(d.format) ? 4 : 1;
+  const auto count = [&](std::uint32_t size) {
+    return (static_cast<std::size_t>(texture::level_size(size, level)) + side - 1) / side;
+  };
+  return {
+      side,
+      std::size_t{spec::texture::kFormatBytes[format]} + spec::texture::kFormatBlockBytes[format],
+      count(d.width), count(d.height)};
+}
+
+// Writes the texels or blocks of a level, row by row, to their addresses.
+void put_rows(TextureHandle& h, const spec::texture::Descriptor& d, int level,
+              const std::uint8_t* texels, std::size_t distance) {
   const texture::LevelAddresses addresses = texture::level_addresses(d, level);
-  const std::size_t bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
-  for (std::size_t y = 0; y < addresses.row.size(); ++y)
-    for (std::size_t x = 0; x < addresses.column.size(); ++x)
-      std::memcpy(h.memory.data() + (addresses.column[x] + addresses.row[y]),
-                  texels + y * distance + x * bytes, bytes);
+  const LevelRows of = rows_of(d, level);
+  for (std::size_t y = 0; y < of.rows; ++y)
+    for (std::size_t x = 0; x < of.columns; ++x)
+      std::memcpy(h.memory.data() + (addresses.column[x * of.side] + addresses.row[y * of.side]),
+                  texels + y * distance + x * of.bytes, of.bytes);
+}
+
+void require_valid(const TextureHandle& h, std::uint32_t texture,
+                   const spec::texture::Descriptor& d) {
+  if (const char* fault = texture::descriptor_fault(d, h.texts.values().decode))
+    throw spec::ConfigError("texture " + std::to_string(texture) + ": " + fault);
 }
 
 }  // namespace
@@ -66,6 +89,7 @@ spec::texture::Descriptor descriptor_of(const DescriptorWords& words) {
   d.height = static_cast<std::uint16_t>(reg::size::kHeight.of(size));
   d.levels = static_cast<std::uint8_t>(reg::mode::kLevels.of(mode));
   d.format = static_cast<spec::texture::Format>(reg::mode::kFormat.of(mode));
+  d.srgb = reg::mode::kSrgb.of(mode) != 0;
   d.layout = static_cast<spec::texture::Layout>(reg::mode::kLayout.of(mode));
   d.wrap_s = static_cast<spec::texture::Wrap>(reg::mode::kWrapS.of(mode));
   d.wrap_t = static_cast<spec::texture::Wrap>(reg::mode::kWrapT.of(mode));
@@ -89,8 +113,7 @@ void require_in_memory(const TextureHandle& h, std::uint64_t address, std::uint6
 
 spec::texture::Descriptor valid_descriptor(TextureHandle& h, std::uint32_t texture) {
   const spec::texture::Descriptor d = descriptor_of(h.words(texture));
-  if (const char* fault = texture::descriptor_fault(d))
-    throw spec::ConfigError("texture " + std::to_string(texture) + ": " + fault);
+  require_valid(h, texture, d);
   return d;
 }
 
@@ -127,12 +150,11 @@ std::uint64_t place(TextureHandle& h, std::uint32_t texture, std::uint64_t addre
   // Old bases must not make the descriptor invalid.
   std::fill(words.begin() + reg::kLevelBase / 4, words.end(), 0);
   const auto d = descriptor_of(words);
-  if (const char* fault = texture::descriptor_fault(d))
-    throw spec::ConfigError("texture " + std::to_string(texture) + ": " + fault);
+  require_valid(h, texture, d);
   std::uint64_t next = address;
   for (std::uint32_t level = 0; level < d.levels; ++level) {
     words[reg::kLevelBase / 4 + level] = static_cast<std::uint32_t>(next);
-    next += texture::level_bytes(d, static_cast<int>(level));
+    next += (texture::level_bytes(d, static_cast<int>(level)) + 63) / 64 * 64;
     require(address < kMostMemory && next <= kMostMemory,
             "the texture would end past address 2^32");
   }
@@ -145,12 +167,11 @@ void put_level(TextureHandle& h, std::uint32_t texture, std::uint32_t level,
   const auto d = valid_descriptor(h, texture);
   require_below(level, d.levels, "level");
   const int k = static_cast<int>(level);
-  const std::size_t bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
-  const auto width = static_cast<std::size_t>(texture::level_size(d.width, k));
-  const auto height = static_cast<std::size_t>(texture::level_size(d.height, k));
-  const std::size_t distance = row_distance("texels", texels.size(), width * bytes, height, stride);
+  const LevelRows of = rows_of(d, k);
+  const std::size_t distance =
+      row_distance("texels", texels.size(), of.columns * of.bytes, of.rows, stride);
   require_in_memory(h, d.base[level], texture::level_bytes(d, k), "level " + std::to_string(level));
-  put_texels(h, d, k, texels.data(), distance);
+  put_rows(h, d, k, texels.data(), distance);
 }
 
 }  // namespace deburr::golden::c

@@ -14,6 +14,7 @@ constexpr std::int32_t kWordBytes = 4, kBeatBytes = 64;
 
 // Latencies of the datasheets.
 constexpr int kDerivativeLatency = 3, kLevelLatency = 3, kAddresserLatency = 5;
+constexpr std::uint64_t kDecoderLatency = 3;
 int axis_latency(const Parameters& p) {
   const bool exact = p.footprint == spec::texture::FootprintRule::kExact;
   if (p.axes == spec::texture::Axes::kTwo) return exact ? 19 : 2;
@@ -53,12 +54,13 @@ Parameters resolved(Parameters p, const MemoryTiming& memory) {
     p.cache_outstanding = static_cast<std::int32_t>(
         std::clamp<std::int64_t>((lines + 3) / 4 * 4, 8, spec::texture::kMostOutstanding));
   }
+  if (p.cache_decoders == 0) p.cache_decoders = p.width == 1 ? 4 : 6;
   return p;
 }
 
 template <class T, std::size_t N>
 struct Distinct {
-  std::array<T, N> items{};
+  std::array<T, N> items;  // not cleared: only the first `count` are read
   std::size_t count = 0;
   bool add(const T& item) {  // false: known
     if (std::find(items.begin(), items.begin() + count, item) != items.begin() + count)
@@ -67,11 +69,25 @@ struct Distinct {
     return true;
   }
 };
-// A group of 4 requests has up to 16 texels.
+// A group of 4 requests has up to 16 texels; a block has up to 4 words.
 using Lines = Distinct<std::uint32_t, 16>;
-using Words = Distinct<std::uint32_t, 16>;
+using Blocks = Distinct<std::uint64_t, 16>;  // address and format
+using Words = Distinct<std::uint32_t, 64>;
 using BankCounts = std::array<std::uint8_t, spec::texture::kMostLineBanks *
                                                 spec::texture::kMostCacheLineBytes / kWordBytes>;
+
+// Words that a texel reads.
+std::uint32_t words_of(const CacheRequest& request) {
+  const std::uint32_t bytes =
+      spec::texture::kFormatBlockBytes[static_cast<std::size_t>(request.format)];
+  return bytes == 0 ? 1 : bytes / kWordBytes;
+}
+
+void add_block(Blocks& blocks, const CacheRequest& request, std::size_t texel) {
+  if (!spec::texture::is_compressed(request.format)) return;
+  blocks.add(std::uint64_t{request.addresses[texel]} << 8 |
+             static_cast<std::uint64_t>(request.format));
+}
 
 bool turned_row(const CacheRequest& request, std::size_t texel) {
   return request.turned[texel / 2];
@@ -122,11 +138,12 @@ CyclePrediction CyclePredictor::finish() {
 
 bool CyclePredictor::idle() const {
   return source_.empty() && waiting_.empty() && !looking_up_ && !latency_link_.can_pop() &&
-         !fifo_.can_pop();
+         !fifo_.can_pop() && read_ == 0 && !blocks_.can_pop();
 }
 
 // Consumers first.
 void CyclePredictor::step() {
+  block_decoder();
   data_stalls_[cycle_ % 4] = data_stage();
   latency_fifo();
   memory_port();
@@ -219,15 +236,20 @@ CyclePredictor::Count CyclePredictor::longest_group(Cause& limit) {
   limit = nullptr;
   Lines lines;
   Words words;
+  Blocks blocks;
   BankCounts reads{};
   bool too_many_reads = false, too_many_in_a_set = false;
   const Count most = std::min(width_, buffered_);
   for (Count n = 0; n < most; ++n) {
     const Waiting& request = waiting_[grouped_ + n];
+    const std::uint32_t words_each = words_of(request);
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
       const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
-      if (words.add(address / kWordBytes)) {
-        std::uint8_t& count = reads[bank_of(address, turned_row(request, i))];
+      add_block(blocks, request, i);
+      for (std::uint32_t w = 0; w < words_each; ++w) {
+        const std::uint32_t word = address + w * kWordBytes;
+        if (!words.add(word / kWordBytes)) continue;
+        std::uint8_t& count = reads[bank_of(word, turned_row(request, i))];
         too_many_reads |= ++count > parameters_.cache_bank_reads;
       }
       if (!lines.add(line)) continue;
@@ -243,6 +265,8 @@ CyclePredictor::Count CyclePredictor::longest_group(Cause& limit) {
       limit = &Slots::banks;
     } else if (too_many_in_a_set) {
       limit = &Slots::set;
+    } else if (blocks.count > static_cast<std::size_t>(parameters_.cache_decoders)) {
+      limit = &Slots::decoders;
     }
     if (limit) return n;
   }
@@ -268,6 +292,7 @@ CyclePredictor::Cause CyclePredictor::blocked_by() const {
     case DataStall::kBankPass:
       return &Slots::bank_pass;
     case DataStall::kNone:
+    case DataStall::kDownstream:  // a group takes a cycle in the BlockDecoder
       break;
   }
   throw spec::CheckFailed("the link to the TagStage is full, and nothing stalled");
@@ -301,10 +326,12 @@ void CyclePredictor::group_former() {
 CyclePredictor::Group CyclePredictor::look_up(Count count) {
   Lines missed;
   Words words;
+  Blocks blocks;
   BankCounts reads{};
   std::uint32_t most_reads = 0;
   for (; count > 0; --count) {
     const CacheRequest& request = waiting_.front();
+    const std::uint32_t words_each = words_of(request);
     Lines used;
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
       const std::uint32_t line = cache_.line_of(request.addresses[i]);
@@ -316,16 +343,22 @@ CyclePredictor::Group CyclePredictor::look_up(Count count) {
     }
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
       const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
+      add_block(blocks, request, i);
       const auto end = missed.items.begin() + missed.count;
       if (std::find(missed.items.begin(), end, line) != end) continue;
-      if (!words.add(address / kWordBytes)) continue;
-      most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(address, turned_[line])]);
+      for (std::uint32_t w = 0; w < words_each; ++w) {
+        const std::uint32_t word = address + w * kWordBytes;
+        if (!words.add(word / kWordBytes)) continue;
+        most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(word, turned_[line])]);
+      }
     }
     waiting_.pop();
   }
   const auto ports = static_cast<std::uint32_t>(parameters_.cache_bank_reads);
   lines_ += missed.count;
-  return {(most_reads + ports - 1) / ports, static_cast<std::uint32_t>(missed.count)};
+  const auto decoders = static_cast<Count>(parameters_.cache_decoders);
+  const Count decoding = std::max(1u, (static_cast<Count>(blocks.count) + decoders - 1) / decoders);
+  return {(most_reads + ports - 1) / ports, static_cast<std::uint32_t>(missed.count), decoding};
 }
 
 CyclePredictor::TagStall CyclePredictor::tag_stage() {
@@ -386,6 +419,11 @@ void CyclePredictor::memory_port() {
 
 CyclePredictor::DataStall CyclePredictor::data_stage() {
   used_before_ = used_;
+  if (read_ != 0) {
+    if (!blocks_.can_push(cycle_)) return DataStall::kDownstream;
+    blocks_.push(read_);
+    read_ = 0;
+  }
   if (!fifo_.can_pop()) return DataStall::kNone;
   Group& group = fifo_.tokens.front();
   if (group.passes > 1) {
@@ -408,9 +446,18 @@ CyclePredictor::DataStall CyclePredictor::data_stage() {
     --group.lines;
   }
   if (group.lines > 0) return used_ > used_before_ ? DataStall::kWriteFill : DataStall::kWaitFill;
+  if (parameters_.decode == spec::texture::Decode::kAfter) read_ = group.decoding;
   fifo_.pop(cycle_);
   last_left_ = cycle_;
   return DataStall::kNone;
+}
+
+// The FilterPipeline accepts every token, so this unit never stalls.
+void CyclePredictor::block_decoder() {
+  if (!blocks_.can_pop() || cycle_ < decoder_free_) return;
+  decoder_free_ = cycle_ + blocks_.pop(cycle_);
+  // The pipeline pops this token when it would pop one that leaves the DataStage in this cycle.
+  last_left_ = decoder_free_ - 1 + kDecoderLatency - 2;
 }
 
 }  // namespace deburr::golden::texture

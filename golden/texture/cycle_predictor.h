@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Predicts the cycles of the texture unit from the addresses of its requests: address unit, groups,
-// tags, miss queue, memory, latency FIFO, data banks.
+// tags, miss queue, memory, latency FIFO, data banks, BlockDecoder.
 //
-// Written from docs/reference/texture/hardware.md, cache.md and width.md, for every width. It
+// Written from docs/reference/texture/hardware.md, cache.md, width.md and compressed.md, for every
+// width. It
 // assumes that quads are always available and colours always accepted. Memory has a fixed latency.
 #pragma once
 
@@ -27,13 +28,13 @@ struct MemoryTiming {
 // not occur.
 struct Slots {
   std::uint64_t requests = 0;
-  std::uint64_t lookups = 0, banks = 0, set = 0;
+  std::uint64_t lookups = 0, banks = 0, set = 0, decoders = 0;
   std::uint64_t partial_quad = 0, starved = 0;
   std::uint64_t allocate = 0, miss_queue = 0;
   std::uint64_t wait_fill = 0, write_fill = 0, bank_pass = 0;
   std::uint64_t all() const {
-    return requests + lookups + banks + set + partial_quad + starved + allocate + miss_queue +
-           wait_fill + write_fill + bank_pass;
+    return requests + lookups + banks + set + decoders + partial_quad + starved + allocate +
+           miss_queue + wait_fill + write_fill + bank_pass;
   }
   friend bool operator==(const Slots&, const Slots&) = default;
 };
@@ -73,8 +74,8 @@ class Ring {
 
 class CyclePredictor {
  public:
-  // Resolves cache.fifo_depth = 0 and cache.outstanding = 0. Throws ConfigError if the unit cannot
-  // be built.
+  // Resolves cache.fifo_depth, cache.outstanding and cache.decoders = 0. Throws ConfigError if the
+  // unit cannot be built.
   CyclePredictor(const spec::texture::Parameters& parameters, const MemoryTiming& memory);
 
   // The requests of the next quad, from TextureGolden::process(); none if no lane is covered.
@@ -116,16 +117,18 @@ class CyclePredictor {
   };
   struct Group {  // in the LatencyFifo
     std::uint32_t passes = 0, lines = 0;
+    Count decoding = 1;  // cycles in the BlockDecoder
   };
   struct Fill {  // a missed line
     std::uint32_t line_bank = 0;
     Cycle arrived = ~Cycle{0};  // cycle in which the MissQueue writes its last beat
   };
   enum class TagStall : std::uint8_t { kNone, kAllocate, kMissQueue, kFifo };
-  enum class DataStall : std::uint8_t { kNone, kWaitFill, kWriteFill, kBankPass };
+  enum class DataStall : std::uint8_t { kNone, kWaitFill, kWriteFill, kBankPass, kDownstream };
   using Cause = std::uint64_t Slots::*;
 
   void step();
+  void block_decoder();
   DataStall data_stage();
   void latency_fifo();
   void memory_port();
@@ -177,6 +180,10 @@ class CyclePredictor {
   Cycle transfer_ = 0, beats_ = 1;
   Cycle first_byte_ = 0, last_beat_ = 0, port_free_ = 0;
   Ring<Cycle> responses_;  // of the transactions in flight
+
+  Count read_ = 0;  // stage 2 of the DataStage, only with a BlockDecoder: its cycles of the token
+  Link<Count> blocks_;
+  Cycle decoder_free_ = 0;  // cycle in which the last blocks of its token have left stage 1
 };
 
 }  // namespace deburr::golden::texture

@@ -6,22 +6,37 @@
 namespace deburr::golden::texture {
 namespace {
 
+std::uint32_t block_bytes(const spec::texture::Descriptor& descriptor) {
+  return spec::texture::kFormatBlockBytes[static_cast<std::size_t>(descriptor.format)];
+}
+std::uint32_t texel_bytes(const spec::texture::Descriptor& descriptor) {
+  return spec::texture::kFormatBytes[static_cast<std::size_t>(descriptor.format)];
+}
+
+// Rectangles of texels that are stored one after the other: tiles, or blocks.
 struct TileGrid {
   std::uint32_t tile_width, tile_height;  // texels
-  int lb_columns, lb_rows;                // of the grid, rounded up to a power of two
+  std::uint32_t tile_bytes;
+  std::uint32_t columns, rows;
+  int lb_columns, lb_rows;  // of the grid, rounded up to a power of two
 };
 
 int ceil_log2(std::uint32_t x) { return static_cast<int>(std::bit_width(x - 1)); }
 
 TileGrid tile_grid(const spec::texture::Descriptor& descriptor, int level) {
-  const std::size_t bytes =
-      spec::texture::kFormatBytes[static_cast<std::size_t>(descriptor.format)];
-  const std::uint32_t tile_width = spec::texture::kTileWidth[bytes],
-                      tile_height = spec::texture::kTileHeight[bytes];
+  const bool blocks = spec::texture::is_compressed(descriptor.format);
+  const std::uint32_t bytes = texel_bytes(descriptor);
+  TileGrid grid{};
+  grid.tile_width = blocks ? 4 : spec::texture::kTileWidth[bytes];
+  grid.tile_height = blocks ? 4 : spec::texture::kTileHeight[bytes];
+  grid.tile_bytes = blocks ? block_bytes(descriptor) : spec::texture::kTileBytes;
   const auto width = static_cast<std::uint32_t>(level_size(descriptor.width, level));
   const auto height = static_cast<std::uint32_t>(level_size(descriptor.height, level));
-  return {tile_width, tile_height, ceil_log2((width + tile_width - 1) / tile_width),
-          ceil_log2((height + tile_height - 1) / tile_height)};
+  grid.columns = (width + grid.tile_width - 1) / grid.tile_width;
+  grid.rows = (height + grid.tile_height - 1) / grid.tile_height;
+  grid.lb_columns = ceil_log2(grid.columns);
+  grid.lb_rows = ceil_log2(grid.rows);
+  return grid;
 }
 
 // Interleaves the bits of column and row, column bits in the even positions; the extra bits of the
@@ -35,13 +50,22 @@ std::uint32_t morton_index(std::uint32_t column, std::uint32_t row, const TileGr
   return index | (column >> common | row >> common) << (2 * common);
 }
 
-std::uint32_t texel_bytes(const spec::texture::Descriptor& descriptor) {
-  return spec::texture::kFormatBytes[static_cast<std::size_t>(descriptor.format)];
-}
-
-std::uint32_t row_pitch(const spec::texture::Descriptor& descriptor, int level) {
-  const auto width = static_cast<std::uint32_t>(level_size(descriptor.width, level));
-  return (width * texel_bytes(descriptor) + 63) / 64 * 64;
+// Rows of texels, or of blocks, in the layout `linear`.
+struct Rows {
+  std::uint32_t pitch, count;
+};
+Rows rows_of(const spec::texture::Descriptor& descriptor, int level) {
+  std::uint32_t bytes = 0, count = 0;
+  if (spec::texture::is_compressed(descriptor.format)) {
+    const TileGrid grid = tile_grid(descriptor, level);
+    bytes = grid.columns * grid.tile_bytes;
+    count = grid.rows;
+  } else {
+    bytes =
+        static_cast<std::uint32_t>(level_size(descriptor.width, level)) * texel_bytes(descriptor);
+    count = static_cast<std::uint32_t>(level_size(descriptor.height, level));
+  }
+  return {(bytes + 63) / 64 * 64, count};
 }
 
 }  // namespace
@@ -50,14 +74,17 @@ std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int lev
                             std::int32_t y) {
   const std::uint32_t base = descriptor.base[static_cast<std::size_t>(level)];
   const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
+  const bool blocks = spec::texture::is_compressed(descriptor.format);
   const std::uint32_t bytes = texel_bytes(descriptor);
   if (descriptor.layout == spec::texture::Layout::kLinear) {
-    return base + row * row_pitch(descriptor, level) + column * bytes;
+    const std::uint32_t pitch = rows_of(descriptor, level).pitch;
+    if (blocks) return base + row / 4 * pitch + column / 4 * block_bytes(descriptor);
+    return base + row * pitch + column * bytes;
   }
   const TileGrid grid = tile_grid(descriptor, level);
   const std::uint32_t tile = morton_index(column / grid.tile_width, row / grid.tile_height, grid);
   const std::uint32_t inside = row % grid.tile_height * grid.tile_width + column % grid.tile_width;
-  return base + tile * spec::texture::kTileBytes + inside * bytes;
+  return base + tile * grid.tile_bytes + (blocks ? 0 : inside * bytes);
 }
 
 // The sum is possible in both layouts: a tile number interleaves the bits of its column and its
@@ -76,14 +103,15 @@ LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int 
 
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level) {
   if (descriptor.layout == spec::texture::Layout::kLinear) {
-    return std::uint64_t{row_pitch(descriptor, level)} *
-           static_cast<std::uint32_t>(level_size(descriptor.height, level));
+    const Rows rows = rows_of(descriptor, level);
+    return std::uint64_t{rows.pitch} * rows.count;
   }
   const TileGrid grid = tile_grid(descriptor, level);
-  return std::uint64_t{spec::texture::kTileBytes} << (grid.lb_columns + grid.lb_rows);
+  return std::uint64_t{grid.tile_bytes} << (grid.lb_columns + grid.lb_rows);
 }
 
-const char* descriptor_fault(const spec::texture::Descriptor& descriptor) {
+const char* descriptor_fault(const spec::texture::Descriptor& descriptor,
+                             spec::texture::Decode decode) {
   const auto known = [](auto code, const auto& names) {
     return static_cast<std::size_t>(code) < names.size();
   };
@@ -96,6 +124,10 @@ const char* descriptor_fault(const spec::texture::Descriptor& descriptor) {
   if (descriptor.levels == 0) return "no level";
   if (descriptor.levels > std::bit_width(longest)) return "more levels than the size allows";
   if (!known(descriptor.format, spec::texture::kFormatNames)) return "unknown format";
+  if (spec::texture::is_compressed(descriptor.format) && decode == spec::texture::Decode::kNone)
+    return "the format is compressed, and decode is none";
+  if (descriptor.srgb && !spec::texture::may_be_srgb(descriptor.format))
+    return "srgb is set, which only bc1, bc3 and etc2 have";
   if (!known(descriptor.layout, spec::texture::kLayoutNames)) return "unknown layout";
   if (!known(descriptor.wrap_s, spec::texture::kWrapNames) ||
       !known(descriptor.wrap_t, spec::texture::kWrapNames)) {

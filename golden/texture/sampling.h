@@ -118,11 +118,13 @@ inline TexelPosition nearest_position(spec::texture::Wrap wrap, std::int64_t p, 
   return nearest_texel(wrap, wrap_coordinate(wrap, p), size);
 }
 
-// Byte address of texel (x, y), modulo 2^32. 0 <= x < level_size(width, level), the same for y.
+// Byte address of texel (x, y), or of its block, modulo 2^32. 0 <= x < level_size(width, level),
+// the same for y.
 std::uint32_t texel_address(const spec::texture::Descriptor& descriptor, int level, std::int32_t x,
                             std::int32_t y);
 
-// Addresses of a whole level: that of texel (x, y) is column[x] + row[y], modulo 2^32.
+// Addresses of a whole level: that of texel (x, y), or of its block, is column[x] + row[y], modulo
+// 2^32.
 struct LevelAddresses {
   std::vector<std::uint32_t> column, row;  // row includes the base
 };
@@ -131,10 +133,11 @@ LevelAddresses level_addresses(const spec::texture::Descriptor& descriptor, int 
 // Bytes from base[level] to the end of the level, with the padding of rows and tile grids.
 std::uint64_t level_bytes(const spec::texture::Descriptor& descriptor, int level);
 
-// The reason why the unit rejects the descriptor, or nullptr if it is valid.
-const char* descriptor_fault(const spec::texture::Descriptor& descriptor);
-inline bool valid(const spec::texture::Descriptor& descriptor) {
-  return descriptor_fault(descriptor) == nullptr;
+// The reason why a unit with this `decode` rejects the descriptor, or nullptr if it is valid.
+const char* descriptor_fault(const spec::texture::Descriptor& descriptor,
+                             spec::texture::Decode decode);
+inline bool valid(const spec::texture::Descriptor& descriptor, spec::texture::Decode decode) {
+  return descriptor_fault(descriptor, decode) == nullptr;
 }
 
 }  // namespace deburr::golden::texture

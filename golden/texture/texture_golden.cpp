@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "golden/texture/block_decoder.h"
 #include "spec/error.h"
 
 namespace deburr::golden::texture {
@@ -49,7 +50,8 @@ void TextureGolden::set_texture(int handle, const spec::texture::Descriptor& des
   }
   Texture& texture = textures_[static_cast<std::size_t>(handle)];
   texture.descriptor = descriptor;
-  texture.valid = valid(descriptor);
+  texture.valid = valid(descriptor, parameters_.decode);
+  texture.blocks = texture.valid && spec::texture::is_compressed(descriptor.format);
   texture.levels.clear();
   if (!texture.valid) return;
   texture.levels.resize(descriptor.levels);
@@ -146,16 +148,20 @@ FragmentAnalysis TextureGolden::analyse(const spec::texture::Quad& quad, int lan
 }
 
 struct TextureGolden::NoTap {
+  static constexpr bool kBlocks = false;
   void lane(int) {}
   void sample(int, std::int64_t, std::int64_t) {}
-  void request(int, const std::array<std::uint32_t, 4>&, std::array<bool, 2>) {}
+  void request(int, const std::array<std::uint32_t, 4>&, std::array<bool, 2>,
+               spec::texture::Format) {}
   void fill(std::uint32_t) {}
   void invalid() {}
   void end() {}
 };
 
-// Serves both lists: a third copy of the inner loop would not be inlined.
+// Serves both lists, and blocks without a list: a third copy of the inner loop would not be
+// inlined.
 struct TextureGolden::RequestTap {
+  static constexpr bool kBlocks = true;
   int wanted;
   std::vector<BilinearRequest>* requests;  // of the wanted lane
   std::vector<CacheRequest>* all = nullptr;
@@ -167,12 +173,12 @@ struct TextureGolden::RequestTap {
     next.s = s;
     next.t = t;
   }
-  void request(int level, const std::array<std::uint32_t, 4>& addresses,
-               std::array<bool, 2> turned) {
+  void request(int level, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2> turned,
+               spec::texture::Format format) {
     next.level = level;
     next.addresses = addresses;
     if (on) requests->push_back(next);
-    if (all) all->push_back({addresses, turned});
+    if (all) all->push_back({.addresses = addresses, .turned = turned, .format = format});
   }
   void fill(std::uint32_t line) {
     if (on) requests->back().misses.push_back(line);
@@ -186,6 +192,10 @@ struct TextureGolden::RequestTap {
 };
 
 QuadColours TextureGolden::process(const spec::texture::Quad& quad) {
+  if (quad.texture < spec::texture::kMaxTextures && textures_[quad.texture].blocks) {
+    RequestTap unseen{-1, nullptr};
+    return process_seen(quad, unseen);
+  }
   NoTap none;
   return process_seen(quad, none);
 }
@@ -246,8 +256,9 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
   const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
   const std::int64_t distance_s = half_distance(n, spread, fragment.axis.s);
   const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
-  const bool encode = texture.descriptor.format == spec::texture::Format::kSrgb8A8 &&
-                      parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
+  const bool srgb =
+      texture.descriptor.srgb || texture.descriptor.format == spec::texture::Format::kSrgb8A8;
+  const bool encode = srgb && parameters_.srgb_output == spec::texture::SrgbOutput::kEncoded;
   std::array<std::uint8_t, 4> rgba{};
   if (parameters_.blend == spec::texture::Blend::kLevel) {
     std::array<Channels, 2> sums;  // U8.20
@@ -314,13 +325,29 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
   };
   ++work_.bilinears;
   ++work_.by_level[static_cast<std::size_t>(level)];
-  const bool rows = descriptor.layout == spec::texture::Layout::kLinear;
-  tap.request(level, addresses(), {rows && y.i0 % 2 != 0, rows && y.i1 % 2 != 0});
+  const auto turned = [&descriptor](std::int32_t row) {
+    if (spec::texture::is_compressed(descriptor.format)) row /= 4;
+    return descriptor.layout == spec::texture::Layout::kLinear && row % 2 != 0;
+  };
+  tap.request(level, addresses(), {turned(y.i0), turned(y.i1)}, descriptor.format);
   if (predict_) predict(addresses(), tap);
 
-  const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
-  const std::array<Channels, 4> texel = common ? read_rgba8(memory_.data(), addresses())
-                                               : read(table, descriptor.format, addresses());
+  const auto texels = [&] {
+    if constexpr (Tap::kBlocks) {
+      if (texture.blocks) {
+        const auto inside = [](std::int32_t column, std::int32_t row) {
+          return static_cast<unsigned>(row % 4 * 4 + column % 4);
+        };
+        return read_blocks(
+            table, descriptor, addresses(),
+            {inside(x.i0, y.i0), inside(x.i1, y.i0), inside(x.i0, y.i1), inside(x.i1, y.i1)});
+      }
+    }
+    const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
+    return common ? read_rgba8(memory_.data(), addresses())
+                  : read(table, descriptor.format, addresses());
+  };
+  const std::array<Channels, 4> texel = texels();
   const auto filter = [&](Lanes a, Lanes b, Lanes c, Lanes d) {
     return vertical_lerp(horizontal_lerp(a, b, x.fraction), horizontal_lerp(c, d, x.fraction),
                          y.fraction);
@@ -336,6 +363,23 @@ std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::textu
     const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
     const std::uint32_t word = readable ? word_of(format, memory_.data() + addresses[i]) : 0;
     texels[i] = decode_channels(format, word);
+  }
+  return texels;
+}
+
+std::array<Channels, 4> TextureGolden::read_blocks(const LevelTable& table,
+                                                   const spec::texture::Descriptor& descriptor,
+                                                   const std::array<std::uint32_t, 4>& addresses,
+                                                   const std::array<unsigned, 4>& inside) const {
+  constexpr std::array<std::uint8_t, 16> kZeroBlock{};
+  const auto decoded =
+      descriptor.srgb ? spec::texture::Format::kSrgb8A8 : spec::texture::Format::kRgba8;
+  std::array<Channels, 4> texels;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
+    const std::uint8_t* block = readable ? memory_.data() + addresses[i] : kZeroBlock.data();
+    texels[i] = decode_channels(decoded, block_texel(descriptor.format, parameters_.bc, block,
+                                                     inside[i] % 4, inside[i] / 4));
   }
   return texels;
 }

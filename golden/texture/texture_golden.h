@@ -64,17 +64,21 @@ struct QuadColours {
 // A request of a sample to the cache, for inspection of a pixel.
 struct BilinearRequest {
   int sample = 0, level = 0;
-  std::int64_t s = 0, t = 0;                 // of the sample, before wrapping, S9.24
-  std::array<std::uint32_t, 4> addresses{};  // byte addresses of texels 00, 10, 01, 11
-  std::vector<std::uint32_t> misses;         // line numbers that it fills, in order
+  std::int64_t s = 0, t = 0;  // of the sample, before wrapping, S9.24
+  // Byte addresses of texels 00, 10, 01, 11, or of their blocks.
+  std::array<std::uint32_t, 4> addresses{};
+  std::vector<std::uint32_t> misses;  // line numbers that it fills, in order
 };
 
 // A request to the cache, for the CyclePredictor.
 struct CacheRequest {
-  std::array<std::uint32_t, 4> addresses{};  // byte addresses of texels 00, 10, 01, 11
-  std::array<bool, 2> turned{};  // texels 00, 10 and 01, 11: odd row of the layout `linear`
-  bool valid = true;             // false: the descriptor is invalid, and no texel is read
-  bool last = false;             // of its fragment
+  // Byte addresses of texels 00, 10, 01, 11, or of their blocks.
+  std::array<std::uint32_t, 4> addresses{};
+  // Texels 00, 10 and 01, 11: odd row, of texels or of blocks, of the layout `linear`.
+  std::array<bool, 2> turned{};
+  bool valid = true;  // false: the descriptor is invalid, and no texel is read
+  bool last = false;  // of its fragment
+  spec::texture::Format format = spec::texture::Format::kRgba8;
 };
 
 class TextureGolden {
@@ -147,12 +151,13 @@ class TextureGolden {
   struct Texture {
     spec::texture::Descriptor descriptor;
     bool valid = false;
+    bool blocks = false;  // valid, and its format is compressed
     std::vector<LevelTable> levels;
   };
   static Differences differences(const Texture& texture, const spec::texture::Quad& quad);
   FragmentAnalysis analyse(const Texture& texture, const Differences& differences, int lane) const;
   // A Tap observes lanes, samples, requests, fills and invalid fragments. NoTap is empty and costs
-  // nothing.
+  // nothing; it does not decode blocks.
   struct NoTap;
   struct RequestTap;
   template <class Tap>
@@ -167,6 +172,11 @@ class TextureGolden {
                     Tap& tap);
   std::array<Channels, 4> read(const LevelTable& table, spec::texture::Format format,
                                const std::array<std::uint32_t, 4>& addresses) const;
+  // inside: positions of the texels in their blocks, 4 y + x.
+  std::array<Channels, 4> read_blocks(const LevelTable& table,
+                                      const spec::texture::Descriptor& descriptor,
+                                      const std::array<std::uint32_t, 4>& addresses,
+                                      const std::array<unsigned, 4>& inside) const;
   template <class Tap>
   void predict(const std::array<std::uint32_t, 4>& addresses, Tap& tap);
   bool fails(std::uint32_t line) const;

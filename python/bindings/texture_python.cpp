@@ -211,7 +211,7 @@ class TextureUnit {
       py::list bases;
       for (const std::uint32_t base : d.base) bases.append(base);
       values["bases"] = py::tuple(bases);
-      const char* const fault = golden::texture::descriptor_fault(d);
+      const char* const fault = golden::texture::descriptor_fault(d, h.texts.values().decode);
       values["fault"] = fault ? py::object(py::str(fault)) : py::object(py::none());
       return values;
     });

@@ -26,6 +26,8 @@ ChannelBits channel_bits(spec::texture::Format format) {
       return {{12, 8, 4, 0}, {4, 4, 4, 4}};
     case spec::texture::Format::kL8:
       return {{0, 0, 0, 0}, {8, 8, 8, 0}};
+    default:
+      break;  // has blocks
   }
   return {};
 }

@@ -59,6 +59,8 @@ GlFormat gl_format(spec::texture::Format format) {
       return {GL_RGBA4, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4};
     case spec::texture::Format::kL8:
       return {GL_R8, GL_RED, GL_UNSIGNED_BYTE};
+    default:
+      break;  // has blocks
   }
   return {};
 }

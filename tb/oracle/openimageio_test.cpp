@@ -2,7 +2,7 @@
 // Compares the golden model with OpenImageIO's texture system without mip levels: its closest and
 // bilinear lookups use the same texel and wrap conventions. Its trilinear blend differs from GL
 // (the fraction between two levels is not logarithmic), so mip modes are left to Mesa and the
-// criterion.
+// criterion. Its decoder of DDS files equals bc = rounded, to the bit.
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/texture.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
+#include "tb/oracle/blocks.h"
 #include "tb/oracle/conformance.h"
 
 namespace deburr::tb::texture::openimageio_test {
@@ -34,6 +36,37 @@ class OpenImageIo : public testing::Test {
                 output->close());
     files_.push_back(name);
     return name;
+  }
+
+  // Writes the blocks as a DDS file and reads it. A file that it cannot read has no texels.
+  std::vector<std::uint8_t> decompress(const BlockPicture& picture) {
+    using spec::texture::Format;
+    const std::string code = picture.format == Format::kBc1   ? "DXT1"
+                             : picture.format == Format::kBc3 ? "DXT5"
+                             : picture.format == Format::kBc4 ? "BC4U"
+                                                              : "BC5U";
+    const auto side = static_cast<std::uint32_t>(picture.texels_per_side());
+    std::array<std::uint32_t, 32> header{0x20534444, 124, 0x81007, side, side};  // "DDS "
+    header[5] = static_cast<std::uint32_t>(picture.blocks.size());
+    header[19] = 32;
+    header[20] = 4;
+    std::copy(code.begin(), code.end(), reinterpret_cast<char*>(&header[21]));
+    header[27] = 0x1000;
+    const std::string name = testing::TempDir() + "deburr_blocks_" + std::to_string(getpid()) +
+                             "_" + std::to_string(files_.size()) + ".dds";
+    std::ofstream(name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(header.data()), sizeof header)
+        .write(reinterpret_cast<const char*>(picture.blocks.data()),
+               static_cast<std::streamsize>(picture.blocks.size()));
+    files_.push_back(name);
+    const auto input = OIIO::ImageInput::open(name);
+    EXPECT_TRUE(input) << OIIO::geterror();
+    if (!input) return {};
+    channels_ = static_cast<std::size_t>(input->spec().nchannels);
+    std::vector<std::uint8_t> texels(picture.texels_per_side() * picture.texels_per_side() *
+                                     channels_);
+    EXPECT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT8, texels.data()));
+    return texels;
   }
 
   // Fraction of lanes whose four channels agree within one step.
@@ -89,6 +122,8 @@ class OpenImageIo : public testing::Test {
     return within / count;
   }
 
+  std::size_t channels_ = 0;  // of the latest file of blocks
+
  private:
   std::vector<std::string> files_;
 };
@@ -107,6 +142,33 @@ TEST_F(OpenImageIo, WrongWrapIsDetected) {
   EXPECT_LT(agreement(spec::texture::MinFilter::kLinear, spec::texture::Wrap::kMirroredRepeat),
             0.9);
 }
+
+class OpenImageIoBlocks : public OpenImageIo,
+                          public testing::WithParamInterface<spec::texture::Format> {};
+
+TEST_P(OpenImageIoBlocks, DecodesAMillionBlocksEqually) {
+  const BlockPicture picture(GetParam(), 1000, 1);
+  const auto texels = decompress(picture);
+  ASSERT_FALSE(texels.empty());
+  EXPECT_THAT(wrong_texels(picture, spec::texture::BlockRule::kRounded, texels, channels_),
+              testing::Each(0u));
+}
+
+TEST_P(OpenImageIoBlocks, FindsTheOtherRoundingAndSwappedSelectors) {
+  using spec::texture::BlockRule;
+  const BlockPicture picture(GetParam(), 16, 1);
+  const auto texels = decompress(picture);
+  ASSERT_FALSE(texels.empty());
+  EXPECT_THAT(wrong_texels(picture, BlockRule::kTruncated, texels, channels_),
+              testing::Each(testing::Gt(0u)));
+  EXPECT_THAT(wrong_texels(picture, BlockRule::kRounded, texels, channels_, swapped_selectors),
+              testing::Each(testing::Gt(0u)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Bc, OpenImageIoBlocks,
+                         testing::Values(spec::texture::Format::kBc1, spec::texture::Format::kBc3,
+                                         spec::texture::Format::kBc4, spec::texture::Format::kBc5),
+                         [](const auto& suite) { return std::string(format_name(suite.param)); });
 
 }  // namespace
 }  // namespace deburr::tb::texture::openimageio_test

@@ -122,13 +122,13 @@ package deburr_golden_pkg;
   import "DPI-C" function int deburr_texture_check(input chandle golden,
       input int unsigned texture);
 
-  // Sets the bases of all levels, one after the other from `address` on; `behind`: the first
-  // address after them.
+  // Sets the bases of all levels, one after the other from `address` on, each a multiple of 64;
+  // `behind`: the first such address after them.
   import "DPI-C" function int deburr_texture_place(input chandle golden, input int unsigned texture,
       input longint unsigned address, output longint unsigned behind);
 
   // Writes the texels of a level to memory in the layout of the descriptor. Input: top row first,
-  // each texel as it is stored; `stride` in bytes.
+  // each texel as it is stored, or rows of blocks of 4 x 4 texels; `stride` in bytes.
   import "DPI-C" deburr_dpi_texture_level = function int deburr_texture_level(input chandle golden,
       input int unsigned texture, input int unsigned level, input byte unsigned texels[],
       input int unsigned stride);

@@ -64,6 +64,7 @@ void set_fields(deburr_golden* golden, std::uint32_t texture, const Descriptor& 
   set("height", std::to_string(d.height));
   set("levels", std::to_string(d.levels));
   set("format", word(d.format, spec::texture::kFormatNames));
+  set("srgb", d.srgb ? "1" : "0");
   set("layout", word(d.layout, spec::texture::kLayoutNames));
   set("wrap_s", word(d.wrap_s, spec::texture::kWrapNames));
   set("wrap_t", word(d.wrap_t, spec::texture::kWrapNames));
@@ -99,6 +100,9 @@ TEST(Quads, MatchGoldenWithRandomConfigurations) {
   std::uint64_t fills = 0, coloured = 0;
   for (int trial = 0; trial < 40; ++trial) {
     auto parameters = tb::stimuli::random_configuration(random);
+    parameters.bc =
+        tb::stimuli::any_code<spec::texture::BlockRule>(random, spec::texture::kBlockRuleNames);
+    if (trial % 4 != 0) parameters.decode = spec::texture::Decode::kAfter;
     parameters.cache_bytes = 1 << random.between(10, 13);
     parameters.cache_replacement =
         tb::stimuli::any_code<spec::texture::Replacement>(random, spec::texture::kReplacementNames);
@@ -116,6 +120,7 @@ TEST(Quads, MatchGoldenWithRandomConfigurations) {
     expect_ok(handle, deburr_texture_write(handle.get(), 0, memory.data(), memory.size()));
     for (std::uint32_t texture = 0; texture < 4; ++texture) {
       Descriptor d = tb::stimuli::random_texture(random, kMemoryBytes);
+      d.srgb = spec::texture::may_be_srgb(d.format) && random.chance(500);
       if (texture == 3) tb::stimuli::spoil(random, d);
       golden.set_texture(static_cast<int>(texture), d);
       if (texture == 3 || random.chance(500)) {
@@ -123,8 +128,10 @@ TEST(Quads, MatchGoldenWithRandomConfigurations) {
       } else {
         set_fields(handle.get(), texture, d);
       }
+      const bool is_valid = golden::texture::valid(d, parameters.decode);
+      EXPECT_TRUE(is_valid || texture == 3 || trial % 4 == 0);
       EXPECT_EQ(deburr_texture_check(handle.get(), texture),
-                texture == 3 ? DEBURR_CONFIGURATION : DEBURR_OK);
+                is_valid ? DEBURR_OK : DEBURR_CONFIGURATION);
     }
     for (std::uint32_t i = 0; i < 100; ++i) {
       const auto texture = static_cast<std::uint8_t>(random.chance(20) ? 200 : random.below(4));
@@ -191,9 +198,9 @@ TEST(Counters, CounterNamesMatchRegisters) {
   }
 }
 
-// The texels of a mip chain, in either layout, are found at the addresses that the golden model
-// computes.
-TEST(Levels, TexelsLieAtGoldenAddresses) {
+// The texels or blocks of a mip chain, in either layout, are found at the addresses that the golden
+// model computes.
+TEST(Levels, TexelsAndBlocksLieAtGoldenAddresses) {
   Random random(7);
   for (int trial = 0; trial < 60; ++trial) {
     Descriptor d = tb::stimuli::random_texture(random, kMemoryBytes);
@@ -201,24 +208,33 @@ TEST(Levels, TexelsLieAtGoldenAddresses) {
     d.height = static_cast<std::uint16_t>(random.between(1, 90));
     d.levels = static_cast<std::uint8_t>(std::bit_width(unsigned{std::max(d.width, d.height)}));
     const Handle handle(deburr_texture_new());
+    expect_ok(handle, deburr_set(handle.get(), "decode", "after"));
     set_fields(handle.get(), 5, d);
     std::uint64_t end_address = 0;
     const std::uint64_t first = 64u * random.below(100);
     expect_ok(handle, deburr_texture_place(handle.get(), 5, first, &end_address));
-    std::uint64_t next = first;
+    std::uint64_t next = first, end_of_level = first;
     for (std::uint32_t k = 0; k < d.levels; ++k) {
       d.base[k] = static_cast<std::uint32_t>(next);
-      next += golden::texture::level_bytes(d, static_cast<int>(k));
+      end_of_level = next + golden::texture::level_bytes(d, static_cast<int>(k));
+      next = (end_of_level + 63) / 64 * 64;
     }
     EXPECT_EQ(end_address, next);
     // First the memory is one byte too small for the last level.
-    expect_ok(handle, deburr_texture_memory(handle.get(), next - 1));
-    const std::size_t bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
+    expect_ok(handle, deburr_texture_memory(handle.get(), end_of_level - 1));
+    // Rows of texels or of blocks.
+    const auto format = static_cast<std::size_t>(d.format);
+    const bool blocks = spec::texture::is_compressed(d.format);
+    const std::size_t side = blocks ? 4 : 1;
+    const std::size_t bytes =
+        blocks ? spec::texture::kFormatBlockBytes[format] : spec::texture::kFormatBytes[format];
     for (std::uint32_t k = 0; k < d.levels; ++k) {
-      const auto width =
-          static_cast<std::size_t>(golden::texture::level_size(d.width, static_cast<int>(k)));
-      const auto height =
-          static_cast<std::size_t>(golden::texture::level_size(d.height, static_cast<int>(k)));
+      const auto count = [&](std::uint16_t size) {
+        const auto texels =
+            static_cast<std::size_t>(golden::texture::level_size(size, static_cast<int>(k)));
+        return (texels + side - 1) / side;
+      };
+      const std::size_t width = count(d.width), height = count(d.height);
       const std::size_t stride = random.chance(500) ? 0 : width * bytes + random.below(9);
       const std::size_t distance = stride == 0 ? width * bytes : stride;
       std::vector<std::uint8_t> texels((height - 1) * distance + width * bytes);
@@ -235,9 +251,10 @@ TEST(Levels, TexelsLieAtGoldenAddresses) {
       expect_ok(handle, put(texels.size()));
       for (std::size_t y = 0; y < height; ++y) {
         for (std::size_t x = 0; x < width; ++x) {
-          std::array<std::uint8_t, 4> read{};
+          std::array<std::uint8_t, 16> read{};
           const std::uint32_t address = golden::texture::texel_address(
-              d, static_cast<int>(k), static_cast<std::int32_t>(x), static_cast<std::int32_t>(y));
+              d, static_cast<int>(k), static_cast<std::int32_t>(side * x),
+              static_cast<std::int32_t>(side * y));
           expect_ok(handle, deburr_texture_read(handle.get(), address, read.data(), bytes));
           ASSERT_TRUE(std::equal(read.begin(), read.begin() + static_cast<std::ptrdiff_t>(bytes),
                                  texels.data() + y * distance + x * bytes));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texel addresses: each texel has its own address within its level, for every layout, format and
-// size; the order of tiles; the checks of a descriptor.
+// Texel addresses: each texel or block has its own address within its level, for every layout,
+// format and size; the order of tiles; the checks of a descriptor.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +18,9 @@ using namespace golden::texture;
 using spec::texture::Format;
 using spec::texture::Layout;
 
-constexpr Format kFormats[] = {Format::kRgba8, Format::kRgb565, Format::kRgba4444, Format::kL8,
-                               Format::kSrgb8A8};
+constexpr Format kFormats[] = {Format::kRgba8,   Format::kRgb565, Format::kRgba4444, Format::kL8,
+                               Format::kSrgb8A8, Format::kBc1,    Format::kEtc2Rgba8};
+constexpr auto kNone = spec::texture::Decode::kNone, kAfter = spec::texture::Decode::kAfter;
 
 spec::texture::Descriptor descriptor(int width, int height, Format format, Layout layout) {
   spec::texture::Descriptor d;
@@ -34,18 +35,22 @@ spec::texture::Descriptor descriptor(int width, int height, Format format, Layou
 
 using Address = std::function<std::uint32_t(const spec::texture::Descriptor&, int, int, int)>;
 
-// Number of texels, over all levels, whose address is misaligned, outside its level, or already
-// used by another texel.
+// Number of texels or blocks, over all levels, whose address is misaligned, outside its level, or
+// already used by another one.
 int wrong_addresses(const Address& address, const spec::texture::Descriptor& d) {
-  const std::uint32_t bytes = spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
+  const bool blocks = spec::texture::is_compressed(d.format);
+  const int side = blocks ? 4 : 1;
+  const auto format = static_cast<std::size_t>(d.format);
+  const std::uint32_t bytes =
+      blocks ? spec::texture::kFormatBlockBytes[format] : spec::texture::kFormatBytes[format];
   int count = 0;
   std::vector<bool> taken;
   for (int k = 0; k < d.levels; ++k) {
     const std::uint64_t base = d.base[static_cast<std::size_t>(k)];
     const std::uint64_t end = base + level_bytes(d, k);
     if (taken.size() < end) taken.resize(end);
-    for (int y = 0; y < level_size(d.height, k); ++y) {
-      for (int x = 0; x < level_size(d.width, k); ++x) {
+    for (int y = 0; y < level_size(d.height, k); y += side) {
+      for (int x = 0; x < level_size(d.width, k); x += side) {
         const std::uint32_t at = address(d, k, x, y);
         if (at % bytes != 0 || at < base || at + bytes > end || taken[at]) {
           ++count;
@@ -58,7 +63,7 @@ int wrong_addresses(const Address& address, const spec::texture::Descriptor& d) 
   return count;
 }
 
-TEST(Address, TexelsOfALevelHaveDistinctAddresses) {
+TEST(Address, TexelsAndBlocksOfALevelHaveDistinctAddresses) {
   for (const Format format : kFormats) {
     for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
       for (const auto& [w, h] : {std::pair{1, 1},
@@ -152,18 +157,59 @@ TEST(Address, TilesFollowTheMortonCurve) {
   EXPECT_EQ(level_bytes(odd, 0), 32u * 64u);
 }
 
+TEST(Address, TexelsOfABlockHaveItsAddress) {
+  for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
+    const auto d = descriptor(23, 14, Format::kBc3, layout);
+    for (int y = 0; y < 14; ++y)
+      for (int x = 0; x < 23; ++x)
+        EXPECT_EQ(texel_address(d, 0, x, y), texel_address(d, 0, x / 4 * 4, y / 4 * 4));
+  }
+}
+
+TEST(Address, RowsOfBlocksAreRoundedTo64Bytes) {
+  const auto bc1 = descriptor(33, 9, Format::kBc1, Layout::kLinear);  // 9 x 3 blocks
+  EXPECT_EQ(texel_address(bc1, 0, 32, 3) - bc1.base[0], 64u);
+  EXPECT_EQ(texel_address(bc1, 0, 4, 8) - bc1.base[0], 2u * 128 + 8);
+  EXPECT_EQ(level_bytes(bc1, 0), 3u * 128);
+  const auto bc3 = descriptor(16, 4, Format::kBc3, Layout::kLinear);
+  EXPECT_EQ(texel_address(bc3, 0, 12, 0) - bc3.base[0], 48u);
+  EXPECT_EQ(level_bytes(bc3, 0), 64u);
+  EXPECT_EQ(level_bytes(bc3, 4), 64u);
+}
+
+// Tile number m of rgba8 has 64 bytes at 64 m; a block has its own bytes there.
+TEST(Address, BlocksFollowTheCurveOfTiles) {
+  for (const auto& [w, h] : {std::pair{64, 64}, {37, 90}, {120, 5}, {3, 1}}) {
+    const auto tiles = descriptor(w, h, Format::kRgba8, Layout::kTiled);
+    for (const auto& [format, bytes] : {std::pair{Format::kBc4, 8u}, {Format::kBc5, 16u}}) {
+      const auto blocks = descriptor(w, h, format, Layout::kTiled);
+      for (int k = 0; k < blocks.levels; ++k) {
+        const auto level = static_cast<std::size_t>(k);
+        EXPECT_EQ(level_bytes(blocks, k), level_bytes(tiles, k) / 64 * bytes);
+        for (int y = 0; y < level_size(blocks.height, k); y += 4)
+          for (int x = 0; x < level_size(blocks.width, k); x += 4)
+            EXPECT_EQ(texel_address(blocks, k, x, y) - blocks.base[level],
+                      (texel_address(tiles, k, x, y) - tiles.base[level]) / 64 * bytes);
+      }
+    }
+  }
+}
+
 TEST(Address, LevelAddressesSumToTexelAddresses) {
   for (const Layout layout : {Layout::kLinear, Layout::kTiled}) {
-    const auto d = descriptor(21, 10, Format::kRgba8, layout);
-    for (int k = 0; k < d.levels; ++k) {
-      const LevelAddresses all = level_addresses(d, k);
-      const int width = level_size(d.width, k), height = level_size(d.height, k);
-      ASSERT_EQ(all.column.size(), static_cast<std::size_t>(width)) << k;
-      ASSERT_EQ(all.row.size(), static_cast<std::size_t>(height)) << k;
-      for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-          EXPECT_EQ(all.column[static_cast<std::size_t>(x)] + all.row[static_cast<std::size_t>(y)],
-                    texel_address(d, k, x, y));
+    for (const Format format : {Format::kRgba8, Format::kBc1}) {
+      const auto d = descriptor(21, 10, format, layout);
+      for (int k = 0; k < d.levels; ++k) {
+        const LevelAddresses all = level_addresses(d, k);
+        const int width = level_size(d.width, k), height = level_size(d.height, k);
+        ASSERT_EQ(all.column.size(), static_cast<std::size_t>(width)) << k;
+        ASSERT_EQ(all.row.size(), static_cast<std::size_t>(height)) << k;
+        for (int y = 0; y < height; ++y)
+          for (int x = 0; x < width; ++x)
+            EXPECT_EQ(
+                all.column[static_cast<std::size_t>(x)] + all.row[static_cast<std::size_t>(y)],
+                texel_address(d, k, x, y));
+      }
     }
   }
 }
@@ -176,12 +222,12 @@ TEST(Address, WrapsAt32Bits) {
 
 TEST(Descriptor, EachInvalidFieldIsNamed) {
   const auto good = descriptor(100, 50, Format::kRgb565, Layout::kTiled);
-  ASSERT_EQ(descriptor_fault(good), nullptr);
-  const auto fault = [&](auto&& change) {
+  ASSERT_EQ(descriptor_fault(good, kNone), nullptr);
+  const auto fault = [&](auto&& change, spec::texture::Decode decode = kNone) {
     spec::texture::Descriptor d = good;
     change(d);
-    const char* text = descriptor_fault(d);
-    EXPECT_EQ(valid(d), text == nullptr);
+    const char* text = descriptor_fault(d, decode);
+    EXPECT_EQ(valid(d, decode), text == nullptr);
     return std::string(text == nullptr ? "" : text);
   };
   using D = spec::texture::Descriptor;
@@ -191,7 +237,8 @@ TEST(Descriptor, EachInvalidFieldIsNamed) {
   EXPECT_EQ(fault([](D& d) { d.height = 65535; }), "width or height is over 4096");
   EXPECT_EQ(fault([](D& d) { d.levels = 0; }), "no level");
   EXPECT_EQ(fault([](D& d) { d.levels = 8; }), "more levels than the size allows");
-  EXPECT_EQ(fault([](D& d) { d.format = static_cast<Format>(5); }), "unknown format");
+  EXPECT_EQ(fault([](D& d) { d.format = static_cast<Format>(12); }), "unknown format");
+  EXPECT_EQ(fault([](D& d) { d.format = static_cast<Format>(15); }, kAfter), "unknown format");
   EXPECT_EQ(fault([](D& d) { d.layout = static_cast<Layout>(2); }), "unknown layout");
   EXPECT_EQ(fault([](D& d) { d.wrap_s = static_cast<spec::texture::Wrap>(3); }),
             "unknown wrap mode");
@@ -203,6 +250,17 @@ TEST(Descriptor, EachInvalidFieldIsNamed) {
             "unknown filter");
   EXPECT_EQ(fault([](D& d) { d.max_anisotropy_log2 = 5; }), "N_max is over 16");
   EXPECT_EQ(fault([](D& d) { d.base[6] += 32; }), "the base of a level is not a multiple of 64");
+  constexpr const char* kCompressed = "the format is compressed, and decode is none";
+  constexpr const char* kSrgb = "srgb is set, which only bc1, bc3 and etc2 have";
+  for (std::uint8_t code = 0; code < 12; ++code) {
+    const auto set = [code](D& d) { d.format = static_cast<Format>(code); };
+    const auto set_srgb = [code](D& d) { d.format = static_cast<Format>(code), d.srgb = true; };
+    EXPECT_EQ(fault(set), code < 5 ? "" : kCompressed);
+    EXPECT_EQ(fault(set, kAfter), "");
+    EXPECT_EQ(fault(set_srgb), code < 5 ? kSrgb : kCompressed);
+    const bool may_be = code == 5 || code == 6 || code > 8;
+    EXPECT_EQ(fault(set_srgb, kAfter), may_be ? "" : kSrgb);
+  }
   // Valid: all levels, fewer levels, an unaligned base of a level that does not exist.
   EXPECT_EQ(fault([](D& d) { d.levels = 7; }), "");
   EXPECT_EQ(fault([](D& d) { d.levels = 1; }), "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Predicted cycles and slots of small cases that are counted by hand from
-// docs/reference/texture/cache.md and width.md. Preset paper: 17 cycles of address unit, 8 of the
-// filter.
+// docs/reference/texture/cache.md, width.md and compressed.md. Preset paper: 17 cycles of address
+// unit, 8 of the filter.
 #include <gtest/gtest.h>
 
 #include "golden/texture/cycle_predictor.h"
@@ -435,14 +435,148 @@ TEST(Cycles, WritesStallTheGroupFormer) {
   EXPECT_EQ(more.all() - fewer.all(), 160u);
 }
 
+// ---- BlockDecoder -------------------------------------------------------------------------------
+
+Parameters with_decoders(Parameters p, int decoders) {
+  p.decode = spec::texture::Decode::kAfter;
+  p.cache_decoders = decoders;
+  return p;
+}
+CacheRequest blocks(spec::texture::Format format, std::uint32_t a00, std::uint32_t a10,
+                    std::uint32_t a01, std::uint32_t a11) {
+  CacheRequest request = at(a00, a10, a01, a11);
+  request.format = format;
+  return request;
+}
+CacheRequest bc1(std::uint32_t a00, std::uint32_t a10, std::uint32_t a01, std::uint32_t a11) {
+  return blocks(spec::texture::Format::kBc1, a00, a10, a01, a11);
+}
+CacheRequest bc3(std::uint32_t a00, std::uint32_t a10, std::uint32_t a01, std::uint32_t a11) {
+  return blocks(spec::texture::Format::kBc3, a00, a10, a01, a11);
+}
+
+TEST(Cycles, BlockDecoderTakesThreeCycles) {
+  for (const CacheRequest& request : {kInvalid, at(0), bc1(0, 8, 16, 24), bc3(0, 0, 16, 16)}) {
+    EXPECT_EQ(cycles(with_decoders(narrow(), 0), {{request}}), cycles(narrow(), {{request}}) + 3);
+    EXPECT_EQ(cycles(with_decoders(wide(), 0), {{request}}), cycles(wide(), {{request}}) + 3);
+  }
+}
+
+TEST(Cycles, BlockDecoderTakesDBlocksPerCycle) {
+  const std::array<CacheRequest, 4> of_n_blocks = {bc1(8, 8, 8, 8), bc1(8, 0, 8, 0),
+                                                   bc1(0, 8, 16, 8), bc1(24, 16, 8, 0)};
+  for (const unsigned decoders : {1u, 2u, 3u, 4u, 0u}) {
+    const Parameters p = with_decoders(narrow(), static_cast<int>(decoders));
+    for (unsigned n = 1; n <= 4; ++n) {
+      const unsigned d = decoders == 0 ? 4 : decoders, interval = (n + d - 1) / d;
+      const Quad quad = {of_n_blocks[n - 1]};
+      EXPECT_EQ(cycles(p, {quad}), 30u + 105 + 3 + interval - 1) << decoders << ", " << n;
+      EXPECT_EQ(cycles(p, repeated(quad, 50)), 30u + 105 + 3 + 50 * interval - 1)
+          << decoders << ", " << n;
+    }
+    // Texels are not blocks.
+    EXPECT_EQ(cycles(p, repeated({at(0, 4, 8, 12)}, 50)), 30u + 105 + 3 + 49);
+  }
+}
+
+// A decoder that takes four cycles per request holds the link, stage 2 of the DataStage and so its
+// stage 1. Of the following requests, of four passes and no blocks, the DataStage reads the first
+// three in the time in which the decoder empties the link.
+TEST(Cycles, BlockDecoderStallsTheDataStage) {
+  const Parameters p = with_decoders(narrow(), 1);
+  const CacheRequest lines_0_to_3 = at(0, kLine, 2 * kLine, 3 * kLine);
+  const auto growth = [&](int passes) {
+    const Quads heavy = joined({{lines_0_to_3}}, repeated({bc1(0, 8, 16, 24)}, 20));
+    return cycles(p, joined(heavy, repeated({lines_0_to_3}, passes))) - cycles(p, heavy);
+  };
+  const std::array<unsigned, 6> expected = {0, 1, 2, 3, 7, 11};
+  for (int passes = 0; passes < 6; ++passes)
+    EXPECT_EQ(growth(passes), expected[static_cast<std::size_t>(passes)]) << passes;
+}
+
+TEST(Cycles, BlocksInTheSameBanksTakePasses) {
+  const Parameters p = with_decoders(narrow(), 0);
+  const auto passes = [&](const CacheRequest& request) {
+    const Quads before = {{at(0, kLine, 2 * kLine, 3 * kLine)}, {kInvalid}};
+    return cycles(p, joined(before, {{request}})) - cycles(p, before);
+  };
+  EXPECT_EQ(passes(bc1(0, 8, kLine + 16, kLine + 24)), 1u);
+  EXPECT_EQ(passes(bc1(0, 0, kLine, kLine)), 2u);
+  EXPECT_EQ(passes(bc1(0, kLine, 2 * kLine, 3 * kLine)), 4u);
+  EXPECT_EQ(passes(bc3(0, 16, kLine + 32, kLine + 48)), 1u);
+  EXPECT_EQ(passes(bc3(0, kLine, 16, kLine + 16)), 2u);
+  // A word of rgba8 per texel: the second word of the block is not read.
+  EXPECT_EQ(passes(at(0, 0, kLine + 4, kLine + 4)), 1u);
+  // A block whose line misses is not read from the banks.
+  EXPECT_EQ(passes(bc1(0, 0, 9 * kLine, 9 * kLine)), passes(bc1(8, 8, 9 * kLine, 9 * kLine)));
+  // A turned line has its words 0 to 7 in banks 8 to 15.
+  CacheRequest odd_row_first = bc1(0, 0, kLine, kLine);
+  odd_row_first.turned = {false, true};
+  for (const std::uint32_t word : {0u, 2u, 6u, 8u}) {
+    const Quads before = {{odd_row_first}, {kInvalid}};
+    const CacheRequest second = bc1(0, 0, kLine + 4 * word, kLine + 4 * word);
+    EXPECT_EQ(cycles(p, joined(before, {{second}})) - cycles(p, before), word == 8 ? 2u : 1u);
+  }
+}
+
+TEST(Cycles, GroupHasAtMostDBlocks) {
+  const CacheRequest four = bc1(0, 8, 16, 24), two_more = bc1(32, 40, 0, 8);
+  const CacheRequest one_more = bc1(48, 48, 48, 48);
+  for (const int decoders : {4, 5, 6, 0}) {
+    const Parameters p = with_decoders(wide(), decoders);
+    const int d = decoders == 0 ? 6 : decoders;
+    const Formed six = formed(p, {four, two_more, two_more, at(0)});
+    EXPECT_EQ(six.groups, d < 6 ? 2u : 1u) << decoders;
+    EXPECT_EQ(six.slots.decoders, d < 6 ? 3u : 0u) << decoders;
+    const Formed seven = formed(p, {four, two_more, one_more, at(0)});
+    // D = 4: one request, one, two; D = 5: one, three.
+    EXPECT_EQ(seven.groups, d == 4 ? 3u : 2u) << decoders;
+    EXPECT_EQ(seven.slots.decoders, d == 4 ? 6u : d == 5 ? 3u : 2u) << decoders;
+  }
+  // The same bytes in another format are another block.
+  const Parameters p = with_decoders(wide(), 4);
+  const auto fifth = [&](spec::texture::Format format) {
+    return formed(p, {four, blocks(format, 8, 8, 8, 8), at(0), at(0)}).slots.decoders;
+  };
+  EXPECT_EQ(fifth(spec::texture::Format::kBc1), 0u);
+  EXPECT_EQ(fifth(spec::texture::Format::kEtc2Rgb), 3u);
+}
+
+// Blocks of one format share all banks or none; blocks and texels of other sizes may share a bank
+// by any of their words.
+TEST(Cycles, GroupReadsEveryWordOfABlock) {
+  Parameters p = with_decoders(wide(), 0);
+  p.cache_bank_reads = 1;
+  const auto two = [&](const CacheRequest& a, const CacheRequest& b) {
+    return formed(p, {a, b}).slots.banks;
+  };
+  const std::uint32_t same_line_bank = 4 * kLine;
+  for (std::uint32_t word = 0; word < 8; ++word) {
+    const CacheRequest texel = at(same_line_bank + 4 * word);
+    EXPECT_EQ(two(bc1(0, 0, 0, 0), texel), word < 2 ? 3u : 0u) << word;
+    EXPECT_EQ(two(texel, bc3(0, 0, 0, 0)), word < 4 ? 3u : 0u) << word;
+  }
+}
+
+TEST(Cycles, DecodersAreTheLastCause) {
+  Parameters p = with_decoders(wide(), 4);
+  // The second request needs a fifth block, a third word of bank 0 and a third line of set 0.
+  const auto in_set_0 = [](std::uint32_t i) { return i * 128 * kLine; };
+  const CacheRequest first = bc1(in_set_0(0), in_set_0(1), 8, 16);
+  EXPECT_EQ(formed(p, {first, bc1(in_set_0(2), 8, 8, 8)}).slots.banks, 3u);
+  EXPECT_EQ(formed(p, {first, bc1(in_set_0(2) + 32, 8, 8, 8)}).slots.set, 3u);
+  EXPECT_EQ(formed(p, {first, bc1(kLine + 32, 8, 8, 8)}).slots.decoders, 3u);
+}
+
 // ---- whole frames -------------------------------------------------------------------------------
 
 // A plane of 128 x 128 pixels.
 struct Frame {
   std::vector<Quad> quads;
   std::uint64_t fills = 0;
-  explicit Frame(const Parameters& p) {
+  Frame(const Parameters& p, spec::texture::Format format) {
     spec::texture::Descriptor sampler;
+    sampler.format = format;
     sampler.max_anisotropy_log2 = 4;
     const tb::texture::EncodedTexture texture(tb::texture::noise(256, 256, 1), sampler);
     TextureGolden golden(p, texture.memory);
@@ -456,14 +590,18 @@ struct Frame {
 };
 
 TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
-  for (const auto blend : {spec::texture::Blend::kSample, spec::texture::Blend::kLevel}) {
-    Parameters p;
+  using spec::texture::Blend, spec::texture::Format;
+  for (const auto& [blend, format] : {std::pair{Blend::kSample, Format::kRgba8},
+                                      {Blend::kLevel, Format::kRgba8},
+                                      {Blend::kLevel, Format::kBc1},
+                                      {Blend::kSample, Format::kEtc2Rgba8}}) {
+    Parameters p = with_decoders({}, 0);
     p.blend = blend;
-    const Frame frame(p);
+    const Frame frame(p, format);
     const CyclePrediction one = predict(p, frame.quads);
     EXPECT_EQ(one.fills, frame.fills);
     for (const int width : {2, 4}) {
-      Parameters w = wide();
+      Parameters w = with_decoders(wide(), 0);
       w.width = w.fragments = width;
       const CyclePrediction prediction = predict(w, frame.quads);
       EXPECT_EQ(prediction.fills, frame.fills);
@@ -477,23 +615,30 @@ TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
 
 // Flags of each request: which lines are turned, validity, and the last of its fragment.
 TEST(Cycles, RequestsHaveTheRowsOfTheirTexelsAndTheEndOfTheirFragment) {
-  Parameters p = narrow();
-  for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled}) {
+  const Parameters p = with_decoders(narrow(), 0);
+  using spec::texture::Format, spec::texture::Layout;
+  for (const auto& [layout, format] : {std::pair{Layout::kLinear, Format::kRgba8},
+                                       {Layout::kTiled, Format::kRgba8},
+                                       {Layout::kLinear, Format::kBc3},
+                                       {Layout::kTiled, Format::kBc3}}) {
+    const int side = format == Format::kBc3 ? 4 : 1;
     spec::texture::Descriptor sampler;
     sampler.layout = layout;
+    sampler.format = format;
     sampler.max_anisotropy_log2 = 4;
     const tb::texture::EncodedTexture texture(tb::texture::noise(64, 64, 1), sampler);
     TextureGolden golden(p, texture.memory);
     golden.set_texture(0, texture.descriptor);
-    for (std::int32_t row = 0; row < 4; ++row) {
+    for (std::int32_t row = 0; row < 16; ++row) {
       spec::texture::Quad quad;
       quad.coverage = 0b0101;
       quad.t.fill((row + 1) * (spec::texture::kCoordinateOne / 64));  // between row and row + 1
       Quad requests;
       golden.process(quad, requests);
       ASSERT_EQ(requests.size(), 2u);
-      EXPECT_EQ(requests[0].turned[0], layout == spec::texture::Layout::kLinear && row % 2 == 1);
-      EXPECT_EQ(requests[0].turned[1], layout == spec::texture::Layout::kLinear && row % 2 == 0);
+      EXPECT_EQ(requests[0].turned[0], layout == Layout::kLinear && row / side % 2 == 1);
+      EXPECT_EQ(requests[0].turned[1], layout == Layout::kLinear && (row + 1) / side % 2 == 1);
+      EXPECT_EQ(requests[0].format, format);
       EXPECT_TRUE(requests[0].last && requests[1].last);
       quad.texture = 3;
       golden.process(quad, requests);

@@ -100,6 +100,7 @@ TEST(TextureTables, AxisConstantsAreWithinTheirErrors) {
 
 TEST(TextureTables, TilesAre64Bytes) {
   for (const std::size_t bytes : spec::texture::kFormatBytes) {
+    if (bytes == 0) continue;  // blocks
     EXPECT_EQ(spec::texture::kTileWidth[bytes] * spec::texture::kTileHeight[bytes] *
                   static_cast<int>(bytes),
               spec::texture::kTileBytes);

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "golden/texture/block_decoder.h"
 #include "golden/texture/texture_golden.h"
 #include "spec/error.h"
 #include "spec/texture/parameters.h"
@@ -66,6 +67,14 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
     result.requests.push_back({i, level, ps, pt, addresses, {}});
     std::array<Texel, 4> texel;
     for (std::size_t k = 0; k < 4; ++k) {
+      if (spec::texture::is_compressed(d.format)) {
+        const auto all = decode_block(d.format, p.bc, &memory.at(addresses[k]));
+        const int inside = (k < 2 ? y.i0 : y.i1) % 4 * 4 + (k % 2 == 0 ? x.i0 : x.i1) % 4;
+        texel[k] =
+            decode_texel(d.srgb ? spec::texture::Format::kSrgb8A8 : spec::texture::Format::kRgba8,
+                         all[static_cast<std::size_t>(inside)]);
+        continue;
+      }
       std::uint32_t word = 0;
       for (std::size_t b = 0; b < spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)];
            ++b) {
@@ -81,7 +90,7 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
     return colour;
   };
   const auto weight = [&](int i) { return sample_weight(p.kernel, i, lod.samples); };
-  const bool encoded = d.format == spec::texture::Format::kSrgb8A8 &&
+  const bool encoded = (d.srgb || d.format == spec::texture::Format::kSrgb8A8) &&
                        p.srgb_output == spec::texture::SrgbOutput::kEncoded;
   if (p.blend == spec::texture::Blend::kLevel) {
     // Products and sums in plain integers, halves added before the only division.
@@ -156,6 +165,8 @@ class RandomWork {
     p.spread = pick(0, 2) == 0 ? pick(0, 128) : 64;
     p.blend = static_cast<spec::texture::Blend>(pick(0, 1));
     p.derivatives = static_cast<spec::texture::Derivatives>(pick(0, 1));
+    p.bc = static_cast<spec::texture::BlockRule>(pick(0, 1));
+    p.decode = spec::texture::Decode::kAfter;
     p.cache_bytes = 1 << pick(10, 14);
     p.cache_line_bytes = 1 << pick(5, 7);
     p.cache_ways = 1 << pick(0, 3);
@@ -165,7 +176,8 @@ class RandomWork {
 
   spec::texture::Descriptor sampler() {
     spec::texture::Descriptor d;
-    d.format = static_cast<spec::texture::Format>(pick(0, 4));
+    d.format = static_cast<spec::texture::Format>(pick(0, 11));
+    d.srgb = spec::texture::may_be_srgb(d.format) && pick(0, 1) == 0;
     d.layout = static_cast<spec::texture::Layout>(pick(0, 1));
     d.wrap_s = static_cast<spec::texture::Wrap>(pick(0, 2));
     d.wrap_t = static_cast<spec::texture::Wrap>(pick(0, 2));
@@ -535,6 +547,28 @@ TEST(TextureGolden, ErrorLinesReadAsZeroBytesAndEachFillCounts) {
     }
     golden.set_error_lines({});
     EXPECT_EQ(golden.process(quad).colours[0].rgba, all);
+  }
+}
+
+// The texels of a block of zeros, which docs/reference/texture/compressed.md lists.
+TEST(TextureGolden, BlocksOfErrorLinesAreZeroBytes) {
+  spec::texture::Parameters p;
+  p.decode = spec::texture::Decode::kAfter;
+  for (auto format = spec::texture::Format::kBc1; format <= spec::texture::Format::kEtc2Rgba8;
+       format = static_cast<spec::texture::Format>(static_cast<int>(format) + 1)) {
+    spec::texture::Descriptor sampler;
+    sampler.format = format;
+    const EncodedTexture texture = white(32, 32, sampler);
+    TextureGolden golden(p, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    golden.set_error_ranges({{5, 6}});
+    const QuadColours colours = golden.process(flat_quad(0.5 / 32, 0.5 / 32, 0.5, 0.5));
+    const std::array<std::uint8_t, 16> zero{};
+    const std::uint32_t texel = block_texel(format, p.bc, zero.data(), 0, 0);
+    for (std::size_t c = 0; c < 4; ++c)
+      EXPECT_EQ(colours.colours[0].rgba[c], texel >> 8 * c & 255) << static_cast<int>(format);
+    EXPECT_NE(colours.colours[3].rgba, colours.colours[0].rgba) << static_cast<int>(format);
+    EXPECT_EQ(golden.work().memory_errors, 1u);
   }
 }
 
