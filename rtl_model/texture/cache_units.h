@@ -44,6 +44,13 @@ inline std::uint32_t texel_mask(const FilterControl& control) {
   return kMask[control.format];
 }
 
+// The words of a block in the banks or in a line; of 8 bytes, the others are 0.
+inline Block load_block(const std::uint8_t* bytes, std::uint8_t codec) {
+  Block block{};
+  for (std::size_t n = 0; n < word_count(codec); ++n) block[n] = load_word(bytes + 4 * n);
+  return block;
+}
+
 // TagStage, or WideTagStage.
 class TagUnit : public Unit, public Lookups {
  public:
@@ -112,6 +119,15 @@ class DataUnit : public Unit {
     issued_ = &port;
     issued_word_ = word;
     issued_at_ = cycle;
+  }
+
+  // The token of stage 2 for the BlockDecoder. A texel is taken from its block.
+  static void pass(const TexelQuadToken& texels, BlockRequest& out) {
+    out.ticket = texels.ticket;
+    out.control = texels.control;
+    const bool compressed = texels.ticket.valid && texels.control.codec != 0;
+    out.texel = compressed ? Block{} : texels.texel;
+    if (!compressed) out.index = {};
   }
 
   Activity wait_fill_, write_fill_, bank_conflict_;
