@@ -258,11 +258,6 @@ std::uint32_t select(const Palette& from, const Selectors& s, Format format, std
 
 }  // namespace
 
-std::uint32_t texel_of(const Block& block, Format format, BlockRule rule, std::uint32_t x,
-                       std::uint32_t y) {
-  return select(palette(block, format, rule), selectors(block, format, x, y), format, x, y);
-}
-
 template <class Width>
 BlockDecoderOf<Width>::BlockDecoderOf(const sc_core::sc_module_name& name, ClockDomain& clock,
                                       const spec::texture::Parameters& p)

@@ -23,10 +23,6 @@
 
 namespace deburr::rtl::texture {
 
-// Texel (x, y) of a block, little-endian as RGBA8.
-std::uint32_t texel_of(const Block& block, spec::texture::Format format,
-                       spec::texture::BlockRule rule, std::uint32_t x, std::uint32_t y);
-
 // The part that does not depend on the width.
 class BlockDecoderBase : public Unit {
  public:
