@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <string>
+#include <utility>
 
 #include "rtl_model/texture/datasheets.h"
 #include "spec/texture/tables.h"
@@ -13,6 +14,7 @@ namespace deburr::rtl::texture {
 namespace {
 
 using spec::texture::BlockRule, spec::texture::Format;
+using Fault = BlockDecoderBase::Fault;
 using Rgb = std::array<std::int32_t, 3>;
 
 // What the texels of a block select from, after stage 2.
@@ -80,22 +82,23 @@ void bc_colours(std::uint64_t bits, bool three_allowed, BlockRule rule, Palette&
   if (three) out.clear = 1U << 3;
 }
 
-void bc_values(std::uint64_t bits, BlockRule rule, std::array<std::int32_t, 8>& out) {
+void bc_values(std::uint64_t bits, BlockRule rule, Fault fault, std::array<std::int32_t, 8>& out) {
   const auto a = static_cast<std::int32_t>(field(bits, 7, 0)),
              b = static_cast<std::int32_t>(field(bits, 15, 8));
-  const std::int32_t up = rule == BlockRule::kRounded ? 1 : 0, parts = a > b ? 7 : 5;
+  const bool seven = (a > b) != (fault == Fault::kValues);
+  const std::int32_t up = rule == BlockRule::kRounded ? 1 : 0, parts = seven ? 7 : 5;
   out[0] = a;
   out[1] = b;
   for (std::int32_t s = 2; s <= parts; ++s)
     out[static_cast<std::size_t>(s)] = ((parts + 1 - s) * a + (s - 1) * b + up) / parts;
-  if (a > b) return;
+  if (seven) return;
   out[6] = 0;
   out[7] = 255;
 }
 
 // ---- ETC2
 
-void etc_colours(std::uint64_t bits, bool punch_through, Palette& out) {
+void etc_colours(std::uint64_t bits, bool punch_through, Fault fault, Palette& out) {
   const bool d = field(bits, 33, 33) != 0, holes = punch_through && !d;
   if (holes) out.clear = 1U << 2 | 1U << 6;
   const auto four = [&](unsigned high) { return widened(field(bits, high, high - 3), 4); };
@@ -124,14 +127,16 @@ void etc_colours(std::uint64_t bits, bool punch_through, Palette& out) {
     other[c] = base[c] + (difference ^ 4) - 4;
   }
   const auto in_range = [&](std::size_t c) { return other[c] >= 0 && other[c] <= 31; };
-  if (!in_range(0)) {  // T
+  bool t_mode = !in_range(0), h_mode = in_range(0) && !in_range(1);
+  if (fault == Fault::kModes) std::swap(t_mode, h_mode);
+  if (t_mode) {
     const Rgb a = {widened(field(bits, 60, 59) << 2 | field(bits, 57, 56), 4), four(55), four(51)},
               b = {four(47), four(43), four(39)};
     const std::int32_t e =
         spec::texture::kEtcDistances[field(bits, 35, 34) << 1 | field(bits, 32, 32)];
     return paint({a, sum(b, e), b, sum(b, -e)});
   }
-  if (!in_range(1)) {  // H
+  if (h_mode) {
     const std::array<std::uint32_t, 3> a = {field(bits, 62, 59),
                                             field(bits, 58, 56) << 1 | field(bits, 52, 52),
                                             field(bits, 51, 51) << 3 | field(bits, 49, 47)},
@@ -186,28 +191,28 @@ std::size_t half_of_colours(Format format) {
 }
 
 // Stages 1 and 2.
-Palette palette(const Block& block, Format format, BlockRule rule) {
+Palette palette(const Block& block, Format format, BlockRule rule, Fault fault) {
   Palette out;
   const std::size_t colours = half_of_colours(format);
   switch (format) {
     case Format::kBc3:
-      bc_values(little(block, 0), rule, out.value[0]);
+      bc_values(little(block, 0), rule, fault, out.value[0]);
       [[fallthrough]];
     case Format::kBc1:
       bc_colours(little(block, colours), format == Format::kBc1, rule, out);
       break;
     case Format::kBc5:
-      bc_values(little(block, 1), rule, out.value[1]);
+      bc_values(little(block, 1), rule, fault, out.value[1]);
       [[fallthrough]];
     case Format::kBc4:
-      bc_values(little(block, 0), rule, out.value[0]);
+      bc_values(little(block, 0), rule, fault, out.value[0]);
       break;
     case Format::kEtc2Rgba8:
       eac_values(big(block, 0), out.value[0]);
       [[fallthrough]];
     case Format::kEtc2Rgb:
     case Format::kEtc2RgbA1:
-      etc_colours(big(block, colours), format == Format::kEtc2RgbA1, out);
+      etc_colours(big(block, colours), format == Format::kEtc2RgbA1, fault, out);
       break;
     default:
       break;
@@ -215,7 +220,8 @@ Palette palette(const Block& block, Format format, BlockRule rule) {
   return out;
 }
 
-Selectors selectors(const Block& block, Format format, std::uint32_t x, std::uint32_t y) {
+Selectors selectors(const Block& block, Format format, std::uint32_t x, std::uint32_t y,
+                    Fault fault) {
   const std::uint32_t by_rows = 4 * y + x, by_columns = 4 * x + y;
   const std::size_t colours = half_of_colours(format);
   Selectors out;
@@ -223,12 +229,14 @@ Selectors selectors(const Block& block, Format format, std::uint32_t x, std::uin
     const std::uint64_t bits = big(block, colours);
     const bool flip = field(bits, 32, 32) != 0;
     const std::uint32_t half = (flip ? y : x) / 2;
-    out.colour = half << 2 | field(bits, 16 + by_columns, 16 + by_columns) << 1 |
-                 field(bits, by_columns, by_columns);
+    const std::uint32_t high = field(bits, 16 + by_columns, 16 + by_columns),
+                        low = field(bits, by_columns, by_columns);
+    out.colour = half << 2 | (fault == Fault::kSelectors ? low << 1 | high : high << 1 | low);
     out.value[0] = field(big(block, 0), 47 - 3 * by_columns, 45 - 3 * by_columns);
     return out;
   }
   out.colour = field(little(block, colours), 32 + 2 * by_rows + 1, 32 + 2 * by_rows);
+  if (fault == Fault::kSelectors) out.colour = out.colour >> 1 | (out.colour & 1) << 1;
   for (std::size_t n = 0; n < 2; ++n)
     out.value[n] = field(little(block, n), 16 + 3 * by_rows + 2, 16 + 3 * by_rows);
   return out;
@@ -272,7 +280,9 @@ Activity BlockDecoderOf<Width>::tick(Cycle cycle) {
   pipe_.move();
   if (const auto* done = pipe_.at(kStages)) texels_out.push(cycle, *done);
   if (arrives) {
-    const BlockGroup& group = blocks_in.take(cycle);
+    const BlockGroup& arrived = blocks_in.take(cycle);
+    if (fault != Fault::kNone) changed_ = faulty(arrived);
+    const BlockGroup& group = fault == Fault::kNone ? arrived : changed_;
     blocks += group.blocks;
     if (group.blocks <= decoders_) {
       decode(group, pipe_.enter());
@@ -301,14 +311,27 @@ void BlockDecoderOf<Width>::decode(const BlockGroup& group,
     if (!request.ticket.valid || request.control.codec == 0) continue;
     const Format format = format_of(request.control.codec);
     for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::size_t k = request.index[i];
-      if ((known >> k & 1) == 0) palettes[k] = palette(group.block[k], format, rule_);
+      const std::size_t k = std::min<std::size_t>(request.index[i], palettes.size() - 1);
+      if ((known >> k & 1) == 0) palettes[k] = palette(group.block[k], format, rule_, fault);
       known |= 1U << k;
       const std::uint32_t x = request.control.within >> 2 * (i % 2) & 3,
                           y = request.control.within >> (4 + 2 * (i / 2)) & 3;
-      out.texel[i] = select(palettes[k], selectors(group.block[k], format, x, y), format, x, y);
+      out.texel[i] =
+          select(palettes[k], selectors(group.block[k], format, x, y, fault), format, x, y);
     }
   }
+}
+
+template <class Width>
+BlockGroup BlockDecoderOf<Width>::faulty(BlockGroup group) {
+  const auto blocks_now = group.block;
+  if (fault == Fault::kEdge)
+    for (BlockRequest& request : group.at) request.index[1] = request.index[0];
+  if (fault == Fault::kHalf)
+    for (std::size_t k = 0; k < group.block.size(); ++k)
+      std::copy_n(previous_[k].begin() + 2, 2, group.block[k].begin() + 2);
+  previous_ = blocks_now;
+  return group;
 }
 
 template <class Width>

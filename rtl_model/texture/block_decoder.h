@@ -26,6 +26,12 @@ namespace deburr::rtl::texture {
 // The part that does not depend on the width.
 class BlockDecoderBase : public Unit {
  public:
+  // Faults that tests inject: modes T and H exchanged; the bits of each selector exchanged; values
+  // with the steps of the other mode; the second texel in the block of the first; the second half
+  // of a block of 16 bytes from the previous request.
+  enum class Fault : std::uint8_t { kNone, kModes, kSelectors, kValues, kEdge, kHalf };
+  Fault fault = Fault::kNone;
+
   In<BlockGroup> blocks_in{"blocks_in"};
   Counter blocks{"blocks", "blocks", "distinct blocks of requests decoded"};
 
@@ -49,6 +55,7 @@ class BlockDecoderOf : public BlockDecoderBase {
   static constexpr std::size_t kStages = 3;
 
   void decode(const BlockGroup& group, typename Width::TexelQuads& texels) const;
+  BlockGroup faulty(BlockGroup group);
 
   const std::uint32_t decoders_;
   const spec::texture::BlockRule rule_;
@@ -56,6 +63,9 @@ class BlockDecoderOf : public BlockDecoderBase {
   // The request whose last blocks have not entered stage 1, and the cycles until they do.
   typename Width::TexelQuads in_hand_{};
   std::uint32_t cycles_left_ = 0;
+  // For faults: the request with one, and the blocks of the previous one.
+  BlockGroup changed_{};
+  decltype(BlockGroup::block) previous_{};
 };
 
 class BlockDecoder final : public BlockDecoderOf<Narrow> {

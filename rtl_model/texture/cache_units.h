@@ -23,8 +23,8 @@ namespace deburr::rtl::texture {
 
 using rtl::LookUp;
 
-// A word may be read at the last byte of the last line.
-inline constexpr std::size_t kWordPadding = 3;
+// A word, or a block, may be read at the last byte of the last line.
+inline constexpr std::size_t kWordPadding = sizeof(Block) - 1;
 
 // Little-endian on every host.
 inline std::uint32_t load_word(const std::uint8_t* bytes) {

@@ -214,7 +214,7 @@ void WideDataStage::add_block(const CacheGroup& group, BlockRequest& request, st
   std::size_t k = 0;
   while (k < blocks_.blocks && block_places_[k] != at) ++k;
   request.index[texel] = static_cast<std::uint8_t>(k);
-  if (k < blocks_.blocks) return;
+  if (k < blocks_.blocks || k == block_places_.size()) return;  // the GroupFormer forms no more
   block_places_[k] = at;
   blocks_.block[k] = {};
   ++blocks_.blocks;

@@ -28,12 +28,15 @@ spec::texture::Parameters build(std::int32_t decoders = 0, BlockRule rule = Bloc
 }
 
 struct Bench {
-  explicit Bench(const spec::texture::Parameters& p) : unit("unit", clock, p) {
+  explicit Bench(const spec::texture::Parameters& p, const std::string& name = "")
+      : clock((name + "clock").c_str(), period()),
+        ends(clock, name),
+        unit((name + "unit").c_str(), clock, p) {
     unit.blocks_in(ends.in);
     unit.texels_out(ends.out);
   }
-  ClockDomain clock{"clock", period()};
-  Ends<BlockGroup, TexelQuadToken> ends{clock};
+  ClockDomain clock;
+  Ends<BlockGroup, TexelQuadToken> ends;
   BlockDecoder unit;
 };
 
@@ -163,37 +166,46 @@ TEST(TextureRtlBlockDecoder, ResetForgetsARequestInPasses) {
 using Rgba = std::array<int, 4>;
 constexpr Rgba kHole = {0, 0, 0, 0};
 
-// The sixteen texels of a block, row by row, of which four make a request.
-std::array<Rgba, 16> decoded(Format format, const std::vector<std::uint64_t>& halves,
-                             BlockRule rule = BlockRule::kTruncated) {
-  Bench b(build(4, rule));
-  for (std::uint8_t quarter = 0; quarter < 4; ++quarter) {
-    BlockGroup group{};
-    group.count = 1;
-    group.blocks = 1;
-    group.at[0].ticket = ticket();
-    group.at[0].control.codec = codec_of(format);
-    const auto x = static_cast<std::uint8_t>(quarter % 2 * 2),
-               y = static_cast<std::uint8_t>(quarter / 2 * 2);
-    group.at[0].control.within =
-        static_cast<std::uint8_t>(x | (x + 1) << 2 | y << 4 | (y + 1) << 6);
-    for (std::size_t n = 0; n < halves.size(); ++n) {
-      group.block[0][2 * n] = static_cast<std::uint32_t>(halves[n]);
-      group.block[0][2 * n + 1] = static_cast<std::uint32_t>(halves[n] >> 32);
+// A decoder of each rule.
+class TextureRtlBlocks : public testing::Test {
+ protected:
+  // The sixteen texels of a block, row by row, of which four make a request.
+  std::array<Rgba, 16> decoded(Format format, const std::vector<std::uint64_t>& halves,
+                               BlockRule rule = BlockRule::kTruncated,
+                               BlockDecoder::Fault fault = BlockDecoder::Fault::kNone) {
+    Bench& b = rule == BlockRule::kTruncated ? truncated_ : rounded_;
+    b.unit.fault = fault;
+    for (std::uint8_t quarter = 0; quarter < 4; ++quarter) {
+      BlockGroup group{};
+      group.count = 1;
+      group.blocks = 1;
+      group.at[0].ticket = ticket();
+      group.at[0].control.codec = codec_of(format);
+      const auto x = static_cast<std::uint8_t>(quarter % 2 * 2),
+                 y = static_cast<std::uint8_t>(quarter / 2 * 2);
+      group.at[0].control.within =
+          static_cast<std::uint8_t>(x | (x + 1) << 2 | y << 4 | (y + 1) << 6);
+      for (std::size_t n = 0; n < halves.size(); ++n) {
+        group.block[0][2 * n] = static_cast<std::uint32_t>(halves[n]);
+        group.block[0][2 * n + 1] = static_cast<std::uint32_t>(halves[n] >> 32);
+      }
+      b.ends.source.add(group);
     }
-    b.ends.source.add(group);
+    const std::size_t first = b.ends.sink.taken.size();
+    b.clock.run(10);
+    std::array<Rgba, 16> texels{};
+    EXPECT_EQ(b.ends.sink.taken.size(), first + 4);
+    for (std::size_t q = 0; first + q < b.ends.sink.taken.size(); ++q)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t word = b.ends.sink.taken[first + q].token.texel[i];
+        const std::size_t at = 4 * (q / 2 * 2 + i / 2) + q % 2 * 2 + i % 2;
+        for (std::size_t c = 0; c < 4; ++c) texels[at][c] = static_cast<int>(word >> (8 * c) & 255);
+      }
+    return texels;
   }
-  b.clock.run(20);
-  std::array<Rgba, 16> texels{};
-  EXPECT_EQ(b.ends.sink.taken.size(), 4u);
-  for (std::size_t q = 0; q < b.ends.sink.taken.size(); ++q)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const std::uint32_t word = b.ends.sink.taken[q].token.texel[i];
-      const std::size_t at = 4 * (q / 2 * 2 + i / 2) + q % 2 * 2 + i % 2;
-      for (std::size_t c = 0; c < 4; ++c) texels[at][c] = static_cast<int>(word >> (8 * c) & 255);
-    }
-  return texels;
-}
+
+  Bench truncated_{build(4)}, rounded_{build(4, BlockRule::kRounded), "rounded_"};
+};
 Rgba opaque(int r, int g, int b) { return {r, g, b, 255}; }
 Rgba grey(int v) { return {v, v, v, 255}; }
 
@@ -212,7 +224,7 @@ void expect_rows(const std::array<Rgba, 16>& texels, const std::array<Rgba, 4>& 
 // 5 and 6 bits: R 3, G 11, B 31; differs between the rules.
 constexpr std::uint64_t kColour = 3 << 11 | 11 << 5 | 31;
 
-TEST(TextureRtlBlockDecoder, Bc1HasFourColours) {
+TEST_F(TextureRtlBlocks, Bc1HasFourColours) {
   expect_rows(decoded(Format::kBc1, {bc_colours(0xF800, 0x001F)}),
               {opaque(255, 0, 0), opaque(0, 0, 255), opaque(170, 0, 85), opaque(85, 0, 170)});
   expect_rows(decoded(Format::kBc1, {bc_colours(kColour, 0)}),
@@ -221,7 +233,7 @@ TEST(TextureRtlBlockDecoder, Bc1HasFourColours) {
               {opaque(25, 45, 255), opaque(0, 0, 0), opaque(17, 30, 170), opaque(8, 15, 85)});
 }
 
-TEST(TextureRtlBlockDecoder, Bc1HasThreeColoursAndClear) {
+TEST_F(TextureRtlBlocks, Bc1HasThreeColoursAndClear) {
   expect_rows(decoded(Format::kBc1, {bc_colours(0, kColour)}),
               {opaque(0, 0, 0), opaque(24, 44, 255), opaque(12, 22, 127), kHole});
   expect_rows(decoded(Format::kBc1, {bc_colours(0, kColour)}, BlockRule::kRounded),
@@ -240,7 +252,7 @@ const std::array<int, 8> kDescending = {200, 50, 178, 157, 135, 114, 92, 71},
                          kAscendingRounded = {51, 200, 81, 110, 140, 170, 0, 255};
 
 // Always four colours; alpha in both modes.
-TEST(TextureRtlBlockDecoder, Bc3HasFourColoursAndAlpha) {
+TEST_F(TextureRtlBlocks, Bc3HasFourColoursAndAlpha) {
   for (const auto& [a, b, rule, alpha] : {std::tuple{200, 50, BlockRule::kTruncated, kDescending},
                                           {200, 50, BlockRule::kRounded, kDescendingRounded},
                                           {51, 200, BlockRule::kTruncated, kAscending},
@@ -262,7 +274,7 @@ TEST(TextureRtlBlockDecoder, Bc3HasFourColoursAndAlpha) {
   }
 }
 
-TEST(TextureRtlBlockDecoder, Bc4AndBc5HaveOneAndTwoValues) {
+TEST_F(TextureRtlBlocks, Bc4AndBc5HaveOneAndTwoValues) {
   const auto one = decoded(Format::kBc4, {bc_values(200, 50)}),
              two = decoded(Format::kBc5, {bc_values(51, 200), bc_values(200, 50)});
   for (std::size_t i = 0; i < 16; ++i) {
@@ -297,7 +309,7 @@ void expect_columns(const std::array<Rgba, 16>& texels, const std::array<Rgba, 4
 Fields individual() {
   return with_rows({{60, 1}, {56, 15}, {52, 2}, {48, 14}, {44, 3}, {40, 13}, {37, 0}, {34, 7}});
 }
-TEST(TextureRtlBlockDecoder, EtcIndividual) {
+TEST_F(TextureRtlBlocks, EtcIndividual) {
   const std::array<Rgba, 4> first = {opaque(19, 36, 53), opaque(25, 42, 59), opaque(15, 32, 49),
                                      opaque(9, 26, 43)},
                             second = {grey(255), grey(255), opaque(208, 191, 174),
@@ -314,7 +326,7 @@ Fields differential(std::uint64_t d) {
   return with_rows(
       {{59, 10}, {56, 4}, {51, 20}, {48, 3}, {43, 31}, {40, 7}, {37, 1}, {34, 2}, {33, d}});
 }
-TEST(TextureRtlBlockDecoder, EtcDifferential) {
+TEST_F(TextureRtlBlocks, EtcDifferential) {
   const std::array<Rgba, 4> left = {opaque(87, 170, 255), opaque(99, 182, 255),
                                     opaque(77, 160, 250), opaque(65, 148, 238)},
                             right = {opaque(58, 198, 255), opaque(78, 218, 255),
@@ -331,7 +343,7 @@ Fields t_mode(std::uint64_t d) {
   return with_rows(
       {{59, 2}, {56, 5}, {52, 2}, {48, 3}, {44, 4}, {40, 5}, {36, 6}, {34, 2}, {33, d}, {32, 1}});
 }
-TEST(TextureRtlBlockDecoder, EtcT) {
+TEST_F(TextureRtlBlocks, EtcT) {
   const std::array<Rgba, 4> colours = {opaque(153, 34, 51), opaque(100, 117, 134),
                                        opaque(68, 85, 102), opaque(36, 53, 70)},
                             holes = {colours[0], colours[1], kHole, colours[3]};
@@ -345,7 +357,7 @@ Fields h_mode(std::uint64_t d, std::uint64_t red) {
   return with_rows(
       {{59, 5}, {56, 3}, {51, 1}, {48, 5}, {47, 1}, {43, red}, {39, 8}, {35, 9}, {34, 1}, {33, d}});
 }
-TEST(TextureRtlBlockDecoder, EtcH) {
+TEST_F(TextureRtlBlocks, EtcH) {
   // a < b: distance 4, which is 23.
   const std::array<Rgba, 4> less = {opaque(108, 125, 210), opaque(62, 79, 164),
                                     opaque(142, 159, 176), opaque(96, 113, 130)},
@@ -364,7 +376,7 @@ Fields planar(std::uint64_t d) {
   return {{57, 16}, {56, 0}, {49, 32},  {48, 0},  {42, 1}, {39, 4},  {34, 16},
           {33, d},  {32, 1}, {25, 100}, {19, 10}, {13, 5}, {6, 127}, {0, 63}};
 }
-TEST(TextureRtlBlockDecoder, EtcPlanar) {
+TEST_F(TextureRtlBlocks, EtcPlanar) {
   for (const auto& [format, d] : {std::pair{Format::kEtc2Rgb, 1},
                                   {Format::kEtc2RgbA1, 1},
                                   {Format::kEtc2RgbA1, 0}}) {  // without holes
@@ -377,7 +389,7 @@ TEST(TextureRtlBlockDecoder, EtcPlanar) {
 }
 
 // Base 100, multiplier 3, table 0; then 250 x 15. Selector of texel i, by columns: i mod 8.
-TEST(TextureRtlBlockDecoder, EtcAlpha) {
+TEST_F(TextureRtlBlocks, EtcAlpha) {
   const std::uint64_t selectors = 0123'4567'0123'4567;
   const std::array<int, 8> inside = {91, 82, 73, 55, 106, 115, 124, 142},
                            beyond = {205, 160, 115, 25, 255, 255, 255, 255},
@@ -403,7 +415,7 @@ TEST(TextureRtlBlockDecoder, EtcAlpha) {
 }
 
 // Of a line whose fill had an error.
-TEST(TextureRtlBlockDecoder, BytesOfZeros) {
+TEST_F(TextureRtlBlocks, BytesOfZeros) {
   for (const auto& [format, texel] : {std::pair{Format::kBc1, opaque(0, 0, 0)},
                                       {Format::kBc3, kHole},
                                       {Format::kBc4, opaque(0, 0, 0)},
@@ -413,6 +425,37 @@ TEST(TextureRtlBlockDecoder, BytesOfZeros) {
                                       {Format::kEtc2Rgba8, Rgba{2, 2, 2, 0}}})
     for (const Rgba& got : decoded(format, {0, 0}))
       EXPECT_EQ(got, texel) << spec::texture::kFormatNames[static_cast<std::size_t>(format)];
+}
+
+// Each injected fault changes the blocks that it is about, and no others.
+TEST_F(TextureRtlBlocks, FaultsChangeTheirBlocks) {
+  using Fault = BlockDecoder::Fault;
+  const auto changes = [this](Fault fault, Format format,
+                              const std::vector<std::uint64_t>& halves) {
+    const BlockRule rule = BlockRule::kTruncated;
+    return decoded(format, halves, rule, fault) != decoded(format, halves, rule);
+  };
+  EXPECT_TRUE(changes(Fault::kModes, Format::kEtc2Rgb, {big(t_mode(1))}));
+  EXPECT_TRUE(changes(Fault::kModes, Format::kEtc2Rgb, {big(h_mode(1, 7))}));
+  EXPECT_FALSE(changes(Fault::kModes, Format::kEtc2Rgb, {big(planar(1))}));
+  EXPECT_FALSE(changes(Fault::kModes, Format::kEtc2Rgb, {big(differential(1))}));
+  EXPECT_TRUE(changes(Fault::kSelectors, Format::kEtc2Rgb, {big(individual())}));
+  EXPECT_TRUE(changes(Fault::kSelectors, Format::kBc1, {bc_colours(kColour, 0)}));
+  EXPECT_FALSE(changes(Fault::kSelectors, Format::kBc4, {bc_values(200, 50)}));
+  EXPECT_TRUE(changes(Fault::kValues, Format::kBc4, {bc_values(200, 50)}));
+  EXPECT_TRUE(changes(Fault::kValues, Format::kBc3, {bc_values(51, 200), 0}));
+  EXPECT_FALSE(changes(Fault::kValues, Format::kBc1, {bc_colours(kColour, 0)}));
+  EXPECT_TRUE(changes(Fault::kHalf, Format::kBc5, {bc_values(200, 50), bc_values(51, 200)}));
+  EXPECT_FALSE(changes(Fault::kHalf, Format::kBc4, {bc_values(200, 50)}));
+  EXPECT_FALSE(changes(Fault::kEdge, Format::kBc1, {bc_colours(kColour, 0)})) << "one block";
+  Bench& b = truncated_;
+  b.unit.fault = Fault::kEdge;
+  BlockGroup group = request_of(2);
+  group.at[0].control.codec = codec_of(Format::kBc4);
+  for (std::uint32_t k = 0; k < 2; ++k) group.block[k] = {10 + k, 0, 0, 0};
+  b.ends.source.add(group);
+  b.clock.run(10);
+  EXPECT_EQ(b.ends.sink.taken.back().token.texel[1] & 255, 10u);
 }
 
 // ---- Requests -----------------------------------------------------------------------------------
@@ -431,8 +474,8 @@ TEST(TextureRtlBlockDecoder, TexelsComeFromTheirBlocks) {
   ASSERT_EQ(b.ends.sink.taken.size(), 1u);
   const TexelQuadToken& got = b.ends.sink.taken[0].token;
   EXPECT_EQ(got.ticket.tag, 7u);
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_EQ(got.texel[i] & 255, std::array{12u, 10u, 11u, 12u}[i]) << i;
+  const std::array<std::uint32_t, 4> values = {12, 10, 11, 12};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(got.texel[i] & 255, values[i]) << i;
 }
 
 TEST(TextureRtlBlockDecoder, TexelsOutsideBlocksPass) {
