@@ -133,7 +133,7 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle,
                min_filter < spec::texture::kMinFilterNames.size() && max_count_log2 <= 4;
   const auto stored = static_cast<spec::texture::Format>(format);
   const bool compressed = spec::texture::is_compressed(stored), srgb = f::kSrgb.of(mode) != 0;
-  if (decoders == spec::texture::Decode::kNone)
+  if (decoders != spec::texture::Decode::kAfter)
     valid = valid && !compressed && !srgb;
   else
     valid = valid && (!srgb || spec::texture::may_be_srgb(stored));

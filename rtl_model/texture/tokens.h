@@ -419,7 +419,7 @@ inline std::uint32_t decoders(const spec::texture::Build& p) {
   return p.width == 1 ? spec::texture::kBlocksPerRequest : spec::texture::kMostDecoders;
 }
 inline bool has_decoders(const spec::texture::Build& p) {
-  return p.decode != spec::texture::Decode::kNone;
+  return p.decode == spec::texture::Decode::kAfter;
 }
 // Omits the fields of blocks from the control of the token `path`.
 inline PayloadShape without_blocks(PayloadShape shape = {}, const std::string& path = "") {

@@ -50,7 +50,7 @@ std::vector<InjectedFault> TextureFaults::list() const {
        "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
   const std::string needs =
-      setup_.texture.decode == spec::texture::Decode::kNone ? "texture.decode = after" : "";
+      setup_.texture.decode != spec::texture::Decode::kAfter ? "texture.decode = after" : "";
   for (const DecoderFault& fault : kDecoderFaults)
     list.push_back({fault.name, fault.meaning, "", needs});
   for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));

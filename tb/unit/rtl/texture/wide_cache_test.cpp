@@ -478,7 +478,7 @@ TEST_P(Random, DataFillsAndSlotsAreExact) {
       token.resize(1 + requests.number(static_cast<std::uint32_t>(b.width)));
     for (TexelToken& t : token) {
       t = requests.next();
-      if (c.p.decode != spec::texture::Decode::kNone && requests.number(4) != 0)
+      if (b.cache.block_decoder && requests.number(4) != 0)
         t = in_blocks_of(t, requests.number(2) == 0);
     }
     const unsigned partial = requests.number(2) == 0 ? 1u << (token.size() - 1) : 0u;
