@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <string_view>
 
 #include "spec/error.h"
 #include "spec/texture/registers.h"
@@ -19,13 +20,43 @@ constexpr std::uint32_t kRowAlignment = 64;  // bytes, of layout linear
 std::uint32_t bytes_of(spec::texture::Format format) {
   return spec::texture::kFormatBytes[static_cast<std::size_t>(format)];
 }
+std::uint32_t block_bytes_of(spec::texture::Format format) {
+  return spec::texture::kFormatBlockBytes[static_cast<std::size_t>(format)];
+}
+std::string_view name_of(spec::texture::Format format) {
+  return spec::texture::kFormatNames[static_cast<std::size_t>(format)];
+}
+
+std::uint32_t blocks_of(int texels) { return (static_cast<std::uint32_t>(texels) + 3) / 4; }
 
 std::uint32_t narrow(std::uint32_t channel, std::uint32_t bits) {
   const std::uint32_t top = (1u << bits) - 1;
   return (channel * top + 127) / 255;
 }
 
-void check_chain(std::span<const TextureLevel> levels) {
+void check_content(const TextureLevel& level, spec::texture::Format format, std::size_t k) {
+  if (spec::texture::is_compressed(format))
+    throw spec::ConfigError(fmt::format(
+        "mip level {} has texels, but {} has blocks: encode the level first", k, name_of(format)));
+  if (level.texels.size() !=
+      static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height))
+    throw spec::ConfigError(fmt::format("mip level {} of {} x {} texels has {} texels", k,
+                                        level.width, level.height, level.texels.size()));
+}
+void check_content(const BlockLevel& level, spec::texture::Format format, std::size_t k) {
+  if (!spec::texture::is_compressed(format))
+    throw spec::ConfigError(
+        fmt::format("mip level {} has blocks, but {} has none", k, name_of(format)));
+  const std::size_t across = blocks_of(level.width), down = blocks_of(level.height),
+                    bytes = across * down * block_bytes_of(format);
+  if (level.blocks.size() != bytes)
+    throw spec::ConfigError(fmt::format(
+        "mip level {} of {} x {} texels has {} bytes, but {} x {} blocks of {} have {}", k,
+        level.width, level.height, level.blocks.size(), across, down, name_of(format), bytes));
+}
+
+template <class Level>
+void check_chain(std::span<const Level> levels, spec::texture::Format format) {
   if (levels.empty()) throw spec::ConfigError("a texture needs at least its level 0");
   const int width = levels[0].width, height = levels[0].height;
   const int largest = std::max(width, height);
@@ -40,9 +71,7 @@ void check_chain(std::span<const TextureLevel> levels) {
           fmt::format("mip level {} of a {} x {} texture is {} x {}, expected {} x {}", k, width,
                       height, levels[k].width, levels[k].height, w, h));
     }
-    if (levels[k].texels.size() != static_cast<std::size_t>(w) * static_cast<std::size_t>(h))
-      throw spec::ConfigError(fmt::format("mip level {} of {} x {} texels has {} texels", k, w, h,
-                                          levels[k].texels.size()));
+    check_content(levels[k], format, k);
   }
 }
 
@@ -95,6 +124,20 @@ TexelLayout::TexelLayout(spec::texture::Layout layout, spec::texture::Format for
     : column_(static_cast<std::size_t>(width)), row_(static_cast<std::size_t>(height)) {
   const std::uint32_t bytes = bytes_of(format), across = static_cast<std::uint32_t>(width),
                       down = static_cast<std::uint32_t>(height);
+  if (const std::uint32_t block = block_bytes_of(format); block != 0) {
+    const std::uint32_t blocks = blocks_of(width), block_rows = blocks_of(height);
+    const bool linear = layout == spec::texture::Layout::kLinear;
+    const std::uint32_t pitch =
+                            (blocks * block + kRowAlignment - 1) / kRowAlignment * kRowAlignment,
+                        columns = std::bit_ceil(blocks), rows = std::bit_ceil(block_rows);
+    const int mixed = std::bit_width(std::min(columns, rows)) - 1;
+    for (std::uint32_t x = 0; x < across; ++x)
+      column_[x] = (linear ? x / 4 : spread(x / 4, mixed, 0)) * block;
+    for (std::uint32_t y = 0; y < down; ++y)
+      row_[y] = linear ? y / 4 * pitch : spread(y / 4, mixed, 1) * block;
+    bytes_ = linear ? std::uint64_t{block_rows} * pitch : std::uint64_t{block} * columns * rows;
+    return;
+  }
   if (layout == spec::texture::Layout::kLinear) {
     const std::uint32_t pitch =
         (across * bytes + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
@@ -123,29 +166,45 @@ TexelLayout texel_layout(const spec::texture::Descriptor& d, int level) {
 }
 
 int TextureMemory::add(std::span<const TextureLevel> levels, spec::texture::Descriptor sampler) {
+  return add_chain(levels, sampler);
+}
+int TextureMemory::add(std::span<const BlockLevel> levels, spec::texture::Descriptor sampler) {
+  return add_chain(levels, sampler);
+}
+
+template <class Level>
+int TextureMemory::add_chain(std::span<const Level> levels, spec::texture::Descriptor sampler) {
   if (descriptors_.size() >= spec::texture::kMaxTextures)
     throw spec::ConfigError(
         fmt::format("more than {} textures: merge some of them", spec::texture::kMaxTextures));
-  check_chain(levels);
+  check_chain(levels, sampler.format);
   sampler.width = static_cast<std::uint16_t>(levels[0].width);
   sampler.height = static_cast<std::uint16_t>(levels[0].height);
   sampler.levels = static_cast<std::uint8_t>(levels.size());
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    sampler.base[k] = static_cast<std::uint32_t>(bytes_.size());
-    add_level(levels[k], sampler, static_cast<int>(k));
+    const std::size_t base = bytes_.size();
+    sampler.base[k] = static_cast<std::uint32_t>(base);
+    const TexelLayout layout = texel_layout(sampler, static_cast<int>(k));
+    bytes_.resize((base + layout.bytes() + kTextureAlignment - 1) / kTextureAlignment *
+                  kTextureAlignment);
+    put(levels[k], sampler.format, layout, &bytes_[base]);
   }
   descriptors_.push_back(sampler);
   return static_cast<int>(descriptors_.size()) - 1;
 }
 
-void TextureMemory::add_level(const TextureLevel& level, const spec::texture::Descriptor& d,
-                              int index) {
-  const TexelLayout layout = texel_layout(d, index);
-  const std::size_t base = bytes_.size();
-  bytes_.resize((base + layout.bytes() + kTextureAlignment - 1) / kTextureAlignment *
-                kTextureAlignment);
-  std::uint8_t* const memory = &bytes_[base];
-  switch (d.format) {
+void TextureMemory::put(const BlockLevel& level, spec::texture::Format format,
+                        const TexelLayout& layout, std::uint8_t* memory) {
+  const std::uint32_t bytes = block_bytes_of(format);
+  auto next = level.blocks.begin();
+  for (int y = 0; y < level.height; y += 4)
+    for (int x = 0; x < level.width; x += 4, next += bytes)
+      std::copy_n(next, bytes, memory + layout.offset_of(x, y));
+}
+
+void TextureMemory::put(const TextureLevel& level, spec::texture::Format format,
+                        const TexelLayout& layout, std::uint8_t* memory) {
+  switch (format) {
     case spec::texture::Format::kRgba8:
     case spec::texture::Format::kSrgb8A8:
       return put_texels<spec::texture::Format::kRgba8>(level, layout, memory);

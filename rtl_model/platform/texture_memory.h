@@ -27,7 +27,7 @@ struct BlockLevel {
   std::span<const std::uint8_t> blocks;
 };
 
-// Texel offsets of a level from its base.
+// Texel offsets of a level from its base; in a compressed format that of the texel's block.
 class TexelLayout {
  public:
   TexelLayout(spec::texture::Layout layout, spec::texture::Format format, int width, int height);
@@ -51,7 +51,7 @@ class TextureMemory {
   // state; width, height, levels and bases are filled in. `levels` must be a mip chain of 1..13
   // levels: each level half the size of the previous one, rounded down, at least 1; the chain may
   // end early. ConfigError for more than 16 textures, a size over 4096, a chain that does not
-  // halve, or levels with missing texels.
+  // halve, levels with missing texels, or a compressed format.
   int add(std::span<const TextureLevel> levels, spec::texture::Descriptor sampler);
 
   // The same with blocks of the compressed format of `sampler`. ConfigError also if a level has too
@@ -64,7 +64,12 @@ class TextureMemory {
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
-  void add_level(const TextureLevel& level, const spec::texture::Descriptor& descriptor, int index);
+  template <class Level>
+  int add_chain(std::span<const Level> levels, spec::texture::Descriptor sampler);
+  static void put(const TextureLevel& level, spec::texture::Format format,
+                  const TexelLayout& layout, std::uint8_t* memory);
+  static void put(const BlockLevel& level, spec::texture::Format format, const TexelLayout& layout,
+                  std::uint8_t* memory);
 
   std::vector<std::uint8_t> bytes_;
   std::vector<spec::texture::Descriptor> descriptors_;

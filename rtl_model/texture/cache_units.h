@@ -23,8 +23,8 @@ namespace deburr::rtl::texture {
 
 using rtl::LookUp;
 
-// A word may be read at the last byte of the last line.
-inline constexpr std::size_t kWordPadding = 3;
+// A word, or a block, may be read at the last byte of the last line.
+inline constexpr std::size_t kWordPadding = sizeof(Block) - 1;
 
 // Little-endian on every host.
 inline std::uint32_t load_word(const std::uint8_t* bytes) {
@@ -42,6 +42,13 @@ inline std::uint32_t load_word(const std::uint8_t* bytes) {
 inline std::uint32_t texel_mask(const FilterControl& control) {
   static constexpr std::array<std::uint32_t, 5> kMask = {~0u, 0xFFFF, 0xFFFF, 0xFF, ~0u};
   return kMask[control.format];
+}
+
+// The words of a block in the banks or in a line; of 8 bytes, the others are 0.
+inline Block load_block(const std::uint8_t* bytes, std::uint8_t codec) {
+  Block block{};
+  for (std::size_t n = 0; n < word_count(codec); ++n) block[n] = load_word(bytes + 4 * n);
+  return block;
 }
 
 // TagStage, or WideTagStage.
@@ -112,6 +119,15 @@ class DataUnit : public Unit {
     issued_ = &port;
     issued_word_ = word;
     issued_at_ = cycle;
+  }
+
+  // The token of stage 2 for the BlockDecoder. A texel is taken from its block.
+  static void pass(const TexelQuadToken& texels, BlockRequest& out) {
+    out.ticket = texels.ticket;
+    out.control = texels.control;
+    const bool compressed = texels.ticket.valid && texels.control.codec != 0;
+    out.texel = compressed ? Block{} : texels.texel;
+    if (!compressed) out.index = {};
   }
 
   Activity wait_fill_, write_fill_, bank_conflict_;

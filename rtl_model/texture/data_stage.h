@@ -10,6 +10,8 @@
 // Order     Texels that hit are read before a fill of the same request can overwrite them: banks
 //           are read-first, and fills begin in the cycle of the last pass that reads a hit. Texels
 //           that missed are taken from the fill.
+// Blocks    With `decode = after` also the distinct blocks of a request, of two or four words, for
+//           the BlockDecoder. Two blocks of a request are in the same banks or in different ones.
 // Stalls    wait_fill      A line has not arrived.
 //           write_fill     More lines to write.
 //           bank_conflict  More passes to read.
@@ -19,6 +21,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -35,7 +38,9 @@ namespace deburr::rtl::texture {
 class DataStage final : public DataUnit {
  public:
   In<CacheToken> requests_in{"requests_in"};
-  Out<TexelQuadToken> texels_out{"texels_out"};
+  // Exactly one of the two is built: to the FilterPipeline, or with decoders to the BlockDecoder.
+  std::optional<Out<TexelQuadToken>> texels_out;
+  std::optional<Out<BlockGroup>> blocks_out;
   WireOut<bool> line_used_out{"line_used_out"};
 
   DataStage(const sc_core::sc_module_name& name, ClockDomain& clock,
@@ -53,14 +58,16 @@ class DataStage final : public DataUnit {
   // When and through which port each texel that hits is read.
   struct Schedule {
     int passes;                 // 0..4: passes that read a hit
-    std::array<int, 4> pass;    // pass of texel i; -1: it missed
-    std::array<bool, 4> again;  // same word as an earlier texel
+    std::array<int, 4> pass;    // pass of texel (of its block) i; -1: it missed
+    std::array<bool, 4> again;  // same word (block) as an earlier texel
   };
   Schedule schedule(const CacheToken& request) const;
   Activity work(Cycle cycle);
   Activity advance(Cycle cycle, const CacheToken& request);
+  void find_blocks(const CacheToken& request);
   bool read_at_once(Cycle cycle, const CacheToken& request);
   void read(Cycle cycle, const CacheToken& request, int pass);
+  void read_blocks(Cycle cycle, const CacheToken& request, int pass);
   void write_fill(Cycle cycle, const CacheToken& request);
   void finish(Cycle cycle, const CacheToken& request);
 
@@ -70,6 +77,7 @@ class DataStage final : public DataUnit {
   std::array<ReadPort<void>, 4> reads_{
       ReadPort<void>{banks_, "texel_0"}, ReadPort<void>{banks_, "texel_1"},
       ReadPort<void>{banks_, "texel_2"}, ReadPort<void>{banks_, "texel_3"}};
+  std::vector<ReadPort<void>> more_reads_;  // for words of blocks
   WritePort<void> write_{banks_, "fill"};
   std::vector<std::uint8_t> bytes_;  // content of the banks, word by word
   // Registers of the request in stage 1.
@@ -78,6 +86,7 @@ class DataStage final : public DataUnit {
   Cycle line_used_ = kNever;  // last cycle in which a line was written
   // The request in stage 2.
   TexelQuadToken waiting_{};
+  BlockGroup blocks_{};  // with decoders
 };
 
 }  // namespace deburr::rtl::texture

@@ -35,7 +35,9 @@ std::vector<Datasheet> units(const spec::texture::Parameters& p) {
                                MissQueue::datasheet(p), FillBuffer::datasheet(p),
                                wide ? WideLatencyFifo::datasheet() : LatencyFifo::datasheet(),
                                wide ? WideDataStage::datasheet(p) : DataStage::datasheet(p),
-                               FilterPipeline::datasheet(p), Descriptors::datasheet()});
+                               FilterPipeline::datasheet(p), Descriptors::datasheet(p)});
+  if (has_decoders(p))
+    sheets.push_back(wide ? wide::BlockDecoder::datasheet(p) : BlockDecoder::datasheet(p));
   return sheets;
 }
 
@@ -77,6 +79,9 @@ std::string chosen(const char* parameter, std::string_view value) {
 }
 std::string chosen(const char* parameter, std::uint64_t value) {
   return chosen(parameter, std::to_string(value));
+}
+std::string with_decoders(const spec::texture::Build& p) {
+  return has_decoders(p) ? ", " + chosen("decode", spec::texture::kDecodeNames, p.decode) : "";
 }
 std::string chosen_axes(const spec::texture::Parameters& p) {
   return p.axes == spec::texture::Axes::kTwo ? "`axes = two`" : "`axes = four` or `eight`";
@@ -140,9 +145,14 @@ std::vector<Datasheet> datasheets() {
     }
     builds.push_back(units(p));
   }
-  const Parameters wide = preset_parameters(Preset::kDeburr, NamedBuild::kWide);
-  builds.push_back({TextureCache::datasheet(wide)});
-  builds.push_back(units(wide));
+  Parameters narrow = preset_parameters(Preset::kDeburr),
+             wide = preset_parameters(Preset::kDeburr, NamedBuild::kWide);
+  for (const Decode decode : {Decode::kNone, Decode::kAfter})
+    for (Parameters* const p : {&narrow, &wide}) {
+      p->decode = decode;
+      builds.push_back({TextureCache::datasheet(*p)});
+      builds.push_back(units(*p));
+    }
   return merged(builds);
 }
 

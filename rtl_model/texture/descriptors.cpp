@@ -7,14 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "rtl_model/texture/datasheets.h"
+#include "rtl_model/texture/tokens.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
 namespace reg = spec::texture::reg;
 
 // Descriptor bits in the registers: SIZE, MODE, bias, limits, per level a base without its six zero
-// bits; and a valid bit.
-constexpr std::uint32_t kWordBits = 26 + 21 + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
+// bits; and a valid bit. Formats of blocks and `srgb` take two bits more.
+std::uint32_t word_bits(const spec::texture::Build& p) {
+  return 26 + (has_decoders(p) ? 21 : 19) + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
+}
 
 // Bits needed to number n > 0 things: lb n, rounded up.
 std::uint8_t ceil_log2(std::uint32_t n) { return static_cast<std::uint8_t>(std::bit_width(n - 1)); }
@@ -54,6 +59,26 @@ void tabulate_rows(LevelGeometry& level, std::uint32_t base, std::uint32_t bytes
   for (std::uint32_t y = 0; y < level.height; ++y) level.row[y] = base + y * pitch;
 }
 
+// The same for blocks, which are in the places of tiles. Four texels of a row or column share one.
+void tabulate_blocks(LevelGeometry& level, std::uint32_t base, std::uint32_t bytes,
+                     spec::texture::Layout layout) {
+  LevelGeometry blocks;
+  blocks.width = static_cast<std::uint16_t>((level.width + 3) / 4);
+  blocks.height = static_cast<std::uint16_t>((level.height + 3) / 4);
+  if (layout == spec::texture::Layout::kLinear) {
+    tabulate_rows(blocks, base, bytes);
+  } else {
+    const std::uint32_t above = ~0U
+                                << 2 * std::min(ceil_log2(blocks.width), ceil_log2(blocks.height));
+    blocks.column = count_in((0x5555'5555 | above) * bytes, 0, blocks.width);
+    blocks.row = count_in((0xAAAA'AAAA | above) * bytes, base, blocks.height);
+  }
+  level.column.resize(level.width);
+  for (std::uint32_t x = 0; x < level.width; ++x) level.column[x] = blocks.column[x / 4];
+  level.row.resize(level.height);
+  for (std::uint32_t y = 0; y < level.height; ++y) level.row[y] = blocks.row[y / 4];
+}
+
 }  // namespace
 
 std::span<const spec::RegisterInfo> register_table() {
@@ -87,7 +112,8 @@ ControlLayout control_layout() {
   return rtl::control_layout(spec::texture::kRegisters, spec::texture::kBusyIgnoresWrites);
 }
 
-TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
+TextureState decode(const ControlRegisters& registers, std::uint32_t handle,
+                    spec::texture::Decode decoders) {
   const auto field = [&](std::uint32_t offset) {
     return registers.value(reg::kTextureBase + handle * reg::kTextureStride + offset);
   };
@@ -105,13 +131,22 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
                wrap_s < spec::texture::kWrapNames.size() &&
                wrap_t < spec::texture::kWrapNames.size() &&
                min_filter < spec::texture::kMinFilterNames.size() && max_count_log2 <= 4;
+  const auto stored = static_cast<spec::texture::Format>(format);
+  const bool compressed = spec::texture::is_compressed(stored), srgb = f::kSrgb.of(mode) != 0;
+  if (decoders != spec::texture::Decode::kAfter)
+    valid = valid && !compressed && !srgb;
+  else
+    valid = valid && (!srgb || spec::texture::may_be_srgb(stored));
   if (!valid) return {};
 
   TextureState t;
   t.width = static_cast<std::uint16_t>(width);
   t.height = static_cast<std::uint16_t>(height);
   t.levels = static_cast<std::uint8_t>(levels);
-  t.format = static_cast<spec::texture::Format>(format);
+  t.format = !compressed ? stored
+             : srgb      ? spec::texture::Format::kSrgb8A8
+                         : spec::texture::Format::kRgba8;
+  t.codec = codec_of(stored);
   t.layout = static_cast<spec::texture::Layout>(f::kLayout.of(mode));
   t.wrap_s = static_cast<spec::texture::Wrap>(wrap_s);
   t.wrap_t = static_cast<spec::texture::Wrap>(wrap_t);
@@ -127,40 +162,48 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle) {
     g.width = static_cast<std::uint16_t>(std::max(1, t.width >> k));
     g.height = static_cast<std::uint16_t>(std::max(1, t.height >> k));
     const std::uint32_t base = field(reg::kLevelBase + 4 * k);
-    (t.layout == spec::texture::Layout::kLinear ? tabulate_rows : tabulate_tiles)(g, base, bytes);
+    if (compressed)
+      tabulate_blocks(g, base, spec::texture::kFormatBlockBytes[format], t.layout);
+    else if (t.layout == spec::texture::Layout::kLinear)
+      tabulate_rows(g, base, bytes);
+    else
+      tabulate_tiles(g, base, bytes);
     valid = valid && base % spec::texture::kTileBytes == 0;
   }
   t.valid = valid;
   return t;
 }
 
-Descriptors::Descriptors(const char* name, ControlRegisters& registers, std::int32_t width)
-    : memory_(name, {.words = spec::texture::kMaxTextures,
-                     .word_bits = kWordBits,
+Descriptors::Descriptors(const char* name, ControlRegisters& registers,
+                         const spec::texture::Build& p)
+    : decoders_(p.decode),
+      memory_(name, {.words = spec::texture::kMaxTextures,
+                     .word_bits = word_bits(p),
                      .kind = MemoryKind::kFlops,
-                     .read_ports = width == 1 ? 3U : 4U,
+                     .read_ports = p.width == 1 ? 3U : 4U,
                      .write_ports = 1,
                      .latency = 0,
                      .content = "texture descriptors"}) {
-  if (width != 1) for_younger_texels = Reader(memory_, "addresser_younger", words_);
+  if (p.width != 1) for_younger_texels = Reader(memory_, "addresser_younger", words_);
   registers.on_change([this, &registers](std::uint32_t offset) { written(registers, offset); });
 }
 
 void Descriptors::written(const ControlRegisters& registers, std::uint32_t offset) {
   if (offset < reg::kTextureBase) return;
   const std::uint32_t handle = (offset - reg::kTextureBase) / reg::kTextureStride;
-  words_[handle] = decode(registers, handle);
+  words_[handle] = decode(registers, handle, decoders_);
 }
 
-Datasheet Descriptors::datasheet() {
+Datasheet Descriptors::datasheet(const spec::texture::Build& p) {
   return {.unit = "Descriptors",
+          .variant = has_decoders(p) ? chosen("decode", spec::texture::kDecodeNames, p.decode) : "",
           .does = "Stores 16 texture descriptors as in the registers.",
           .latency = {0, "0: flip-flops without output register"},
           .stages = {
               {.clock = "-",
                .work = "descriptor selected; of one that is written, is it valid?",
                .operators = {op::maximum(13), op::leading_one(13), op::compare(4), op::logic(60)},
-               .longest = {op::mux(kWordBits, spec::texture::kMaxTextures)}}}};
+               .longest = {op::mux(word_bits(p), spec::texture::kMaxTextures)}}}};
 }
 
 }  // namespace deburr::rtl::texture

@@ -23,6 +23,7 @@
 #include "rtl_model/fabric/memory.h"
 #include "spec/registers.h"
 #include "spec/texture/descriptor.h"
+#include "spec/texture/parameters.h"
 #include "spec/texture/registers.h"
 
 namespace deburr::rtl::texture {
@@ -31,8 +32,8 @@ namespace deburr::rtl::texture {
 // after a write while the unit is busy.
 struct LevelGeometry {
   std::uint16_t width = 1, height = 1;  // U13, texels
-  // The address of texel (x, y) is column[x] + row[y]. The model tabulates the two parts, which the
-  // hardware computes; rows include the base.
+  // The address of texel (x, y), or of its block, is column[x] + row[y]. The model tabulates the
+  // two parts, which the hardware computes; rows include the base.
   std::vector<std::uint32_t> column{0}, row{0};
 };
 
@@ -42,7 +43,8 @@ struct TextureState {
   std::uint16_t width = 0, height = 0;  // U13
   std::uint8_t levels = 0;              // U4
   std::uint8_t max_count_log2 = 0;      // U3, lb N_max
-  spec::texture::Format format{};
+  spec::texture::Format format{};       // that the FilterPipeline unpacks
+  std::uint8_t codec = 0;               // of its blocks, codec_of()
   spec::texture::Layout layout{};
   spec::texture::Wrap wrap_s{}, wrap_t{};
   spec::texture::MinFilter min_filter{};
@@ -56,8 +58,9 @@ struct TextureState {
 std::span<const spec::RegisterInfo> register_table();
 // Layout of CONTROL and STATUS.
 ControlLayout control_layout();
-// Decodes descriptor `handle` from the registers.
-TextureState decode(const ControlRegisters& registers, std::uint32_t handle);
+// Decodes descriptor `handle` from the registers, for a unit with or without decoders.
+TextureState decode(const ControlRegisters& registers, std::uint32_t handle,
+                    spec::texture::Decode decoders = spec::texture::Decode::kNone);
 
 class Descriptors {
  public:
@@ -82,14 +85,16 @@ class Descriptors {
     const Words* words_;
   };
 
-  // Decodes a descriptor whenever one of its registers is written. `width`: requests per cycle.
-  Descriptors(const char* name, ControlRegisters& registers, std::int32_t width = 1);
+  // Decodes a descriptor whenever one of its registers is written.
+  Descriptors(const char* name, ControlRegisters& registers,
+              const spec::texture::Build& build = {});
 
-  static Datasheet datasheet();
+  static Datasheet datasheet(const spec::texture::Build& build = {});
 
  private:
   void written(const ControlRegisters& registers, std::uint32_t offset);
 
+  const spec::texture::Decode decoders_;
   Memory<void> memory_;
   WritePort<void> bus_{memory_, "register bus"};  // not clocked, like the bus: never issued
   Reader::Words words_{};

@@ -160,8 +160,8 @@ class FillBuffer {
   [[gnu::cold, gnu::noinline]] void reject(std::uint32_t entry, std::uint32_t offset,
                                            std::size_t bytes) const;
 
-  // A word may be read at the last byte of the last line.
-  static constexpr std::size_t kPadding = 3;
+  // A word, or a block, may be read at the last byte of the last line.
+  static constexpr std::size_t kPadding = 15;
 
   std::uint32_t entries_, line_bytes_;
   Memory<void> memory_;

@@ -10,10 +10,15 @@ namespace deburr::rtl::texture {
 GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock,
                          const spec::texture::Parameters& p)
     : Unit(name, clock),
+      decoders(has_decoders(p)
+                   ? std::make_unique<Counter>("decoders", "slots",
+                                               "empty: the next request needs more blocks decoded")
+                   : nullptr),
       width_(static_cast<std::uint32_t>(p.width)),
       lookups_(static_cast<std::uint32_t>(p.cache_lookups)),
       reads_(static_cast<std::uint32_t>(p.cache_bank_reads)),
       ways_(static_cast<std::uint32_t>(p.cache_ways)),
+      decoders_(rtl::texture::decoders(p)),
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       set_mask_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes / p.cache_ways) - 1),
@@ -21,7 +26,7 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
       apart_mask_(std::min(static_cast<std::uint32_t>(p.cache_line_banks) - 1, set_mask_)),
       alike_(std::min(reads_, ways_)),
       memory_("requests_waiting", {.words = 2 * static_cast<std::uint64_t>(p.width),
-                                   .word_bits = kPayloadBits<TexelToken> + 1,
+                                   .word_bits = texel_bits(p) + 1,
                                    .kind = MemoryKind::kFlops,
                                    .read_ports = width_,
                                    .write_ports = width_,
@@ -62,26 +67,44 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
       exceeded.lookups |= ++lines.count > lookups_;
     }
     // Of words, with the line turned as the row asks.
-    Bank& bank = banks_[(address ^ (request.turned[i >> 1] ? turn_ : 0)) >> 2 & bank_mask_];
-    const std::uint32_t word = address >> 2;
-    if (bank.group != group_) {
-      bank.group = group_;
-      bank.words = 0;
+    const std::uint32_t turned = address ^ (request.turned[i >> 1] ? turn_ : 0);
+    const std::uint32_t words = word_count(request.request.control.codec);
+    for (std::uint32_t n = 0; n < words; ++n) {
+      Bank& bank = banks_[((turned >> 2) + n) & bank_mask_];
+      const std::uint32_t word = (address >> 2) + n;
+      if (bank.group != group_) {
+        bank.group = group_;
+        bank.words = 0;
+      }
+      const auto end = bank.word.begin() + bank.words;
+      if (std::find(bank.word.begin(), end, word) != end) continue;
+      if (bank.words == reads_)
+        exceeded.banks = true;
+      else
+        bank.word[bank.words++] = word;
     }
-    const auto end = bank.word.begin() + bank.words;
-    if (std::find(bank.word.begin(), end, word) != end) continue;
-    if (bank.words == reads_)
-      exceeded.banks = true;
-    else
-      bank.word[bank.words++] = word;
   }
+}
+
+// Adds the blocks of a request. Returns false if there are more than can be decoded.
+bool GroupFormer::add_blocks(const Waiting& request, Blocks& blocks) const {
+  const std::uint8_t codec = request.request.control.codec;
+  if (codec == 0) return true;
+  for (const std::uint32_t address : request.address) {
+    const auto end = blocks.at.begin() + blocks.count;
+    if (std::find(blocks.at.begin(), end, std::pair{address, codec}) != end) continue;
+    if (blocks.count == decoders_) return false;
+    blocks.at[blocks.count++] = {address, codec};
+  }
+  return true;
 }
 
 // Fast path: a group of the `most` oldest requests, if they are within all limits for sure. Lines
 // that are not turned have one word per bank of their line bank; so few lines per line bank have
-// few words per bank. Returns false if limits must be checked.
+// few words per bank. Blocks that requests share count for each. Returns false if limits must be
+// checked.
 inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
-  std::uint32_t lines = 0, alike = 0;  // alike: 4 bits per line bank
+  std::uint32_t lines = 0, blocks = 0, alike = 0;  // alike: 4 bits per line bank
   std::array<std::uint32_t, spec::texture::kMostLookups> numbers{};
   std::array<std::uint8_t, 64> newest{};  // 1 + index of the last line with these low bits
   std::uint32_t at = head_;
@@ -92,6 +115,7 @@ inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
     request = waiting.request;
     if (waiting.lines == 0) continue;
     if (waiting.turned[0] || waiting.turned[1]) return false;
+    blocks += waiting.blocks;
     std::array<std::uint8_t, 4> of_group;
     for (std::uint32_t i = 0; i < waiting.lines; ++i) {
       const std::uint32_t line = waiting.line[i];
@@ -112,6 +136,7 @@ inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
     else
       for (std::uint8_t& index : request.index) index = of_group[index];
   }
+  if (blocks > decoders_) return false;
   group.count = static_cast<std::uint8_t>(most);
   group.lines = static_cast<std::uint8_t>(lines);
   group.line = numbers;
@@ -123,12 +148,16 @@ inline bool GroupFormer::emit_all(std::uint32_t most, LineGroup& group) {
 std::uint32_t GroupFormer::emit_within(std::uint32_t most, LineGroup& group) {
   ++group_;
   Lines lines;
+  Blocks blocks;
   Exceeded exceeded;
   std::uint32_t n = 0, built = 0;
   for (std::uint32_t at = head_; n < most; ++n) {
     const Waiting& waiting = buffer_[at];
     std::array<std::uint8_t, 4> index{};
-    if (waiting.lines != 0) add(waiting, lines, index, exceeded);
+    if (waiting.lines != 0) {
+      add(waiting, lines, index, exceeded);
+      exceeded.decoders = !add_blocks(waiting, blocks);
+    }
     // If the oldest request exceeds a limit by itself, `exceeded` stays set, and the group has only
     // this request.
     if (n != 0 && exceeded.any()) break;
@@ -141,7 +170,11 @@ std::uint32_t GroupFormer::emit_within(std::uint32_t most, LineGroup& group) {
   group.lines = static_cast<std::uint8_t>(built);
   std::copy_n(lines.line.begin(), built, group.line.begin());
   std::copy_n(lines.turned.begin(), built, group.turned.begin());
-  if (n < most) cause_ = exceeded.lookups ? &lookups : exceeded.banks ? &banks : &set;
+  if (n < most)
+    cause_ = exceeded.lookups ? &lookups
+             : exceeded.banks ? &banks
+             : exceeded.set   ? &set
+                              : decoders.get();
   return n;
 }
 
@@ -186,6 +219,11 @@ inline void GroupFormer::enter(const TexelToken& token, Waiting& waiting) const 
   waiting.turned = token.turned;
   waiting.address = token.address;
   const auto& address = token.address;
+  waiting.blocks = 0;
+  if (token.control.codec != 0) [[unlikely]] {
+    for (auto at = address.begin(); at != address.end(); ++at)
+      waiting.blocks += std::find(address.begin(), at, *at) == at;
+  }
   const std::uint32_t mask = (1u << line_log2_) - 1, first = address[0] >> line_log2_;
   for (std::size_t i = 0; i < 4; ++i)
     request.offset[i] = static_cast<std::uint8_t>(address[i] & mask);
@@ -255,27 +293,35 @@ Datasheet GroupFormer::datasheet(const spec::texture::Parameters& p) {
   // A word of a bank: of two texels of one line, the word in the line; the bank by both.
   const std::uint32_t word = z.offset - 2,
                       bank = word + static_cast<std::uint32_t>(std::bit_width(z.line_banks - 1));
-  return {.unit = "GroupFormer",
-          .variant = chosen("width", z.width) + ", " + chosen("cache.lookups", z.lookups),
-          .does = "Forms groups of requests that the ports of the cache serve in one pass.",
-          .latency = {2, "2, from a request in the buffer that leaves at once"},
-          .stages = {{.clock = "1",
-                      .work = "requests into the buffer",
-                      .operators = {2 * op::add(4), op::compare(4)},
-                      .longest = {op::add(4), op::mux(kPayloadBits<TexelToken> + 1, z.width)},
-                      .registers = 2 * 4},
-                     // Of each texel: is its line (its word) the first, how many of its kind come
-                     // before it (lines, lines of its set, words of its bank), is that in limits?
-                     {.clock = "2",
-                      .work = "distinct lines, words per bank and lines per set of the oldest W "
-                              "requests; those within the limits leave",
-                      .operators = {pairs * op::equal(z.line), pairs * op::equal(word),
-                                    pairs * op::equal(bank), 3 * n * op::count_ones(mean),
-                                    3 * n * op::compare(4), n * op::mux(3, mean),
-                                    z.lookups * op::mux(z.line + 1, n), op::add(4),
-                                    op::logic(4 * pairs + 8 * z.width)},
-                      .longest = {op::equal(z.line), op::count_ones(n - 1), op::compare(4),
-                                  op::priority(z.width), op::mux(z.line + 1, n)}}}};
+  Datasheet sheet = {
+      .unit = "GroupFormer",
+      .variant =
+          chosen("width", z.width) + ", " + chosen("cache.lookups", z.lookups) + with_decoders(p),
+      .does = "Forms groups of requests that the ports of the cache serve in one pass.",
+      .latency = {2, "2, from a request in the buffer that leaves at once"},
+      .stages = {{.clock = "1",
+                  .work = "requests into the buffer",
+                  .operators = {2 * op::add(4), op::compare(4)},
+                  .longest = {op::add(4), op::mux(texel_bits(p) + 1, z.width)},
+                  .registers = 2 * 4},
+                 // Of each texel: is its line (its word) the first, how many of its kind come
+                 // before it (lines, lines of its set, words of its bank), is that in limits?
+                 {.clock = "2",
+                  .work = "distinct lines, words per bank and lines per set of the oldest W "
+                          "requests; those within the limits leave",
+                  .operators = {pairs * op::equal(z.line), pairs * op::equal(word),
+                                pairs * op::equal(bank), 3 * n * op::count_ones(mean),
+                                3 * n * op::compare(4), n * op::mux(3, mean),
+                                z.lookups * op::mux(z.line + 1, n), op::add(4),
+                                op::logic(4 * pairs + 8 * z.width)},
+                  .longest = {op::equal(z.line), op::count_ones(n - 1), op::compare(4),
+                              op::priority(z.width), op::mux(z.line + 1, n)}}}};
+  // Distinct blocks: of two texels in one line the place and the codec; each of four words counts.
+  if (has_decoders(p))
+    for (const Operator& one : {pairs * op::equal(z.offset), 4 * n * op::count_ones(mean),
+                                4 * n * op::compare(4), op::logic(8 * pairs)})
+      sheet.stages[1].operators.push_back(one);
+  return sheet;
 }
 
 }  // namespace deburr::rtl::texture

@@ -13,8 +13,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -43,6 +45,7 @@ class GroupFormer final : public Unit {
   Counter lookups{"lookups", "slots", "empty: the next request needs more distinct lines"};
   Counter banks{"banks", "slots", "empty: the next request needs more words of a bank"};
   Counter set{"set", "slots", "empty: the next request needs more lines of a set"};
+  const std::unique_ptr<Counter> decoders;  // in a build with them
   Counter partial_quad{"partial_quad", "slots", "empty: the quad had fewer fragments"};
   Counter starved{"starved", "slots", "empty: no further request had come"};
   Counter allocate{"allocate", "slots", "empty: the TagStage allocated lines of a group"};
@@ -61,13 +64,14 @@ class GroupFormer final : public Unit {
     std::uint32_t lines;                // 1..4; 0: an invalid request
     std::array<std::uint32_t, 4> line;  // U27
     std::array<std::uint32_t, 4> address;
+    std::uint32_t blocks;  // different ones
     std::array<bool, 2> turned;
     bool partial;
   };
   // The limits that a sequence of requests exceeds.
   struct Exceeded {
-    bool lookups = false, banks = false, set = false;
-    bool any() const { return lookups || banks || set; }
+    bool lookups = false, banks = false, set = false, decoders = false;
+    bool any() const { return lookups || banks || set || decoders; }
   };
   // Distinct words of a bank; valid if `group` is the number of the group being formed.
   struct Bank {
@@ -82,17 +86,23 @@ class GroupFormer final : public Unit {
     std::array<std::uint32_t, kMostLines> line;
     std::array<bool, kMostLines> turned;
   };
+  // Distinct blocks, by address and codec.
+  struct Blocks {
+    std::uint32_t count = 0;
+    std::array<std::pair<std::uint32_t, std::uint8_t>, spec::texture::kMostDecoders> at;
+  };
 
   std::uint32_t emit(Cycle cycle);
   bool emit_all(std::uint32_t most, LineGroup& group);
   [[gnu::noinline]] std::uint32_t emit_within(std::uint32_t most, LineGroup& group);
   void add(const Waiting& request, Lines& lines, std::array<std::uint8_t, 4>& index,
            Exceeded& exceeded);
+  bool add_blocks(const Waiting& request, Blocks& blocks) const;
   void take(Cycle cycle);
   void enter(const TexelToken& token, Waiting& waiting) const;
   void count(std::uint32_t emitted, std::uint32_t buffered, Cycle cycle);
 
-  std::uint32_t width_, lookups_, reads_, ways_;
+  std::uint32_t width_, lookups_, reads_, ways_, decoders_;
   std::uint32_t line_log2_, turn_, set_mask_, bank_mask_;
   // For emit_all(): low bits of a line number that select a line bank and a set, and the lines that
   // may share them.

@@ -147,7 +147,7 @@ Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
   const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
   const Operator way = op::mux(z.tag + 2, std::max(z.ways, 2U));
   return {.unit = "TagStage",
-          .variant = sets_text(p),
+          .variant = sets_text(p) + with_decoders(p),
           .does = "Looks up the lines of a request, allocates those that miss and requests them.",
           .latency = {2},
           .stages =
@@ -156,7 +156,7 @@ Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
                 .operators = {6 * op::equal(z.line), op::logic(30)},
                 .longest = {op::mux(z.set_word, z.sets)},
                 // The sets; the first texel in each one's line, and valid.
-                .registers = kPayloadBits<TexelToken> + kLookups * z.set_word + 1 + 2 + 2 + 1},
+                .registers = texel_bits(p) + kLookups * z.set_word + 1 + 2 + 2 + 1},
                // A set as the lookups before it left it, of this request; hit, way and order of
                // use; then the place of each texel and the lines that missed, in order. A set that
                // is read in this cycle is one of those, or of the tags.

@@ -83,6 +83,12 @@ inline void TexelAddresserOf<Width>::request(const TextureState& texture, const 
   out.address = {upper + left, upper + right, lower + left, lower + right};
   const bool rows = texture.layout == spec::texture::Layout::kLinear;
   out.turned = {rows && y.first % 2 != 0, rows && y.second % 2 != 0};
+  if (texture.codec == 0) [[likely]]
+    return;
+  out.turned = {rows && y.first / 4 % 2 != 0, rows && y.second / 4 % 2 != 0};
+  control.codec = texture.codec;
+  control.within = static_cast<std::uint8_t>(x.first % 4 | x.second % 4 << 2 | y.first % 4 << 4 |
+                                             y.second % 4 << 6);
 }
 
 // Stages 2 to 4 for one axis: wraps the coordinate, scales it to texels, splits it, and brings both
@@ -124,29 +130,30 @@ template <class Width>
 Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const bool wide = p.width > 1;
   // Ticket, weight, index and count, flags and format of a request, and valid.
-  constexpr std::uint32_t kKept = 40 + 9 + 2 * 4 + 2 + 3 + 1;
+  const bool blocks = has_decoders(p);
+  const std::uint32_t kept = 40 + 9 + 2 * 4 + 2 + (blocks ? 5 : 3) + 1;
   // Size, layout, wrap modes and bases of the levels of a descriptor.
   constexpr std::uint32_t kDescriptor = 26 + 1 + 4 + spec::texture::kMaxLevels * 26;
   const std::uint32_t descriptors = wide ? 2 : 1, bases = descriptors * spec::texture::kMaxLevels;
   Datasheet sheet = {
       .unit = "TexelAddresser",
-      .variant = wide ? "`width` above 1" : "`width = 1`",
+      .variant = (wide ? "`width` above 1" : "`width = 1`") + with_decoders(p),
       .does = "Computes the addresses of a sample's four texels and its bilinear fractions.",
       .latency = {5},
       .stages = {{.clock = "1",
                   .work = "descriptor selected",
                   .longest = {op::mux(26, spec::texture::kMaxTextures)},
-                  .registers = kKept + 2 * 34 + 4 + 1},
+                  .registers = kept + 2 * 34 + 4 + 1},
                  {.clock = "2",
                   .work = "level selected, both coordinates wrapped",
                   .operators = {op::mux(26, bases), 2 * op::shift(13, 13), op::logic(200)},
                   .longest = {op::mux(26, bases)},
-                  .registers = kKept + 2 * 34 + 2 * 13 + 26 + 4 + 1 + 1},
+                  .registers = kept + 2 * 34 + 2 * 13 + 26 + 4 + 1 + 1},
                  {.clock = "3",
                   .work = "products with the level's width and height",
                   .operators = {2 * op::multiply(34, 13)},
                   .longest = {op::multiply(34, 13)},
-                  .registers = kKept + 2 * 32 + 2 * 13 + 26 + 4 + 1 + 1},
+                  .registers = kept + 2 * 32 + 2 * 13 + 26 + 4 + 1 + 1},
                  {.clock = "4",
                   .work = "subtract half a texel, round, split into texel and fraction, bring both "
                           "texels of each axis into range",
@@ -154,7 +161,7 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
                                 2 * op::subtract(13), 4 * op::compare(14), 4 * op::mux(12, 3)},
                   .longest = {op::add(32), op::mux(20, 2), op::add(14), op::compare(14),
                               op::mux(12, 3)},
-                  .registers = kKept + 2 * 8 + 4 * 12 + 2 * 13 + 26 + 1},
+                  .registers = kept + 2 * 8 + 4 * 12 + 2 * 13 + 26 + 1},
                  // `linear`: a multiple of 64 as the pitch. `tiled`: tiles and places in them of
                  // two columns and two rows, of which the common bits are interleaved.
                  {.clock = "5",
@@ -170,6 +177,8 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
       .copies = Sizes(p).width,
       .per = "request",
       .shared_registers = descriptors * kDescriptor};
+  // Blocks instead of tiles.
+  if (blocks) sheet.stages[4].operators.push_back(4 * op::mux(12 + 28, 2));
   if (wide) sheet.stages[1].operators.push_back(op::mux(26 + 1 + 4, 2));
   return sheet;
 }

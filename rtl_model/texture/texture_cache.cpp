@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "rtl_model/texture/datasheets.h"
+
 namespace deburr::rtl::texture {
 namespace {
 
@@ -32,6 +34,8 @@ TextureCache::Narrow::Narrow(ClockDomain& clock, const spec::texture::Parameters
     : tag_stage("tag_stage", clock, p),
       latency_fifo("latency_fifo", clock, p),
       data_stage("data_stage", clock, p, fills),
+      block_decoder(has_decoders(p) ? std::make_unique<BlockDecoder>("block_decoder", clock, p)
+                                    : nullptr),
       requests("requests", 2, cache_shape(p)) {
   tag_stage.requests_out(requests);
   latency_fifo.requests_in(requests);
@@ -46,6 +50,9 @@ TextureCache::Wide::Wide(ClockDomain& clock, const spec::texture::Parameters& p,
       tag_stage("tag_stage", clock, p),
       latency_fifo("latency_fifo", clock, p),
       data_stage("data_stage", clock, p, fills),
+      block_decoder(has_decoders(p)
+                        ? std::make_unique<wide::BlockDecoder>("block_decoder", clock, p)
+                        : nullptr),
       groups("groups", 2, line_group_shape(p)),
       requests("requests", 2, cache_group_shape(p)) {
   group_former.groups_out(groups);
@@ -70,20 +77,29 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
       wide(narrow ? nullptr : std::make_unique<Wide>(clock, p, miss_queue.fills.reader())),
       tag_stage(narrow ? static_cast<TagUnit&>(narrow->tag_stage) : wide->tag_stage),
       data_stage(narrow ? static_cast<DataUnit&>(narrow->data_stage) : wide->data_stage),
+      block_decoder(narrow ? static_cast<BlockDecoderBase*>(narrow->block_decoder.get())
+                           : wide->block_decoder.get()),
       memory_port("memory_port", clock, port_parameters(p)),
       misses_("misses", 2, miss_shape(p)),
       memory_requests_("memory_requests", 2,
                        request_shape(port_parameters(p), kAddressBits, tag_bits(p))),
       memory_responses_("memory_responses", 2,
                         response_shape(port_parameters(p), kAddressBits, tag_bits(p))) {
+  const auto leave = [&](auto& units, auto& out) {
+    if (!units.block_decoder) return units.data_stage.texels_out->bind(out);
+    blocks_ = std::make_unique<Link<BlockGroup>>("blocks", 2, block_shape(p));
+    units.data_stage.blocks_out->bind(*blocks_);
+    units.block_decoder->blocks_in(*blocks_);
+    units.block_decoder->texels_out(out);
+  };
   if (narrow) {
     narrow->tag_stage.texels_in(texels_in);
     narrow->tag_stage.misses_out(misses_);
-    narrow->data_stage.texels_out(texels_out);
+    leave(*narrow, texels_out);
   } else {
     wide->group_former.texels_in(groups_in);
     wide->tag_stage.misses_out(misses_);
-    wide->data_stage.texels_out(groups_out);
+    leave(*wide, groups_out);
   }
   miss_queue.misses_in(misses_);
   miss_queue.requests_out(memory_requests_);
@@ -99,10 +115,17 @@ Datasheet TextureCache::memory_port_datasheet(const spec::texture::Parameters& p
 }
 
 Datasheet TextureCache::datasheet(const spec::texture::Build& build) {
+  const auto decoded = [&](Datasheet sheet) {
+    if (!has_decoders(build)) return sheet;
+    sheet.does.replace(sheet.does.find(" and "), 5, ", ")
+        .insert(sheet.does.find(", for"), " and BlockDecoder");
+    sheet.latency.cycles += BlockDecoder::datasheet().latency.cycles;
+    return sheet;
+  };
   if (build.width > 1) {
     Datasheet sheet = {
         .unit = "TextureCache",
-        .variant = "`width` above 1",
+        .variant = "`width` above 1" + with_decoders(build),
         .does =
             "GroupFormer, WideTagStage, WideLatencyFifo and WideDataStage, for a group that "
             "hits.",
@@ -110,17 +133,17 @@ Datasheet TextureCache::datasheet(const spec::texture::Build& build) {
     for (const Datasheet& block : {GroupFormer::datasheet(), WideTagStage::datasheet(),
                                    WideLatencyFifo::datasheet(), WideDataStage::datasheet()})
       sheet.latency.cycles += block.latency.cycles;
-    return sheet;
+    return decoded(sheet);
   }
   Datasheet sheet = {
       .unit = "TextureCache",
-      .variant = "`width = 1`",
+      .variant = "`width = 1`" + with_decoders(build),
       .does = "TagStage, LatencyFifo and DataStage, for a request that hits.",
       .interval = {1, "one request per cycle while every line hits and no bank conflict occurs"}};
   for (const Datasheet& block :
        {TagStage::datasheet(), LatencyFifo::datasheet(), DataStage::datasheet()})
     sheet.latency.cycles += block.latency.cycles;
-  return sheet;
+  return decoded(sheet);
 }
 
 }  // namespace deburr::rtl::texture

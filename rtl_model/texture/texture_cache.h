@@ -9,9 +9,10 @@
 //                           |
 //                       MemoryPort (TLM-2.0)
 //
-// Links with two entries connect its units; `line_used` is a wire. Order of fills, merged misses:
-// docs/reference/texture/cache.md.
-// Wide      With a width above 1 the units are those of Wide below, behind a GroupFormer, and the
+// With `decode = after`, a BlockDecoder follows the DataStage:
+// docs/reference/texture/compressed.md. Links with two entries connect its units; `line_used` is a
+// wire. Order of fills, merged misses: docs/reference/texture/cache.md. Wide      With a width
+// above 1 the units are those of Wide below, behind a GroupFormer, and the
 //           tokens are groups: docs/reference/texture/width.md.
 // Source    Igehy, Eldridge, Proudfoot, "Prefetching in a texture cache architecture", 1998.
 #pragma once
@@ -24,6 +25,7 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
+#include "rtl_model/texture/block_decoder.h"
 #include "rtl_model/texture/data_stage.h"
 #include "rtl_model/texture/group_former.h"
 #include "rtl_model/texture/latency_fifo.h"
@@ -53,6 +55,7 @@ class TextureCache final : public sc_core::sc_module {
     TagStage tag_stage;
     LatencyFifo latency_fifo;
     DataStage data_stage;
+    const std::unique_ptr<BlockDecoder> block_decoder;
     Link<CacheToken> requests;
     Wire<bool> line_used{"line_used", false};
   };
@@ -63,6 +66,7 @@ class TextureCache final : public sc_core::sc_module {
     WideTagStage tag_stage;
     WideLatencyFifo latency_fifo;
     WideDataStage data_stage;
+    const std::unique_ptr<wide::BlockDecoder> block_decoder;
     Link<LineGroup> groups;
     Link<CacheGroup> requests;
     Wire<std::uint8_t> lines_used{"lines_used", 0, {.widths = {{"value", 3}}}};
@@ -76,6 +80,7 @@ class TextureCache final : public sc_core::sc_module {
   const std::unique_ptr<Wide> wide;
   TagUnit& tag_stage;
   DataUnit& data_stage;
+  BlockDecoderBase* const block_decoder;  // nullptr without decoders
   MemoryPort memory_port;
 
   static Datasheet memory_port_datasheet(const spec::texture::Parameters& parameters);
@@ -83,6 +88,7 @@ class TextureCache final : public sc_core::sc_module {
 
  private:
   Link<MissToken> misses_;
+  std::unique_ptr<Link<BlockGroup>> blocks_;  // with decoders
   Link<MemoryRequest> memory_requests_;
   Link<MemoryResponse> memory_responses_;
 };

@@ -25,7 +25,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
                          const StandIns& stand_ins)
     : Engine(name, clock, register_table(), control_layout()),
       parameters_(sized(check_build(parameters), memory)),
-      descriptors_("descriptors", control, parameters_.width),
+      descriptors_("descriptors", control, parameters_),
       narrow_address(parameters_.width == 1
                          ? std::make_unique<AddressUnit>("address_unit", clock, parameters_,
                                                          control, descriptors_, probe_)
@@ -47,18 +47,18 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   uses(cache.memory_port);
   filter.colours_out(colours_out);
   if (narrow_address) {
-    texels_ = std::make_unique<Link<TexelToken>>("texels");
-    texel_quads_ = std::make_unique<Link<TexelQuadToken>>("texel_quads");
+    texels_ = std::make_unique<Link<TexelToken>>("texels", 2, texel_shape(parameters_));
+    texel_quads_ = std::make_unique<Link<TexelQuadToken>>("texel_quads", 2, texel_quad_shape());
     narrow_address->quads_in(quads_in);
     narrow_address->texels_out(*texels_);
     cache.texels_in(*texels_);
     cache.texels_out(*texel_quads_);
     narrow_filter->texels_in(*texel_quads_);
   } else {
-    texel_groups_ =
-        std::make_unique<Link<TexelGroup>>("texels", 2, request_links<Wide>(parameters_));
-    texel_quad_groups_ = std::make_unique<Link<TexelQuadGroup>>("texel_quads", 2,
-                                                                links_of_groups(parameters_.width));
+    texel_groups_ = std::make_unique<Link<TexelGroup>>(
+        "texels", 2, request_links<Wide>(parameters_, texel_shape(parameters_)));
+    texel_quad_groups_ = std::make_unique<Link<TexelQuadGroup>>(
+        "texel_quads", 2, links_of_groups(parameters_.width, texel_quad_shape()));
     wide_address->quads_in(quads_in);
     wide_address->texels_out(*texel_groups_);
     cache.groups_in(*texel_groups_);

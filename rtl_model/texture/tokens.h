@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "rtl_model/fabric/payload.h"
 #include "spec/texture/descriptor.h"
@@ -127,6 +128,9 @@ struct FilterControl {
   bool last_of_sample;         // completes a sample (second level, or the only one); with
                                // `blend = level`: completes a level (last sample)
   bool last_of_fragment;       // completes a fragment
+  // Of texels in blocks, from the TexelAddresser to the BlockDecoder of a build with decoders.
+  std::uint8_t codec = 0;   // codec_of() their format; 0: not in blocks
+  std::uint8_t within = 0;  // columns x0, x1 and rows y0, y1 modulo 4, of 2 bits each
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("fraction_u", self.fraction_u, 8, "U0.8");
@@ -137,8 +141,31 @@ struct FilterControl {
     visit("format", self.format, 3);
     visit("last_of_sample", self.last_of_sample);
     visit("last_of_fragment", self.last_of_fragment);
+    visit("codec", self.codec, 3);
+    visit("within", self.within, 8);
   }
 };
+
+// Codes of the formats of blocks, from 1 on.
+constexpr std::uint8_t codec_of(spec::texture::Format format) {
+  using spec::texture::Format;
+  return spec::texture::is_compressed(format)
+             ? static_cast<std::uint8_t>(static_cast<int>(format) - static_cast<int>(Format::kBc1) +
+                                         1)
+             : std::uint8_t{0};
+}
+constexpr spec::texture::Format format_of(std::uint8_t codec) {
+  return static_cast<spec::texture::Format>(static_cast<int>(spec::texture::Format::kBc1) + codec -
+                                            1);
+}
+// Bytes of a block, lb.
+constexpr std::uint32_t block_log2(std::uint8_t codec) {
+  return spec::texture::kFormatBlockBytes[static_cast<std::size_t>(format_of(codec))] == 16 ? 4 : 3;
+}
+// Words of a block, or of a texel that is not in one.
+constexpr std::uint32_t word_count(std::uint8_t codec) {
+  return codec == 0 ? 1 : 1U << (block_log2(codec) - 2);
+}
 
 // SampleWalker -> TexelAddresser: one bilinear request.
 struct SampleToken {
@@ -168,7 +195,7 @@ struct SampleToken {
 struct TexelToken {
   Ticket ticket;
   FilterControl control;
-  std::array<std::uint32_t, 4> address;  // bytes
+  std::array<std::uint32_t, 4> address;  // bytes; of a texel in a block, the block
   std::array<bool, 2>
       turned;  // upper and lower row: lines stored with rotated banks (layout linear, odd rows)
   template <class Self, class Visit>
@@ -309,6 +336,36 @@ struct CacheGroup {
   }
 };
 
+// DataStage -> BlockDecoder, of all widths: the requests of a cycle and their distinct blocks, in
+// the order of first use.
+struct BlockRequest {
+  Ticket ticket;
+  FilterControl control;
+  std::array<std::uint32_t, 4> texel;  // as stored; 0 if it is in a block
+  std::array<std::uint8_t, 4> index;   // the block that it is in
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("ticket", self.ticket);
+    visit("control", self.control);
+    visit("texel", self.texel, 32);
+    visit("index", self.index, 3);
+  }
+};
+using Block = std::array<std::uint32_t, 4>;  // little-endian words; of 8 bytes: two, and zeros
+struct BlockGroup {
+  std::uint8_t count;
+  std::array<BlockRequest, kMostInGroup> at;
+  std::uint8_t blocks;
+  std::array<Block, spec::texture::kMostDecoders> block;
+  template <class Self, class Visit>
+  static constexpr void fields(Self& self, Visit&& visit) {
+    visit("count", self.count, 3);
+    visit("at", self.at);
+    visit("blocks", self.blocks, 3);
+    visit("block", self.block, 32);
+  }
+};
+
 // Why a unit behind the GroupFormer stopped it.
 enum class SlotStall : std::uint8_t {
   kNone,
@@ -356,6 +413,36 @@ inline PayloadShape footprint_shape(const spec::texture::Configuration& p) {
   return shape;
 }
 
+// Blocks decoded per cycle, of a build with decoders.
+inline std::uint32_t decoders(const spec::texture::Build& p) {
+  if (p.cache_decoders != 0) return static_cast<std::uint32_t>(p.cache_decoders);
+  return p.width == 1 ? spec::texture::kBlocksPerRequest : spec::texture::kMostDecoders;
+}
+inline bool has_decoders(const spec::texture::Build& p) {
+  return p.decode == spec::texture::Decode::kAfter;
+}
+// Omits the fields of blocks from the control of the token `path`.
+inline PayloadShape without_blocks(PayloadShape shape = {}, const std::string& path = "") {
+  shape.widths.emplace_back(path + "control.codec", 0);
+  shape.widths.emplace_back(path + "control.within", 0);
+  return shape;
+}
+// TexelToken of a build, and TexelQuadToken of every build.
+inline PayloadShape texel_shape(const spec::texture::Build& p) {
+  return has_decoders(p) ? PayloadShape{} : without_blocks();
+}
+inline std::uint32_t texel_bits(const spec::texture::Build& p) {
+  return Payload::of<TexelToken>(texel_shape(p)).bits();
+}
+inline PayloadShape texel_quad_shape() { return without_blocks(); }
+inline PayloadShape block_shape(const spec::texture::Build& p) {
+  if (p.width == 1)
+    return {.widths = {{"count", 0}, {"index", 2}},
+            .counts = {{"block", spec::texture::kBlocksPerRequest}},
+            .single = "at"};
+  return {.counts = {{"at", static_cast<std::uint32_t>(p.width)}, {"block", decoders(p)}}};
+}
+
 // Field widths of the cache's tokens.
 inline std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
@@ -368,7 +455,8 @@ inline PayloadShape miss_shape(const spec::texture::Build& p) {
 }
 inline PayloadShape cache_shape(const spec::texture::Build& p) {
   const std::uint32_t place = log2_of(p.cache_bytes), line = log2_of(p.cache_line_bytes);
-  return {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
+  PayloadShape shape = {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
+  return has_decoders(p) ? shape : without_blocks(shape);
 }
 // Groups of a wide build.
 inline PayloadShape requests_shape(const spec::texture::Build& p) {
@@ -376,8 +464,11 @@ inline PayloadShape requests_shape(const spec::texture::Build& p) {
 }
 inline PayloadShape group_shape(const spec::texture::Build& p) {
   PayloadShape shape = requests_shape(p);
-  for (std::int32_t i = 0; i < p.width; ++i)
-    shape.widths.emplace_back("at." + std::to_string(i) + ".offset", log2_of(p.cache_line_bytes));
+  for (std::int32_t i = 0; i < p.width; ++i) {
+    const std::string path = "at." + std::to_string(i) + ".";
+    shape.widths.emplace_back(path + "offset", log2_of(p.cache_line_bytes));
+    if (!has_decoders(p)) shape = without_blocks(std::move(shape), path);
+  }
   shape.counts.emplace_back("turned", p.cache_lookups);
   return shape;
 }

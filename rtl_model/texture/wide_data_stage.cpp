@@ -10,6 +10,15 @@
 namespace deburr::rtl::texture {
 namespace {
 
+// The most words that a group reads: of blocks as many as decoders, which are those of few
+// requests, and of the texels of the others.
+std::uint32_t words_read(const spec::texture::Parameters& p) {
+  const auto requests = static_cast<std::uint32_t>(p.width);
+  if (!has_decoders(p)) return 4 * requests;
+  const std::uint32_t blocks = decoders(p), of_blocks = (blocks + 3) / 4;
+  return 4 * (requests - of_blocks + blocks);
+}
+
 // One of the copies for R reads per bank and cycle.
 MemoryShape copy_shape(const spec::texture::Parameters& p) {
   const auto words = static_cast<std::uint32_t>(p.cache_line_bytes / 4);
@@ -17,7 +26,7 @@ MemoryShape copy_shape(const spec::texture::Parameters& p) {
   return {.words = static_cast<std::uint64_t>(p.cache_bytes / 4),
           .word_bits = 32,
           .kind = MemoryKind::kSram,
-          .read_ports = std::min(4 * static_cast<std::uint32_t>(p.width), banks),
+          .read_ports = std::min(words_read(p), banks),
           .write_ports = static_cast<std::uint32_t>(p.cache_fill_writes),
           .latency = 1,
           .read_during_write = ReadDuringWrite::kOldWord,
@@ -50,6 +59,10 @@ WideDataStage::WideDataStage(const sc_core::sc_module_name& name, ClockDomain& c
       fill_writes_(static_cast<std::uint32_t>(p.cache_fill_writes)),
       bytes_(static_cast<std::size_t>(p.cache_bytes) + kWordPadding),
       banks_(bank_mask_ + 1) {
+  if (has_decoders(p))
+    blocks_out.emplace("blocks_out");
+  else
+    texels_out.emplace("texels_out");
   for (std::uint32_t i = 0; i < reads_; ++i)
     copies_.push_back(
         std::make_unique<Copy>(reads_ == 1 ? "banks" : ("banks_" + std::to_string(i)).c_str(), p));
@@ -74,7 +87,8 @@ Activity WideDataStage::tick(Cycle cycle) {
 // Last stage first.
 inline Activity WideDataStage::work(Cycle cycle) {
   const bool waits = waits_;
-  if (!push(cycle, texels_out, waiting_)) return kStalledDownstream;
+  if (!(blocks_out ? push(cycle, *blocks_out, blocks_) : push(cycle, *texels_out, waiting_)))
+    return kStalledDownstream;
   if (!requests_in.can_pop(cycle)) return waits ? kBusy : kIdle;
   const CacheGroup& group = requests_in.front(cycle);
   if (!started_ && !read_at_once(cycle, group)) schedule(group);
@@ -89,9 +103,14 @@ inline Activity WideDataStage::work(Cycle cycle) {
 }
 
 // Fast path for a group that needs at most one pass, the common case: the words of each line as a
-// mask of banks. Returns false without reading if a bank has more than R words.
+// mask of banks. Returns false without reading if a bank has more than R words, or for blocks.
 inline bool WideDataStage::read_at_once(Cycle cycle, const CacheGroup& group) {
   if (bank_mask_ >= 64) return false;
+  if (blocks_out) {
+    blocks_.blocks = 0;
+    for (std::size_t r = 0; r < group.count; ++r)
+      if (group.at[r].ticket.valid && group.at[r].control.codec != 0) return false;
+  }
   std::array<std::uint32_t, spec::texture::kMostLookups> base{};
   std::array<std::uint64_t, spec::texture::kMostLookups> words{};
   std::uint32_t highest = 0;
@@ -148,6 +167,7 @@ void WideDataStage::schedule(const CacheGroup& group) {
   ++group_;
   hits_ = passes_ = passes_done_ = 0;
   next_line_ = fills_left_ = 0;
+  blocks_.blocks = 0;
   std::array<std::uint32_t, spec::texture::kMostLookups> base{};
   for (std::size_t k = 0; k < group.lines; ++k) {
     base[k] = std::uint32_t{group.slot[k]} << line_log2_ | (group.turned[k] ? turn_ : 0);
@@ -157,28 +177,50 @@ void WideDataStage::schedule(const CacheGroup& group) {
     const GroupRequest& request = group.at[r];
     if (!request.ticket.valid) continue;
     for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::uint32_t k = request.index[i];
-      if (group.missed[k]) continue;
-      Read& read = schedule_[hits_++];
-      read.place = base[k] ^ request.offset[i];
-      read.texel = static_cast<std::uint8_t>(4 * r + i);
-      const std::uint32_t word = read.place >> 2;
-      Bank& bank = banks_[word & bank_mask_];
-      if (bank.group != group_) {
-        bank.group = group_;
-        bank.words = 0;
-      }
-      std::uint32_t n = 0;
-      while (n < bank.words && bank.word[n] != word) ++n;
-      read.first = n == bank.words;
-      if (read.first) bank.word[bank.words++] = word;
-      const std::uint32_t pass = n / reads_;
-      read.pass = static_cast<std::uint8_t>(pass);
-      read.copy = static_cast<std::uint8_t>(n % reads_);
-      passes_ = std::max(passes_, pass + 1);
+      const std::uint32_t k = request.index[i], place = base[k] ^ request.offset[i];
+      if (request.control.codec != 0)
+        add_block(group, blocks_.at[r], i,
+                  {request.index[i], request.offset[i], request.control.codec}, place);
+      else if (!group.missed[k])
+        add_read(place, 4 * r + i);
     }
   }
   if (passes_ > 1) ++conflicts;
+}
+
+void WideDataStage::add_read(std::uint32_t place, std::size_t to) {
+  Read& read = schedule_[hits_++];
+  read.place = place;
+  read.to = static_cast<std::uint8_t>(to);
+  const std::uint32_t word = place >> 2;
+  Bank& bank = banks_[word & bank_mask_];
+  if (bank.group != group_) {
+    bank.group = group_;
+    bank.words = 0;
+  }
+  std::uint32_t n = 0;
+  while (n < bank.words && bank.word[n] != word) ++n;
+  read.first = n == bank.words;
+  if (read.first) bank.word[bank.words++] = word;
+  const std::uint32_t pass = n / reads_;
+  read.pass = static_cast<std::uint8_t>(pass);
+  read.copy = static_cast<std::uint8_t>(n % reads_);
+  passes_ = std::max(passes_, pass + 1);
+}
+
+// The block of a texel, which is read if it is a new one that hits.
+void WideDataStage::add_block(const CacheGroup& group, BlockRequest& request, std::size_t texel,
+                              const BlockPlace& at, std::uint32_t place) {
+  std::size_t k = 0;
+  while (k < blocks_.blocks && block_places_[k] != at) ++k;
+  request.index[texel] = static_cast<std::uint8_t>(k);
+  if (k < blocks_.blocks || k == block_places_.size()) return;  // the GroupFormer forms no more
+  block_places_[k] = at;
+  blocks_.block[k] = {};
+  ++blocks_.blocks;
+  if (group.missed[at.line]) return;
+  for (std::uint32_t n = 0; n < word_count(at.codec); ++n)
+    add_read(place + 4 * n, kMostTexels + 4 * k + n);
 }
 
 void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
@@ -187,7 +229,11 @@ void WideDataStage::read(Cycle cycle, std::uint32_t pass) {
     const Read& read = schedule_[i];
     if (read.pass != pass) continue;
     if (read.first) issue(cycle, copies_[read.copy]->reads[ports[read.copy]++], read.place >> 2);
-    texel(read.texel) = load_word(&bytes_[read.place]);
+    const std::uint32_t word = load_word(&bytes_[read.place]);
+    if (read.to < kMostTexels)
+      texel(read.to) = word;
+    else
+      blocks_.block[(read.to - kMostTexels) / 4][read.to % 4] = word;
   }
 }
 
@@ -213,6 +259,9 @@ void WideDataStage::write_fill(Cycle cycle, const CacheGroup& group, std::size_t
     for (std::uint32_t i = 0; i < 4; ++i)
       if (group.at[r].index[i] == k) texel(4 * r + i) = load_word(line + group.at[r].offset[i]);
   }
+  for (std::size_t b = 0; b < blocks_.blocks; ++b)
+    if (block_places_[b].line == k)
+      blocks_.block[b] = load_block(line + block_places_[b].offset, block_places_[b].codec);
   const std::size_t slot = group.slot[k], line_bytes = std::size_t{1} << line_log2_;
   // All copies are written alike, so the ports of one check the access.
   copies_.front()->writes[port].write(cycle, slot * words_a_line_, words_a_line_);
@@ -235,6 +284,10 @@ inline void WideDataStage::finish(Cycle cycle, const CacheGroup& group) {
     if (mask != ~0U)
       for (std::uint32_t& word : out.texel) word &= mask;
   }
+  if (blocks_out) {
+    blocks_.count = group.count;
+    for (std::size_t r = 0; r < group.count; ++r) pass(waiting_.at[r], blocks_.at[r]);
+  }
   waits_ = true;
   requests_in.pop(cycle);
   started_ = false;
@@ -252,11 +305,13 @@ Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {
   const auto log2 = [](std::uint32_t count) {
     return static_cast<std::uint32_t>(std::bit_width(count - 1));
   };
+  // Words of the texels, and of the distinct blocks.
+  const std::uint32_t words = n + (has_decoders(p) ? 4 * decoders(p) : 0);
   const std::uint32_t place = z.slot + z.offset, row = z.slot - log2(z.line_banks);
   return {.unit = "WideDataStage",
           .variant = chosen("width", z.width) + ", " + std::to_string(banks) + " banks, " +
                      chosen("cache.bank_reads", z.bank_reads) + ", " +
-                     chosen("cache.fill_writes", z.fill_writes),
+                     chosen("cache.fill_writes", z.fill_writes) + with_decoders(p),
           .does = "Reads the texels of a group from the banks and writes its fills.",
           .latency = {2, "2, from the last cycle of a group"},
           .interval = {1,
@@ -275,16 +330,19 @@ Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {
                           z.fill_writes * op::mux(z.slot + 1, z.lookups),
                           z.fill_writes * op::mux(line, 2),
                           z.line_banks * op::mux(line + row, z.fill_writes),
-                          n * op::mux(32, z.words * z.fill_writes)},
+                          words * op::mux(32, z.words * z.fill_writes)},
             .longest = {op::mux(z.slot + 2, z.lookups), op::equal(place - 2), op::count_ones(n - 1),
                         op::compare(4), op::mux(row, n)},
             // As in the DataStage; lines to write.
-            .registers = Payload::of<TexelQuadGroup>(links_of_groups(p.width)).bits() +
-                         n * (log2(ports) + 2 + 1) + z.lookups + 4 + 2},
+            .registers = (has_decoders(p) ? Payload::of<BlockGroup>(block_shape(p))
+                                          : Payload::of<TexelQuadGroup>(
+                                                links_of_groups(p.width, texel_quad_shape())))
+                             .bits() +
+                         words * (log2(ports) + 2 + 1) + z.lookups + 4 + 2},
            {.clock = "2",
             .work = "words, texels; missed texels from the fill buffer",
             .path = "SRAM read",
-            .operators = {n * op::mux(32, ports), n * op::mux(32, 2), n * op::mux(8, 4),
+            .operators = {words * op::mux(32, ports), words * op::mux(32, 2), n * op::mux(8, 4),
                           n * op::mux(8, 2), op::logic(n * 32)},
             .longest = {op::mux(32, ports), op::mux(32, 2), op::mux(8, 4)}}}};
 }

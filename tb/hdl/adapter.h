@@ -25,6 +25,7 @@
 #include "rtl_model/fabric/link.h"
 #include "rtl_model/fabric/payload.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/tokens.h"
 #include "tb/base/random.h"
 
 namespace deburr::tb::hdl {
@@ -115,17 +116,26 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
   return beat;
 }
 
+// The fields that hdl/ has: no decoders.
+template <class Token>
+rtl::PayloadShape built() {
+  if constexpr (requires(Token token) { token.control.codec; })
+    return rtl::texture::without_blocks();
+  else
+    return {};
+}
+
 // A unit at given ports: its own, or those of the SystemC unit that it replaces.
 template <class Model, class From, class To>
 class VerilatedAt : public rtl::Unit {
  public:
   // `seed`: for all noise.
   VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& to = {})
+              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& to = built<To>())
       : Unit(name, clock),
         in_(in),
         out_(out),
-        from_(rtl::Payload::of<From>()),
+        from_(rtl::Payload::of<From>(built<From>())),
         to_(rtl::Payload::of<To>(to)),
         noise_(seed, this->basename()),
         model_(made_with_noise<Model>(*context_, noise_)) {
@@ -187,7 +197,7 @@ template <class Model, class From, class To>
 class VerilatedUnit final : public VerilatedAt<Model, From, To> {
  public:
   VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-                const rtl::PayloadShape& to = {})
+                const rtl::PayloadShape& to = built<To>())
       : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out, to) {}
 
   rtl::In<From> beats_in{"beats_in"};

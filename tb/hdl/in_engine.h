@@ -87,7 +87,7 @@ class CacheInEngine final : public VerilatedCacheAt<Model> {
   CacheInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe&, std::uint64_t seed)
       : VerilatedCacheAt<Model>(
             "cache_hdl", unit.cache.tag_stage.clock(), seed,
-            {unit.cache.narrow->tag_stage.texels_in, unit.cache.narrow->data_stage.texels_out,
+            {unit.cache.narrow->tag_stage.texels_in, *unit.cache.narrow->data_stage.texels_out,
              unit.cache.miss_queue.requests_out, unit.cache.miss_queue.responses_in},
             unit.parameters()),
         unit_(unit),

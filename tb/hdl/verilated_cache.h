@@ -92,8 +92,10 @@ class VerilatedCacheAt : public rtl::Unit {
   }
   CachePorts ports_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
-  rtl::Payload texel_ = rtl::Payload::of<rtl::texture::TexelToken>();
-  rtl::Payload quad_ = rtl::Payload::of<rtl::texture::TexelQuadToken>();
+  rtl::Payload texel_ =
+      rtl::Payload::of<rtl::texture::TexelToken>(built<rtl::texture::TexelToken>());
+  rtl::Payload quad_ =
+      rtl::Payload::of<rtl::texture::TexelQuadToken>(built<rtl::texture::TexelQuadToken>());
   rtl::Payload request_, response_;
   Random noise_;
   std::unique_ptr<Model> model_;

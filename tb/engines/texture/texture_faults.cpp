@@ -1,12 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_faults.h"
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace deburr::tb {
 
-std::vector<InjectedFault> TextureFaults::list() {
+namespace {
+
+using Fault = rtl::texture::BlockDecoderBase::Fault;
+struct DecoderFault {
+  const char *name, *meaning;
+  Fault fault;
+};
+constexpr std::array<DecoderFault, 5> kDecoderFaults = {{
+    {"swapped-modes", "Blocks of ETC2 in mode T are decoded as in mode H, and the reverse.",
+     Fault::kModes},
+    {"swapped-selectors", "The two bits of each selector of colours are swapped.",
+     Fault::kSelectors},
+    {"wrong-alpha-mode", "Values of BC have the steps of the other mode.", Fault::kValues},
+    {"wrong-edge-block", "The second texel of a request is taken from the block of the first.",
+     Fault::kEdge},
+    {"late-half", "The second half of a block of 16 bytes comes one request late.", Fault::kHalf},
+}};
+
+}  // namespace
+
+std::vector<InjectedFault> TextureFaults::list() const {
   std::vector<InjectedFault> list = {
       {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
       {"drop-colour", "Drops colour 100.", "drop:colours:100"},
@@ -27,6 +49,10 @@ std::vector<InjectedFault> TextureFaults::list() {
       {"wrong-sample", "Gives request 401 the weight of another number of samples.",
        "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
+  const std::string needs =
+      setup_.texture.decode != spec::texture::Decode::kAfter ? "texture.decode = after" : "";
+  for (const DecoderFault& fault : kDecoderFaults)
+    list.push_back({fault.name, fault.meaning, "", needs});
   for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
 }
@@ -35,6 +61,12 @@ spec::texture::Parameters TextureFaults::as_built() const {
   spec::texture::Parameters p = setup_.texture;
   if (injected("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
   return p;
+}
+
+void TextureFaults::inject(rtl::texture::TextureUnit& unit) const {
+  for (const DecoderFault& fault : kDecoderFaults)
+    if (injected(fault.name) && unit.cache.block_decoder)
+      unit.cache.block_decoder->fault = fault.fault;
 }
 
 void TextureFaults::load(platform::TextureDriver& driver,

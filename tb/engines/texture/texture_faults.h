@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Injected faults of the texture unit: on links, in build parameters, in memory and on the way to
-// memory.
+// Injected faults of the texture unit: on links, in build parameters, in the BlockDecoder, in
+// memory and on the way to memory.
 #pragma once
 
 #include <string>
@@ -21,9 +21,10 @@ class TextureFaults : public EngineFaults {
   TextureFaults(const FaultPlan& plan, std::string environment, const TextureSetup& setup)
       : EngineFaults(plan, std::move(environment)), setup_(setup) {}
 
-  static std::vector<InjectedFault> list();
+  std::vector<InjectedFault> list() const;
   // Parameters of the hardware with faults; the golden model always gets the intended ones.
   spec::texture::Parameters as_built() const;
+  void inject(rtl::texture::TextureUnit& unit) const;
   // Writes the textures to memory, with faults.
   void load(platform::TextureDriver& driver, const platform::TextureMemory& textures) const;
   bool fetches_again() const { return injected("duplicate-fetch"); }

@@ -139,6 +139,77 @@ TEST(TextureMemory, LevelBeginsAtMultipleOf128Bytes) {
   EXPECT_EQ(textures.bytes().size(), 640u);
 }
 
+// 20 x 6 texels: 5 x 2 blocks. By hand: rows of 40 or 80 bytes, padded to multiples of 64; Morton
+// order of 8 x 2 blocks, of which only the lowest bits interleave.
+TEST(TextureMemory, BlocksTakePlacesOfTexels) {
+  using spec::texture::Layout;
+  const platform::TexelLayout rows(Layout::kLinear, Format::kBc1, 20, 6),
+      large_rows(Layout::kLinear, Format::kEtc2Rgba8, 20, 6),
+      tiles(Layout::kTiled, Format::kBc4, 20, 6), large_tiles(Layout::kTiled, Format::kBc3, 20, 6);
+  EXPECT_EQ(rows.offset_of(19, 3), 32u);
+  EXPECT_EQ(rows.offset_of(15, 4), 64u + 24);
+  EXPECT_EQ(rows.bytes(), 128u);
+  EXPECT_EQ(large_rows.offset_of(19, 5), 128u + 64);
+  EXPECT_EQ(large_rows.bytes(), 256u);
+  EXPECT_EQ(tiles.offset_of(4, 0), 8u);
+  EXPECT_EQ(tiles.offset_of(3, 4), 16u);
+  EXPECT_EQ(tiles.offset_of(8, 0), 32u);
+  EXPECT_EQ(tiles.offset_of(19, 5), 64u + 16);
+  EXPECT_EQ(tiles.bytes(), 16u * 8);
+  EXPECT_EQ(large_tiles.offset_of(19, 5), 2 * (64u + 16));
+  EXPECT_EQ(large_tiles.bytes(), 16u * 16);
+  EXPECT_EQ(platform::TexelLayout(Layout::kTiled, Format::kBc1, 1, 1).bytes(), 8u);
+}
+
+TEST(TextureMemory, TakesBlocksRowByRow) {
+  std::vector<std::uint8_t> large(10 * 8), small(3 * 8);
+  for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < small.size(); ++i) small[i] = static_cast<std::uint8_t>(100 + i);
+  const platform::BlockLevel levels[] = {{20, 6, large}, {10, 3, small}};
+  platform::TextureMemory textures;
+  Descriptor d;
+  d.format = Format::kEtc2Rgb;
+  d.layout = spec::texture::Layout::kLinear;
+  EXPECT_EQ(textures.add(levels, d), 0);
+  d.layout = spec::texture::Layout::kTiled;
+  EXPECT_EQ(textures.add(levels, d), 1);
+  EXPECT_EQ(textures.descriptors()[1].levels, 2);
+  EXPECT_EQ(textures.descriptors()[1].width, 20);
+  EXPECT_THAT(std::span(textures.descriptors()[1].base).first(2), ElementsAre(256u, 384u));
+  const auto byte = [&](std::size_t at) { return textures.bytes()[at]; };
+  EXPECT_EQ(byte(32 + 7), 4 * 8 + 7) << "the last block of the first row";
+  EXPECT_EQ(byte(40), 0);
+  EXPECT_EQ(byte(64 + 8), 6 * 8) << "the second row";
+  EXPECT_EQ(byte(128 + 16 + 7), 123);
+  EXPECT_EQ(byte(256 + 16), 5 * 8) << "row 1 of the tiled one";
+  EXPECT_EQ(byte(256 + 64 + 16 + 7), 79);
+  EXPECT_EQ(byte(384 + 16), 116) << "one row of blocks: in order";
+  EXPECT_EQ(textures.bytes().size(), 512u);
+}
+
+TEST(TextureMemory, RejectsBlocksAndTexelsOfTheOtherKind) {
+  const std::vector<Texel> texels(16);
+  const std::vector<std::uint8_t> bytes(16);
+  const auto rejection = [&](const auto& level, Format format) {
+    platform::TextureMemory textures;
+    Descriptor d;
+    d.format = format;
+    return error_of<spec::ConfigError>([&] { textures.add(std::span(&level, 1), d); });
+  };
+  EXPECT_EQ(rejection(platform::TextureLevel{4, 4, texels}, Format::kBc1),
+            "mip level 0 has texels, but bc1 has blocks: encode the level first");
+  EXPECT_EQ(rejection(platform::BlockLevel{4, 4, bytes}, Format::kRgba8),
+            "mip level 0 has blocks, but rgba8 has none");
+  EXPECT_EQ(rejection(platform::BlockLevel{4, 4, bytes}, Format::kBc5), "");
+  EXPECT_EQ(rejection(platform::BlockLevel{5, 4, bytes}, Format::kBc1), "");
+  EXPECT_EQ(rejection(platform::BlockLevel{4, 4, bytes}, Format::kBc1),
+            "mip level 0 of 4 x 4 texels has 16 bytes, but 1 x 1 blocks of bc1 have 8");
+  EXPECT_EQ(rejection(platform::BlockLevel{5, 4, bytes}, Format::kBc3),
+            "mip level 0 of 5 x 4 texels has 16 bytes, but 2 x 1 blocks of bc3 have 32");
+  EXPECT_EQ(rejection(platform::BlockLevel{0, 4, bytes}, Format::kBc3),
+            "texture of 0 x 4 texels: each side must be 1 to 4096");
+}
+
 TEST(TextureMemory, RejectsEmptyAndOversizedSides) {
   const std::vector<Texel> texels(4097);
   const auto rejection = [&](int width, int height) {

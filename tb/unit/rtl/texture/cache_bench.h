@@ -47,6 +47,51 @@ inline rtl::texture::TexelToken in_line(std::uint32_t line, std::uint32_t tag = 
   return request({a, a + 4, a + 16, a + 20}, tag);
 }
 
+// The same with decoders.
+inline spec::texture::Parameters with_decoders(spec::texture::Parameters p,
+                                               std::int32_t decoders = 0) {
+  p.decode = spec::texture::Decode::kAfter;
+  p.cache_decoders = decoders;
+  return p;
+}
+// Texels in blocks at these addresses, each at (0, 0).
+inline rtl::texture::TexelToken in_blocks(spec::texture::Format format,
+                                          std::array<std::uint32_t, 4> address,
+                                          std::uint32_t tag = 0) {
+  rtl::texture::TexelToken t = request(address, tag);
+  t.control.codec = rtl::texture::codec_of(format);
+  return t;
+}
+// Memory of such blocks: of each 8 bytes the first has the number, and the others are 0, so that a
+// texel of BC4 is the number, and R and G of BC5 are those of its halves.
+inline std::uint32_t number_of(std::uint64_t address) {
+  return static_cast<std::uint32_t>((address / 8 * 2654435761u >> 7) % 255 + 1);
+}
+inline std::vector<std::uint8_t> numbered_blocks() {
+  std::vector<std::uint8_t> image(1 << 20);
+  for (std::size_t i = 0; i < image.size(); i += 8)
+    image[i] = static_cast<std::uint8_t>(number_of(i));
+  return image;
+}
+// The texels of a request from that memory.
+inline std::array<std::uint32_t, 4> texels_of(const rtl::texture::TexelToken& asked) {
+  std::array<std::uint32_t, 4> texels{};
+  for (std::size_t i = 0; i < 4 && asked.ticket.valid; ++i) {
+    const std::uint32_t first = number_of(asked.address[i]), byte = asked.address[i] & 7;
+    switch (asked.control.codec) {
+      case 0:
+        texels[i] = byte == 0 ? first : 0;
+        break;
+      case rtl::texture::codec_of(spec::texture::Format::kBc4):
+        texels[i] = 0xFF00'0000 | first * 0x01'0101;
+        break;
+      default:
+        texels[i] = 0xFF00'0000 | number_of(asked.address[i] + 8) << 8 | first;
+    }
+  }
+  return texels;
+}
+
 struct CacheBench {
   explicit CacheBench(const spec::texture::Parameters& p = small_cache(),
                       std::uint32_t latency = kMemoryLatency, std::uint32_t scatter = 0,
@@ -142,7 +187,7 @@ struct WideBench {
     std::vector<std::uint8_t> image(1 << 20);
     for (std::size_t i = 0; i < image.size(); ++i)
       image[i] = static_cast<std::uint8_t>(CacheBench::word(i & ~3ull) >> (8 * (i & 3)));
-    memory.preload(0, image);
+    memory.preload(0, cache.block_decoder ? numbered_blocks() : image);
   }
   void add(const std::vector<rtl::texture::TexelToken>& requests, std::uint8_t partial = 0) {
     ends.source.add(token_of(requests, partial));
@@ -165,6 +210,10 @@ struct WideBench {
         ASSERT_LT(i, asked.size());
         const rtl::texture::TexelQuadToken& got = taken.token.at[n];
         EXPECT_EQ(got.ticket.tag, asked[i].ticket.tag) << i;
+        if (cache.block_decoder) {
+          EXPECT_EQ(got.texel, texels_of(asked[i])) << i;
+          continue;
+        }
         for (std::size_t k = 0; k < 4; ++k)
           EXPECT_EQ(got.texel[k],
                     asked[i].ticket.valid ? CacheBench::word(asked[i].address[k]) : 0u)
@@ -193,8 +242,8 @@ inline Slots slots_of(const rtl::texture::GroupFormer& former) {
   for (const rtl::Counter* counter :
        {&former.lookups, &former.banks, &former.set, &former.partial_quad, &former.starved,
         &former.allocate, &former.miss_queue, &former.wait_fill, &former.write_fill,
-        &former.bank_pass, &former.output})
-    if (counter->value() != 0) slots[counter->basename()] = counter->value();
+        &former.bank_pass, &former.output, static_cast<const rtl::Counter*>(former.decoders.get())})
+    if (counter && counter->value() != 0) slots[counter->basename()] = counter->value();
   return slots;
 }
 // Each slot is counted exactly once.

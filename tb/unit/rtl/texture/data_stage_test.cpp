@@ -135,7 +135,7 @@ TEST(TextureRtlDataStage, PassesPrecedeFills) {
 struct StageBench {
   explicit StageBench(const CacheToken& first) {
     stage.requests_in(requests);
-    stage.texels_out(texels);
+    stage.texels_out->bind(texels);
     stage.line_used_out(line_used);
     requests.push(0, first);
     clock.run(2);  // taken in 1
@@ -187,7 +187,7 @@ Cycles cycles_of(const CacheToken& token) {
   rtl::Wire<bool> line_used("line_used", false);
   DataStage stage("stage", clock, StageBench::parameters(), fills.reader());
   stage.requests_in(requests);
-  stage.texels_out(texels);
+  stage.texels_out->bind(texels);
   stage.line_used_out(line_used);
   const std::array<std::uint8_t, 64> line{};
   for (std::uint8_t i = 0; i < token.fills; ++i) {
@@ -374,6 +374,126 @@ TEST(TextureRtlDataBanks, RejectsExtraPort) {
               Rejects("banks", "one port more than 4R1W"));
   EXPECT_THAT((of_one_port_more<rtl::WritePort<void>, void>(b.stage, "banks")),
               Rejects("banks", "one port more than 4R1W"));
+}
+
+// ---- Blocks -------------------------------------------------------------------------------------
+
+using spec::texture::Format;
+constexpr Cycle kDecoder = 3;
+
+struct BlockBench : CacheBench {
+  explicit BlockBench(std::int32_t line_bytes = 64) : CacheBench(parameters(line_bytes)) {
+    memory.preload(0, numbered_blocks());
+  }
+  static spec::texture::Parameters parameters(std::int32_t line_bytes) {
+    spec::texture::Parameters p = with_decoders(small_cache());
+    p.cache_bytes = 16384;
+    p.cache_line_bytes = line_bytes;
+    return p;
+  }
+  // Cycles of a hit, beyond those of one pass.
+  Cycle passes_after_first(const TexelToken& t) {
+    time_of(t);
+    const Cycle cycles = time_of(t) - kHit - kDecoder;
+    EXPECT_EQ(ends.sink.taken.back().token.texel, texels_of(t));
+    EXPECT_EQ(ends.sink.taken[ends.sink.taken.size() - 2].token.texel, texels_of(t)) << "filled";
+    return cycles;
+  }
+};
+
+// Blocks of 8 bytes are in two of sixteen banks, those of 16 bytes in four.
+TEST(TextureRtlDataStage, BlocksTakeOnePassPerWordOfABank) {
+  BlockBench b;
+  for (const auto& [format, address, more] :
+       {std::tuple{Format::kBc4, std::array<std::uint32_t, 4>{0, 8, 16, 24}, 0u},
+        {Format::kBc4, {0, 0, 0, 0}, 0},
+        {Format::kBc4, {0, 64 + 8, 128 + 16, 192 + 24}, 0},
+        {Format::kBc4, {0, 64, 8, 72}, 1},
+        {Format::kBc4, {0, 64, 128, 8}, 2},
+        {Format::kBc4, {0, 64, 128, 192}, 3},
+        {Format::kBc4, {0, 64, 64, 0}, 1},
+        {Format::kBc5, {0, 16, 32, 48}, 0},
+        {Format::kBc5, {0, 64 + 16, 128 + 32, 192 + 48}, 0},
+        {Format::kBc5, {16, 64 + 16, 32, 64 + 32}, 1},
+        {Format::kBc5, {48, 64 + 48, 128 + 48, 192 + 48}, 3}})
+    EXPECT_EQ(b.passes_after_first(in_blocks(format, address)), more) << address[1];
+  // A line of another layout is read through this one, and texels through the same cache.
+  EXPECT_EQ(b.passes_after_first(request({0, 8, 64, 1024})), 2u);
+  EXPECT_EQ(b.passes_after_first(invalid_request()), 0u);
+}
+
+// Neighbours anywhere in a texture of 21 x 13 blocks, in both layouts: of `linear`, odd rows of
+// blocks are turned.
+class Neighbours
+    : public testing::TestWithParam<std::tuple<Format, spec::texture::Layout, std::int32_t>> {};
+TEST_P(Neighbours, BlocksTakeOnePass) {
+  const auto& [format, layout, line_bytes] = GetParam();
+  BlockBench b(line_bytes);
+  const platform::TexelLayout blocks(layout, format, 4 * 21, 4 * 13);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 20; ++x) {
+      const auto at = [&](int i, int j) { return blocks.offset_of(4 * (x + i), 4 * (y + j)); };
+      TexelToken t = in_blocks(format, {at(0, 0), at(1, 0), at(0, 1), at(1, 1)});
+      if (layout == spec::texture::Layout::kLinear) t.turned = {y % 2 == 1, y % 2 == 0};
+      EXPECT_EQ(b.passes_after_first(t), 0u) << x << ' ' << y;
+    }
+  EXPECT_EQ(b.cache.data_stage.conflicts.value(), 0u);
+}
+INSTANTIATE_TEST_SUITE_P(TextureRtlDataStage, Neighbours,
+                         testing::Combine(testing::Values(Format::kBc4, Format::kBc5),
+                                          testing::Values(spec::texture::Layout::kLinear,
+                                                          spec::texture::Layout::kTiled),
+                                          testing::Values(64)));
+
+// Distinct blocks are in the order of first use, whether they hit or miss: the stage alone.
+TEST(TextureRtlDataStage, PassesDistinctBlocksInOrderOfUse) {
+  ClockDomain clock("clock", period());
+  FillBuffer fills("fills", 4, 64);
+  rtl::Link<CacheToken> requests("requests");
+  rtl::Link<BlockGroup> blocks("blocks");
+  rtl::Wire<bool> line_used("line_used", false);
+  DataStage stage("stage", clock, with_decoders(small_cache()), fills.reader());
+  stage.requests_in(requests);
+  stage.blocks_out->bind(blocks);
+  stage.line_used_out(line_used);
+  std::array<std::uint8_t, 64> line;
+  for (std::uint8_t i = 0; i < 64; ++i) line[i] = i;
+  fills.fill(clock.cycle(), fills.reserve(clock.cycle()), 0, line, true);
+  clock.run(3);
+  CacheToken token = StageBench::hit({32, 40, 32, 8});
+  token.control.codec = codec_of(Format::kBc4);
+  token.source = {1, 0, 1, 1};
+  token.fills = 1;
+  requests.push(clock.cycle(), token);
+  ready_at(clock, blocks);
+  const BlockGroup& got = blocks.front(clock.cycle());
+  EXPECT_EQ(got.blocks, 3);
+  EXPECT_THAT(got.at[0].index, ElementsAre(0, 1, 0, 2));
+  EXPECT_THAT(got.block[0], ElementsAre(0x23222120, 0x27262524, 0, 0));
+  EXPECT_THAT(got.block[1], ElementsAre(0, 0, 0, 0)) << "of the banks";
+  EXPECT_THAT(got.block[2], ElementsAre(0x0B0A0908, 0x0F0E0D0C, 0, 0));
+  EXPECT_THAT(got.at[0].texel, ElementsAre(0, 0, 0, 0));
+}
+
+// Requests of more blocks than are decoded at once hold back those behind them.
+TEST(TextureRtlDataStage, DecoderTakesRequestsInPasses) {
+  spec::texture::Parameters p = BlockBench::parameters(64);
+  p.cache_decoders = 1;
+  CacheBench b(p);
+  b.memory.preload(0, numbered_blocks());
+  const TexelToken four = in_blocks(Format::kBc4, {0, 8, 16, 24}),
+                   one = in_blocks(Format::kBc4, {0, 0, 0, 0});
+  b.time_of(four);
+  EXPECT_EQ(b.time_of(four), kHit + kDecoder + 3);
+  const std::size_t first = b.ends.sink.taken.size();
+  const Cycle start = b.clock.cycle() + 1;
+  for (const auto& t : {one, four, one, four, one}) b.ends.source.add(t);
+  b.clock.run(40);
+  std::vector<Cycle> when;
+  for (std::size_t i = first; i < b.ends.sink.taken.size(); ++i)
+    when.push_back(b.ends.sink.taken[i].cycle - start - kHit - kDecoder);
+  EXPECT_THAT(when, ElementsAre(0, 4, 5, 9, 10));
+  EXPECT_EQ(b.cache.block_decoder->blocks.value(), 4u + 4 + 11);
 }
 
 }  // namespace

@@ -12,6 +12,10 @@ namespace deburr::tb::texture_rtl::datasheets_test {
 namespace {
 
 TEST(TextureRtlDatasheets, MatchTheContract) {
+  const std::string decode = "`decode = after`",
+                    wide_data =
+                        "WideDataStage, `width = 4`, 64 banks, `cache.bank_reads = 2`, "
+                        "`cache.fill_writes = 4`";
   const std::string four = "`axes = four` or `eight`",
                     sets = "128 sets of 2 ways, `cache.replacement = lru`";
   expect_contract(
@@ -22,6 +26,8 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"AddressUnit, `preset = deburr`", 40, 1},
        {"TextureCache, `width = 1`", 5, 1},
        {"TextureCache, `width` above 1", 7, 1},
+       {"TextureCache, `width = 1`, " + decode, 8, 1},
+       {"TextureCache, `width` above 1, " + decode, 10, 1},
        {"DerivativeUnit", 3, 1},
        {"FootprintUnit, `footprint = half`", 2, 1},
        {"FootprintUnit, `footprint = exact`", 19, 1},
@@ -37,9 +43,15 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"SampleWalker, `count = any`, " + four + ", `width = 4`", 4, 1},
        {"TexelAddresser, `width = 1`", 5, 1},
        {"TexelAddresser, `width` above 1", 5, 1},
+       {"TexelAddresser, `width = 1`, " + decode, 5, 1},
+       {"TexelAddresser, `width` above 1, " + decode, 5, 1},
        {"GroupFormer, `width = 4`, `cache.lookups = 8`", 2, 1},
+       {"GroupFormer, `width = 4`, `cache.lookups = 8`, " + decode, 2, 1},
        {"TagStage, " + sets, 2, 1},
+       {"TagStage, " + sets + ", " + decode, 2, 1},
        {"WideTagStage, " + sets + ", `cache.lookups = 8`, `cache.allocations = 4`", 2, 1},
+       {"WideTagStage, " + sets + ", `cache.lookups = 8`, `cache.allocations = 4`, " + decode, 2,
+        1},
        {"MissQueue, 64 entries, `cache.lookups = 4`", 0, 1},
        {"MissQueue, 128 entries, `cache.lookups = 8`", 0, 1},
        {"FillBuffer, 64 entries, `cache.fill_writes = 1`", 2, 1},
@@ -47,18 +59,28 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"LatencyFifo", 1, 1},
        {"WideLatencyFifo", 1, 1},
        {"DataStage, 16 banks of 256 words", 2, 1},
-       {"WideDataStage, `width = 4`, 64 banks, `cache.bank_reads = 2`, `cache.fill_writes = 4`", 2,
-        1},
+       {"DataStage, 16 banks of 256 words, " + decode, 2, 1},
+       {wide_data, 2, 1},
+       {wide_data + ", " + decode, 2, 1},
+       {"BlockDecoder, `width = 1`, `cache.decoders = 4`, `bc = truncated`", 3, 1},
+       {"BlockDecoder, `width = 4`, `cache.decoders = 6`, `bc = truncated`", 3, 1},
        {"FilterPipeline, `srgb_output = linear`, no ROM `weights`", 8, 1},
        {"FilterPipeline, `srgb_output = linear`, ROM `weights`", 8, 1},
        {"FilterPipeline, `srgb_output = linear`, ROM `weights`, `width = 4`", 8, 1},
        {"FilterPipeline, `srgb_output = encoded`, ROM `weights`", 9, 1},
-       {"Descriptors", 0, 1}});
+       {"Descriptors", 0, 1},
+       {"Descriptors, " + decode, 0, 1}});
 }
 
 TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
   const UnitBench b;
   expect_datasheets(b.unit, rtl::texture::datasheets(stimuli::paper_configuration()));
+}
+TEST(TextureRtlDatasheets, CoverEveryUnitWithDecoders) {
+  spec::texture::Parameters p;
+  p.decode = spec::texture::Decode::kAfter;
+  const UnitBench b(p);
+  expect_datasheets(b.unit, rtl::texture::datasheets(p));
 }
 TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetDeburr) {
   const UnitBench b(spec::texture::Parameters{});

@@ -74,6 +74,65 @@ TEST(TextureRtlDescriptors, FollowEveryRegister) {
   }
 }
 
+// A format and `srgb`, of 0..15 and 0..1, are valid in a build with decoders and in one without.
+TEST(TextureRtlDescriptors, AcceptBlocksOnlyWithDecoders) {
+  spec::texture::Build with;
+  with.decode = spec::texture::Decode::kAfter;
+  for (const bool decoders : {false, true}) {
+    ClockDomain clock("clock", period());
+    Store store(clock, "", decoders ? with : spec::texture::Build{});
+    auto read = store.descriptors.for_levels;
+    rtl::Cycle cycle = 0;
+    for (std::uint8_t format = 0; format < 16; ++format)
+      for (const bool srgb : {false, true}) {
+        spec::texture::Descriptor d = some_texture();
+        d.format = static_cast<spec::texture::Format>(format);
+        d.srgb = srgb;
+        write_descriptor(store.bus, 3, d);
+        // bc1 5, bc3 6, bc4 7, bc5 8, those of ETC2 9 to 11.
+        const bool expected =
+            format < 5 ? !srgb : decoders && format < 12 && (!srgb || (format != 7 && format != 8));
+        const rtl::texture::TextureState& t = read.read(++cycle, 3);
+        EXPECT_EQ(t.valid, expected) << +format << ' ' << srgb << ' ' << decoders;
+        if (!t.valid) continue;
+        EXPECT_EQ(t.codec, format < 5 ? 0 : format - 4);
+        EXPECT_EQ(static_cast<int>(t.format), format < 5 ? format : srgb ? 4 : 0);
+      }
+  }
+}
+
+// Addresses of texels are those that software puts their blocks at.
+TEST(TextureRtlDescriptors, AddressBlocksOfEveryLevel) {
+  spec::texture::Build build;
+  build.decode = spec::texture::Decode::kAfter;
+  ClockDomain clock("clock", period());
+  Store store(clock, "", build);
+  auto read = store.descriptors.for_levels;
+  rtl::Cycle cycle = 0;
+  for (const auto format : {spec::texture::Format::kBc1, spec::texture::Format::kBc3})
+    for (const auto layout : {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled})
+      for (const auto& [width, height] : {std::pair{64, 16}, {37, 61}, {3, 70}, {200, 5}}) {
+        spec::texture::Descriptor d = some_texture();
+        d.format = format;
+        d.layout = layout;
+        d.width = static_cast<std::uint16_t>(width);
+        d.height = static_cast<std::uint16_t>(height);
+        d.base[1] = 0x1000;
+        write_descriptor(store.bus, 3, d);
+        const rtl::texture::TextureState& t = read.read(++cycle, 3);
+        for (int k = 0; k < 3; ++k) {
+          const rtl::texture::LevelGeometry& level = t.level[static_cast<std::size_t>(k)];
+          const platform::TexelLayout offsets = platform::texel_layout(d, k);
+          for (int x = 0; x < level.width; ++x)
+            for (int y = 0; y < level.height; ++y)
+              ASSERT_EQ(level.column[static_cast<std::size_t>(x)] +
+                            level.row[static_cast<std::size_t>(y)],
+                        d.base[static_cast<std::size_t>(k)] + offsets.offset_of(x, y))
+                  << x << ' ' << y << ' ' << k;
+        }
+      }
+}
+
 TEST(TextureRtlDescriptors, AllowOneReadPerCycleAndPort) {
   ClockDomain clock("clock", period());
   Store store(clock);

@@ -8,6 +8,7 @@ namespace deburr::tb::texture_rtl::group_former_test {
 namespace {
 
 using namespace rtl::texture;
+using spec::texture::Format;
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 
@@ -82,6 +83,14 @@ spec::texture::Parameters of_width(std::int32_t width) {
   p.cache_line_banks = p.cache_fill_writes = 2;
   p.cache_bank_reads = 1;
   return p;
+}
+
+// The next `count` blocks from this one on; the texels after them are in the last one.
+TexelToken blocks(Format format, std::uint32_t first, std::uint32_t count) {
+  const std::uint32_t bytes = spec::texture::kFormatBlockBytes[static_cast<std::size_t>(format)];
+  std::array<std::uint32_t, 4> address;
+  for (std::uint32_t i = 0; i < 4; ++i) address[i] = (first + std::min(i, count - 1)) * bytes;
+  return in_blocks(format, address);
 }
 
 // Lines in different line banks have different banks of words: 0, 1, 2, 3. Sets: line mod 32.
@@ -201,6 +210,73 @@ std::vector<Limit> limits() {
        {token_of({a, b, c}, 4)},
        {2, 1},
        {{"lookups", 2}, {"partial_quad", 3}}},
+      // Blocks of lines 0 and 1 of which each has its banks; BC1 has eight in a line.
+      {"six blocks",
+       with_decoders(with(8, 2)),
+       {token_of({blocks(Format::kBc1, 0, 4), blocks(Format::kBc4, 8, 2),
+                  blocks(Format::kBc1, 0, 2), two_lines(2, 3)})},
+       {4},
+       {}},
+      {"decoders",
+       with_decoders(with(8, 2)),
+       {token_of({blocks(Format::kBc1, 0, 4), blocks(Format::kBc1, 8, 3), two_lines(2, 3)})},
+       {1, 2},
+       {{"decoders", 3}, {"starved", 2}}},
+      {"decoders, seventh of the third",
+       with_decoders(with(8, 2)),
+       {token_of(
+           {blocks(Format::kBc1, 0, 4), blocks(Format::kBc1, 8, 2), blocks(Format::kBc1, 10, 1)})},
+       {2, 1},
+       {{"decoders", 2}, {"starved", 3}}},
+      {"four decoders",
+       with_decoders(with(8, 2), 4),
+       {token_of({blocks(Format::kBc1, 0, 3), blocks(Format::kBc1, 2, 2),
+                  blocks(Format::kBc1, 0, 4), blocks(Format::kBc1, 0, 1)})},
+       {4},
+       {}},
+      {"four decoders, five blocks",
+       with_decoders(with(8, 2), 4),
+       {token_of({blocks(Format::kBc1, 0, 3), blocks(Format::kBc1, 2, 3)})},
+       {1, 1},
+       {{"decoders", 3}, {"starved", 3}}},
+      // The same bytes in another format are another block, but the same words.
+      {"formats of a block",
+       with_decoders(with(8, 1), 4),
+       {token_of({blocks(Format::kBc1, 0, 4), blocks(Format::kBc4, 0, 1)})},
+       {1, 1},
+       {{"decoders", 3}, {"starved", 3}}},
+      // Lines 0 and 4 are in line bank 0. A word of a texel, then of a block of two and of four.
+      {"banks, word of a block",
+       with_decoders(with(8, 1)),
+       {token_of({one_word(4, 1), blocks(Format::kBc1, 0, 1)})},
+       {1, 1},
+       {{"banks", 3}, {"starved", 3}}},
+      {"banks, last word of a block",
+       with_decoders(with(8, 1)),
+       {token_of({one_word(4, 3), blocks(Format::kBc3, 0, 1)})},
+       {1, 1},
+       {{"banks", 3}, {"starved", 3}}},
+      {"banks, word after a block",
+       with_decoders(with(8, 1)),
+       {token_of({one_word(4, 2), blocks(Format::kBc1, 0, 1)})},
+       {2},
+       {{"starved", 2}}},
+      {"banks before decoders",
+       with_decoders(with(8, 1), 4),
+       {token_of({blocks(Format::kBc1, 0, 4), blocks(Format::kBc1, 32, 1)})},
+       {1, 1},
+       {{"banks", 3}, {"starved", 3}}},
+      {"set before decoders",
+       with_decoders(with(8, 2), 4),
+       {token_of({in_blocks(Format::kBc1, {at(32, 0), at(32, 0), at(64, 2), at(64, 2)}),
+                  blocks(Format::kBc1, 0, 4)})},
+       {1, 1},
+       {{"set", 3}, {"starved", 3}}},
+      {"width 2, decoders",
+       with_decoders(of_width(2)),
+       {token_of({blocks(Format::kBc1, 0, 4), blocks(Format::kBc1, 4, 3)})},
+       {1, 1},
+       {{"decoders", 1}, {"starved", 1}}},
       {"width 2", of_width(2), {token_of({one_word(0, 0), one_word(1, 0)})}, {2}, {}},
       {"width 2, lookups",
        of_width(2),

@@ -116,10 +116,11 @@ inline rtl::texture::Ticket ticket(std::uint32_t tag = 0, std::uint8_t texture =
 
 // Registers and descriptors with their bus, for the blocks that read them.
 struct Store {
-  explicit Store(ClockDomain& clock, const std::string& name = "", std::int32_t width = 1)
+  explicit Store(ClockDomain& clock, const std::string& name = "",
+                 const spec::texture::Build& build = {})
       : control((name + "registers").c_str(), rtl::texture::register_table(),
                 rtl::texture::control_layout()),
-        descriptors((name + "descriptors").c_str(), control, width),
+        descriptors((name + "descriptors").c_str(), control, build),
         bus((name + "bus").c_str()) {
     bus.bus.bind(control.registers.bus);
     clock.on_reset([this] { control.reset(); });

@@ -90,6 +90,11 @@ TEST(TextureRtlUnit, LatencyWithExactFootprintMatches) {
   check_latency(p, 47);
 }
 TEST(TextureRtlUnit, LatencyOfPresetDeburrMatches) { check_latency({}, 53); }
+TEST(TextureRtlUnit, LatencyWithDecodersMatches) {
+  spec::texture::Parameters p = stimuli::paper_configuration();
+  p.decode = spec::texture::Decode::kAfter;
+  check_latency(p, 33);
+}
 TEST(TextureRtlUnit, LatencyWithSrgbEncodingMatches) {
   spec::texture::Parameters p = stimuli::paper_configuration();
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;

@@ -94,6 +94,7 @@ TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   many.cache_line_bytes = 32;
   many.width = 4;
   many.cache_lookups = spec::texture::kMostLookups;
+  large.decode = spec::texture::Decode::kAfter;
   EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
   EXPECT_EQ(Payload::of<MissToken>(miss_shape(many)).bits(), Payload::of<MissToken>().bits());
 }

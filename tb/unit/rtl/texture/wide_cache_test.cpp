@@ -371,8 +371,8 @@ class Recount {
   // The causes of stopped cycles, and the sum of all.
   void check() const {
     Slots slots = slots_of(b_.former());
-    std::uint64_t in_groups =
-        slots["lookups"] + slots["banks"] + slots["set"] + slots["partial_quad"] + slots["starved"];
+    std::uint64_t in_groups = slots["lookups"] + slots["banks"] + slots["set"] + slots["decoders"] +
+                              slots["partial_quad"] + slots["starved"];
     if (slots_.contains("starved")) in_groups -= slots_.at("starved");
     EXPECT_EQ(in_groups, groups_);
     for (const char* cause :
@@ -446,7 +446,24 @@ std::vector<Build> builds() {
       {"two, stalls", of(2, 5, 1, 2, 2, 1, 4, 8, 3), 20, 9, true},
       {"lines of 32", small_lines, 20, 0, true},
       {"lines of 128", long_lines, 20, 5, true},
+      {"decoders", with_decoders(of(4, 8, 4, 4, 2, 4, 2, 32, 48)), 20, 0, false, {"decoders"}},
+      {"four decoders, stalls",
+       with_decoders(of(4, 6, 2, 4, 1, 2, 2, 16, 24), 4),
+       20,
+       5,
+       true,
+       {"decoders", "banks", "bank_pass"}},
+      {"two, decoders", with_decoders(of(2, 4, 2, 4, 1, 2, 2, 16, 32), 5), 20, 0, true},
+      {"decoders, lines of 32", with_decoders(small_lines), 20, 0, true, {"decoders"}},
+      {"decoders, lines of 128", with_decoders(long_lines), 20, 5, true, {"decoders"}},
   };
+}
+
+// The same with the blocks that the addresses are in.
+TexelToken in_blocks_of(TexelToken t, bool large) {
+  t.control.codec = codec_of(large ? spec::texture::Format::kBc5 : spec::texture::Format::kBc4);
+  for (std::uint32_t& address : t.address) address &= large ? ~15u : ~7u;
+  return t;
 }
 
 class Random : public testing::TestWithParam<std::tuple<Build, std::uint32_t>> {};
@@ -459,7 +476,11 @@ TEST_P(Random, DataFillsAndSlotsAreExact) {
     std::vector<TexelToken> token(b.width);
     if (requests.number(4) == 0)
       token.resize(1 + requests.number(static_cast<std::uint32_t>(b.width)));
-    for (TexelToken& t : token) t = requests.next();
+    for (TexelToken& t : token) {
+      t = requests.next();
+      if (b.cache.block_decoder && requests.number(4) != 0)
+        t = in_blocks_of(t, requests.number(2) == 0);
+    }
     const unsigned partial = requests.number(2) == 0 ? 1u << (token.size() - 1) : 0u;
     if (requests.number(100) == 0) from += requests.number(60);
     b.ends.source.add(from++, token_of(token, static_cast<std::uint8_t>(partial)));

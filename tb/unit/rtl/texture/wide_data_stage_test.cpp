@@ -45,7 +45,7 @@ struct StageBench {
       : fills("fills", 32, 64, static_cast<std::uint32_t>(p.cache_fill_writes)),
         stage("stage", clock, p, fills.reader()) {
     stage.requests_in(requests);
-    stage.texels_out(texels);
+    stage.texels_out->bind(texels);
     stage.lines_used_out(lines_used);
     stage.stall_out(stall);
   }

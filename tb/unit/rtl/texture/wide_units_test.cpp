@@ -416,7 +416,9 @@ TEST(TextureRtlWide, SampleWalkerKeepsOrderAndValues) {
 
 TEST(TextureRtlWide, TexelAddresserReadsTwoDescriptors) {
   ClockDomain clock("clock", period());
-  Store store(clock, "", 4), narrow_store(clock, "narrow_");
+  spec::texture::Build build;
+  build.width = 4;
+  Store store(clock, "", build), narrow_store(clock, "narrow_");
   wide::TexelAddresser unit("unit", clock, store.descriptors.for_texels,
                             store.descriptors.for_younger_texels);
   TexelAddresser narrow("narrow", clock, narrow_store.descriptors.for_texels);
@@ -462,7 +464,7 @@ TEST(TextureRtlWide, TexelAddresserReadsTwoDescriptors) {
 
 struct AddressBench {
   AddressBench(ClockDomain& clock, const std::string& name, const spec::texture::Parameters& p)
-      : store(clock, name, p.width),
+      : store(clock, name, p),
         narrow_store(clock, name + "narrow_"),
         unit((name + "unit").c_str(), clock, p, store.control, store.descriptors, probe),
         narrow((name + "narrow").c_str(), clock, narrow_of(p), narrow_store.control,
@@ -697,12 +699,14 @@ TEST(TextureRtlWide, LinksHaveTheBitsOfTheirGroups) {
   EXPECT_EQ(bits(rtl::Payload::of<FragmentGroup<FootprintToken>>(
                 fragment_links<Wide>(p, footprint_shape(p)))),
             2 + 2 * 234u);
-  EXPECT_EQ(bits(rtl::Payload::of<TexelGroup>(request_links<Wide>(p))), 3 + 4 + 4 * 208u);
+  EXPECT_EQ(bits(rtl::Payload::of<TexelGroup>(request_links<Wide>(p, texel_shape(p)))),
+            3 + 4 + 4 * 208u);
   p.fragments = 1;
   EXPECT_EQ(
       bits(rtl::Payload::of<FragmentGroup<LevelToken>>(fragment_links<Wide>(p, axis_shape(p)))),
       187u);
-  EXPECT_EQ(bits(rtl::Payload::of<TexelGroup>(request_links<Wide>(p))), 3 + 4 * 208u);
+  EXPECT_EQ(bits(rtl::Payload::of<TexelGroup>(request_links<Wide>(p, texel_shape(p)))),
+            3 + 4 * 208u);
 }
 
 }  // namespace
