@@ -199,6 +199,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   codes(header, "SRGB_OUTPUT", texture::kSrgbOutputNames);
   codes(header, "REPLACEMENT", texture::kReplacementNames);
   codes(header, "FORMAT", texture::kFormatNames);
+  codes(header, "BC", texture::kBlockRuleNames);
   codes(header, "WRAP", texture::kWrapNames);
   codes(header, "MIN_FILTER", texture::kMinFilterNames);
   const auto choose = [&](const char* name, auto value) {
@@ -213,6 +214,7 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   choose("SPREAD", chosen.spread);
   choose("AXIS_CYCLES", chosen.axis_cycles);
   choose("SRGB_OUTPUT", chosen.srgb_output);
+  choose("BC", chosen.bc);
   choose("CACHE_BYTES", chosen.cache_bytes);
   choose("CACHE_LINE_BYTES", chosen.cache_line_bytes);
   choose("CACHE_WAYS", chosen.cache_ways);
@@ -229,6 +231,15 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   table(header, "RECIPROCAL", texture::kReciprocal);
   table(header, "SRGB_TO_LINEAR", texture::kSrgbToLinear);
   table(header, "LINEAR_TO_SRGB", texture::kLinearToSrgb);
+  // ETC2. The negative modifiers of alpha are the complements of the positive ones.
+  std::vector<std::uint32_t> modifiers, positives;
+  for (const auto& pair : texture::kEtcModifiers)
+    modifiers.insert(modifiers.end(), pair.begin(), pair.end());
+  for (const auto& row : texture::kEacModifiers)
+    positives.insert(positives.end(), row.begin() + 4, row.end());
+  table(header, "ETC_MODIFIERS", modifiers);
+  table(header, "ETC_DISTANCES", texture::kEtcDistances);
+  table(header, "EAC_POSITIVES", positives);
   // Indexed by N - 1 and sample.
   std::vector<std::uint32_t> weights;
   const auto& kernel = texture::kKernelWeights[static_cast<std::size_t>(chosen.kernel)];
