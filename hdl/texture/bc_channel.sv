@@ -45,19 +45,12 @@ module bc_channel #(
       step_3 <= wide_high - wide_low;
     end
 
-  // 2: long division by 3.
-  logic [6:0] quotient;
-  logic [1:0] rest;
-  logic [2:0] twice;
-  integer i;
-  always_comb begin
-    rest = {1'b0, step_3[7]};
-    for (i = 6; i >= 0; i = i - 1) begin
-      twice = {rest, step_3[i]};
-      quotient[i] = twice >= 3'd3;
-      rest = quotient[i] ? twice[1:0] + 2'd1 : twice[1:0];
-    end
-  end
+  // 2: division by 3.
+  wire [6:0] quotient;
+  wire [2:0] rest;
+  bc_divide #(.STEPS(7)) divide (
+    .divisor(3'd3), .rest_in({2'd0, step_3[7]}), .dividend(step_3[6:0]), .quotient, .rest);
+  wire unused = rest[2];
   wire [7:0] half = {1'b0, step_3[7:1]} + {7'd0, ROUNDED && step_3[0]};
   assign step_1 = three_1 ? half : {1'b0, quotient} + {7'd0, ROUNDED && rest[1]};
   assign step_2 = three_1 ? half : {quotient, rest[1] || (ROUNDED && rest[0])};

@@ -106,8 +106,13 @@ module etc2_decoder (
       assign offsets[9*t +: 9] = hole ? 9'h100 : none ? 9'd0 : {9{negative}} ^ {1'b0, size};
 
       wire [2:0] code = codes_1[3*t +: 3];
-      wire [7:0] product = {4'd0, positives[{code[1:0], 2'd0} +: 4]} * {4'd0, multiplier}
-                           + {4'd0, multiplier & {4{!code[2]}}};
+      wire [3:0] positive = positives[{code[1:0], 2'd0} +: 4];
+      logic [7:0] product;
+      integer i;
+      always_comb begin
+        product = {4'd0, multiplier & {4{!code[2]}}};
+        for (i = 0; i < 4; i = i + 1) product = product + ({4'd0, positive & {4{multiplier[i]}}} << i);
+      end
       assign alpha_offsets[9*t +: 9] = format_1 == `FORMAT_ETC2_RGBA8 ? {9{!code[2]}} ^ {1'b0, product} :
                                        {hole, {8{!hole}}};
     end
