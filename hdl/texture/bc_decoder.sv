@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages 1 and 2 of a BlockDecoder for BC1, BC3, BC4 and BC5 (docs/reference/texture/compressed.md, "BC"): what
-// block_decoder adds for each texel. All but the block and its format is in stage 2.
+// Stages 1 and 2 of a BlockDecoder for BC1, BC3, BC4 and BC5 (docs/reference/texture/compressed.md, "BC"). The outputs
+// are the summands of block_decoder. All ports except the block and its format are in stage 2.
 `include "tables.svh"
 module bc_decoder #(
   parameter integer BC = `CHOSEN_BC

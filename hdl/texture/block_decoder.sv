@@ -59,7 +59,7 @@ module block_decoder #(
       positions_1 <= positions;
     end
 
-  // 2: what the texels are made of.
+  // 2: summands of the texels.
   wire [7:0] of_colours;
   wire [11:0] of_values, of_seconds;
   generate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages 1 and 2 of a BlockDecoder for the three forms of ETC2 (docs/reference/texture/compressed.md, "ETC2"): what
-// block_decoder adds for each texel. All but the block and its format is in stage 2.
+// Stages 1 and 2 of a BlockDecoder for the three forms of ETC2 (docs/reference/texture/compressed.md, "ETC2"). The
+// outputs are the summands of block_decoder. All ports except the block and its format are in stage 2.
 `include "tables.svh"
 module etc2_decoder (
   input  logic        clk,
