@@ -22,6 +22,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
+#include "tb/stimuli/compressed_files.h"
 #include "tb/stimuli/weight_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
@@ -81,6 +82,19 @@ void depths(std::string_view bytes) {
     require(image.pixels.size() ==
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
             "the number of depths is not width x height");
+  });
+}
+
+// Never OpenImageIO's part, so that mutations stay with these readers.
+void compressed_textures(std::string_view bytes) {
+  if (!is_compressed_file(bytes.substr(0, kCompressedHeaderBytes))) return;
+  taken_or_rejected([&] {
+    const CompressedTexture texture = read_compressed("input", bytes);
+    for (const CompressedTexture::Level& level : texture.levels) {
+      const Image image = decoded(level, texture.format);
+      require(image.width == level.width && image.height == level.height && !image.empty(),
+              "a level has no texels");
+    }
   });
 }
 
@@ -254,6 +268,19 @@ std::vector<std::string> pictures_seeds() {
 std::vector<std::string> depths_seeds() {
   return {encode_png(small_picture(5, 3, 255)), of_hex(kDepthPng), of_hex(kExr)};
 }
+std::vector<std::string> compressed_textures_seeds() {
+  std::vector<std::string> seeds;
+  for (const auto format : {spec::texture::Format::kBc1, spec::texture::Format::kBc5,
+                            spec::texture::Format::kEtc2RgbA1, spec::texture::Format::kEtc2Rgba8}) {
+    const CompressedTexture texture = stimuli::compressed(small_picture(9, 6, 200), format, 3);
+    seeds.push_back(stimuli::ktx1_file(texture, format == spec::texture::Format::kBc1));
+    seeds.push_back(stimuli::ktx2_file(texture));
+    if (format < spec::texture::Format::kEtc2Rgb) seeds.push_back(stimuli::dds_file(texture));
+  }
+  const auto one = stimuli::compressed(small_picture(4, 4, 255), spec::texture::Format::kBc3, 1);
+  seeds.push_back(stimuli::dds_file(one, "DXT5"));
+  return seeds;
+}
 std::vector<std::string> obj_seeds() {
   return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};
 }
@@ -322,8 +349,9 @@ std::vector<std::string> weights_seeds() {
   return {stimuli::weight_file_text({}, {}), stimuli::weight_file_text({}, {"a note"})};
 }
 
-constexpr std::array<FuzzTarget, 9> kTargets{
+constexpr std::array<FuzzTarget, 10> kTargets{
     {{"pictures", pictures, pictures_seeds},
+     {"compressed_textures", compressed_textures, compressed_textures_seeds},
      {"depths", depths, depths_seeds},
      {"obj", obj, obj_seeds},
      {"gltf", gltf, gltf_seeds},
