@@ -269,17 +269,7 @@ std::vector<std::string> depths_seeds() {
   return {encode_png(small_picture(5, 3, 255)), of_hex(kDepthPng), of_hex(kExr)};
 }
 std::vector<std::string> compressed_textures_seeds() {
-  std::vector<std::string> seeds;
-  for (const auto format : {spec::texture::Format::kBc1, spec::texture::Format::kBc5,
-                            spec::texture::Format::kEtc2RgbA1, spec::texture::Format::kEtc2Rgba8}) {
-    const CompressedTexture texture = stimuli::compressed(small_picture(9, 6, 200), format, 3);
-    seeds.push_back(stimuli::ktx1_file(texture, format == spec::texture::Format::kBc1));
-    seeds.push_back(stimuli::ktx2_file(texture));
-    if (format < spec::texture::Format::kEtc2Rgb) seeds.push_back(stimuli::dds_file(texture));
-  }
-  const auto one = stimuli::compressed(small_picture(4, 4, 255), spec::texture::Format::kBc3, 1);
-  seeds.push_back(stimuli::dds_file(one, "DXT5"));
-  return seeds;
+  return stimuli::small_compressed_files(small_picture(9, 6, 200));
 }
 std::vector<std::string> obj_seeds() {
   return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};

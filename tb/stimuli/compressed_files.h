@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tb/scene/block_encoder.h"
 #include "tb/scene/compressed_file.h"
@@ -106,6 +108,20 @@ inline std::string ktx2_file(const CompressedTexture& texture) {
   std::for_each(texture.levels.rbegin(), texture.levels.rend(),
                 [&](const auto& level) { file.blocks(level); });
   return file.bytes();
+}
+
+// A file of each kind and size of blocks.
+inline std::vector<std::string> small_compressed_files(const Image& image) {
+  using spec::texture::Format;
+  std::vector<std::string> files;
+  for (const Format format : {Format::kBc1, Format::kBc5, Format::kEtc2RgbA1, Format::kEtc2Rgba8}) {
+    const CompressedTexture texture = compressed(image, format, 3);
+    files.push_back(ktx1_file(texture, format == Format::kBc1));
+    files.push_back(ktx2_file(texture));
+    if (format < Format::kEtc2Rgb) files.push_back(dds_file(texture));
+  }
+  files.push_back(dds_file(compressed(image, Format::kBc3, 1), "DXT5"));
+  return files;
 }
 
 }  // namespace deburr::tb::stimuli
