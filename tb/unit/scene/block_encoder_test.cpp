@@ -110,12 +110,12 @@ TEST(BlockEncoder, TwoColoursHaveNoLoss) {
 
 TEST(BlockEncoder, TexelsBelowHalfAlphaBecomeHoles) {
   Random random(1, "holes");
-  for (int i = 0; i < 300; ++i) {
+  for (std::uint32_t i = 0; i < 300; ++i) {
     Image image(4, 4);
     for (Rgba8& texel : image.pixels) {
       texel = {static_cast<std::uint8_t>(100 + random.below(8)), 60,
                static_cast<std::uint8_t>(40 + random.below(8)),
-               static_cast<std::uint8_t>(random.chance(3 * i) ? 127 : 128)};
+               static_cast<std::uint8_t>(random.chance(3u * i) ? 127 : 128)};
     }
     for (const Format format : {Format::kBc1, Format::kEtc2RgbA1}) {
       const Image back = through_blocks(image, format);

@@ -49,7 +49,7 @@ TEST(CompressedFile, LevelsAreReadAsWritten) {
                               Format::kEtc2Rgb, Format::kEtc2RgbA1, Format::kEtc2Rgba8})
     for (const bool srgb : {false, true}) {
       if (srgb && !spec::texture::may_be_srgb(format)) continue;
-      for (const int levels : {1, 3, 5}) {
+      for (const std::size_t levels : {1u, 3u, 5u}) {
         CompressedTexture texture = stimuli::compressed(image, format, levels);
         texture.srgb = srgb;
         std::vector<std::string> files = {ktx1_file(texture), ktx1_file(texture, true),
