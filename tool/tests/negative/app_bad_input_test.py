@@ -58,12 +58,14 @@ class TextureFiles(CommandTest):
 
     def test_reads_blocks_of_dds(self):
         whole = bc1_dds(13, 7)
-        for engine, *arguments in (
-                ("texture", "--texture"), ("frame", "--scene", "quad", "--size", "16x16", "--texture"),
-                ("geometric", "--scene", "quad", "--size", "16x16", "--set"), ("morphological", "--in")):
-            file = self.write("brick.dds", whole)
-            option = "scene.texture=" + file if arguments[-1] == "--set" else file
-            self.expect(0, "run", engine, *arguments, option, "--out", self.path("out"), says="PASS")
+        file = self.write("brick.dds", whole)
+        self.write("brick.mtl", "newmtl a\nmap_Kd brick.dds\n")
+        mesh = self.write("brick.obj", "mtllib brick.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                          "vt 0 1\nf 1/1 2/2 3/3\n")
+        for engine, *arguments in (("texture", "--texture", file), ("frame", "--scene", "quad", "--texture", file),
+                                   ("geometric", "--in", mesh), ("morphological", "--in", file)):
+            size = [] if engine == "morphological" else ["--size", "16x16"]
+            self.expect(0, "run", engine, *size, *arguments, "--out", self.path("out"), says="PASS")
         self.texture(5, "cut.dds", whole[:-1], says=["cut.dds", "level 2 of 3 x 1 texels needs 8 bytes", "copy it"])
         self.texture(5, "cube.dds", bc1_dds(8, 8, caps2=0xFE00), says=["cube.dds", "cube map; write one of its faces"])
         self.expect(5, "run", "morphological", "--in", self.write("cut.dds", whole[:-1]), "--out", self.path("out"),
