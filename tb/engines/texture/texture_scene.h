@@ -88,7 +88,7 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.choice("wrap", p.wrap, kWrapChoiceNames,
            "Wrap mode of both axes; scene: as the mesh specifies.");
   v.choice("format", p.format, spec::texture::kFormatNames,
-           "Texel format in memory; bc and etc2 need texture.decode = after.");
+           "Texel format in memory; bc and etc2 need texture.decode.");
   v.boolean("srgb", p.srgb, "The blocks hold sRGB codes; only bc1, bc3 and etc2.");
   v.choice("layout", p.layout, spec::texture::kLayoutNames, "Order of the texels in memory.");
   v.integer("levels", p.levels, 1, spec::texture::kMaxLevels, "level",
