@@ -204,10 +204,10 @@ class TextureUnit {
       values["width"] = d.width;
       values["height"] = d.height;
       values["levels"] = d.levels;
-      values["texel_bytes"] =
-          static_cast<std::size_t>(d.format) < spec::texture::kFormatBytes.size()
-              ? spec::texture::kFormatBytes[static_cast<std::size_t>(d.format)]
-              : 0;
+      const auto format = static_cast<std::size_t>(d.format);
+      const bool known = format < spec::texture::kFormatBytes.size();
+      values["texel_bytes"] = known ? spec::texture::kFormatBytes[format] : 0;
+      values["block_bytes"] = known ? spec::texture::kFormatBlockBytes[format] : 0;
       py::list bases;
       for (const std::uint32_t base : d.base) bases.append(base);
       values["bases"] = py::tuple(bases);

@@ -63,8 +63,9 @@ class TextureUnit:
 
     def load(self, levels: Array | list[Array], texture: int = 0, **fields: typing.Any) -> None:
         """Stores a texture after the existing ones: its mip levels, the largest first, each uint8 of (height, width,
-        4), or of (height, width, bytes of a texel) in the format given by `format`. Fields are those of the
-        descriptor's registers; width, height, levels and max_lod follow from the arrays unless given."""
+        4), or of (height, width, bytes of a texel) in the format given by `format`; in a compressed format of (rows,
+        columns, bytes) of blocks of 4 x 4 texels. Fields are those of the descriptor's registers; width, height, levels
+        and max_lod follow from the arrays unless given."""
         for level in levels if isinstance(levels, (list, tuple)) else [levels]:
             if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
                 raise ValueError("levels: expected uint8 of (height, width, bytes of a texel), got "
@@ -87,12 +88,17 @@ class TextureUnit:
 
     def _describe(self, texture, levels, fields):
         """Sets the descriptor of a texture stored after the others; returns the address after it."""
-        height, width = levels[0].shape[:2]
-        self._unit.set_fields(texture, {"width": width, "height": height, "levels": len(levels),
+        self._unit.set_fields(texture, fields)
+        block = self._unit.describe(texture)["block_bytes"]
+        side = 4 if block else 1
+        rows, columns = levels[0].shape[:2]
+        self._unit.set_fields(texture, {"width": side * columns, "height": side * rows, "levels": len(levels),
                                         "max_lod": 256 * (len(levels) - 1), **fields})
-        size = self._unit.describe(texture)["texel_bytes"]
+        stored = self._unit.describe(texture)
+        size = block or stored["texel_bytes"]
         for number, level in enumerate(levels):
-            wanted = (max(1, height >> number), max(1, width >> number), size)
+            wanted = (-(-max(1, stored["height"] >> number) // side), -(-max(1, stored["width"] >> number) // side),
+                      size)
             if level.shape != wanted:
                 raise ValueError(f"level {number}: expected uint8 of {wanted}, got {described(level)}")
         return self._unit.place(texture, self._end)

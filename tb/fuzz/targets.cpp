@@ -22,6 +22,7 @@
 #include "tb/scene/image_io.h"
 #include "tb/scene/mesh.h"
 #include "tb/scene/png.h"
+#include "tb/stimuli/compressed_files.h"
 #include "tb/stimuli/weight_file.h"
 #include "tb/traces/fragment_reader.h"
 #include "tb/traces/fragment_writer.h"
@@ -81,6 +82,19 @@ void depths(std::string_view bytes) {
     require(image.pixels.size() ==
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
             "the number of depths is not width x height");
+  });
+}
+
+// Never OpenImageIO's part, so that mutations stay with these readers.
+void compressed_textures(std::string_view bytes) {
+  if (!is_compressed_file(bytes.substr(0, kCompressedHeaderBytes))) return;
+  taken_or_rejected([&] {
+    const CompressedTexture texture = read_compressed("input", bytes);
+    for (const CompressedTexture::Level& level : texture.levels) {
+      const Image image = decoded(level, texture.format);
+      require(image.width == level.width && image.height == level.height && !image.empty(),
+              "a level has no texels");
+    }
   });
 }
 
@@ -254,6 +268,9 @@ std::vector<std::string> pictures_seeds() {
 std::vector<std::string> depths_seeds() {
   return {encode_png(small_picture(5, 3, 255)), of_hex(kDepthPng), of_hex(kExr)};
 }
+std::vector<std::string> compressed_textures_seeds() {
+  return stimuli::small_compressed_files(small_picture(9, 6, 200));
+}
 std::vector<std::string> obj_seeds() {
   return {made_of(kObj), made_of(kPolygons), made_of(kMaterials)};
 }
@@ -322,8 +339,9 @@ std::vector<std::string> weights_seeds() {
   return {stimuli::weight_file_text({}, {}), stimuli::weight_file_text({}, {"a note"})};
 }
 
-constexpr std::array<FuzzTarget, 9> kTargets{
+constexpr std::array<FuzzTarget, 10> kTargets{
     {{"pictures", pictures, pictures_seeds},
+     {"compressed_textures", compressed_textures, compressed_textures_seeds},
      {"depths", depths, depths_seeds},
      {"obj", obj, obj_seeds},
      {"gltf", gltf, gltf_seeds},

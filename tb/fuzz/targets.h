@@ -18,7 +18,8 @@ struct FuzzTarget {
   std::vector<std::string> (*seeds)();  // small accepted inputs, the starting point of mutations
 };
 
-// pictures, depths, obj, gltf, traces, configurations, run_files, weights, c_calls
+// pictures, compressed_textures, depths, obj, gltf, traces, configurations, run_files, weights,
+// c_calls
 std::span<const FuzzTarget> fuzz_targets();
 // Throws for an unknown name.
 const FuzzTarget& fuzz_target(std::string_view name);

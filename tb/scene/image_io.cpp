@@ -20,6 +20,7 @@
 #include "spec/depth_check.h"
 #include "spec/error.h"
 #include "tb/base/atomic_file.h"
+#include "tb/base/file.h"
 #include "tb/scene/image_codec.h"
 #include "tb/scene/png.h"
 #include "tb/scene/textures.h"
@@ -58,7 +59,7 @@ class SilentLibraries {
   throw spec::FileError(fmt::format("cannot read the image '{}': {}", name, reason));
 }
 
-DecoderPointer open_file(const fs::path& path) {
+void check_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail_read(path.string(), "no such file; check the path");
@@ -68,6 +69,10 @@ DecoderPointer open_file(const fs::path& path) {
   if (error) fail_read(path.string(), error.message());
   if (size == 0) fail_read(path.string(), "the file is empty (0 bytes); make it again");
   if (!std::ifstream(path)) fail_read(path.string(), "permission denied");
+}
+
+DecoderPointer open_file(const fs::path& path) {
+  check_file(path);
   ImageCodec::Source source = image_codec().open_file(path.string());
   if (!source.decoder) {
     fail_read(path.string(), fmt::format("OpenImageIO cannot read it: unsupported format or "
@@ -437,6 +442,25 @@ Image decode_memory(const std::string& name, const std::string& extension, std::
   return decode(name, *source.decoder, report);
 }
 
+// The largest compressed texture, with some room for a header.
+constexpr std::size_t kMostCompressedBytes =
+    std::size_t{kMaxImageSide} * kMaxImageSide * 3 / 2 + (1 << 20);
+
+std::string head_of(const fs::path& path) {
+  std::string head(kCompressedHeaderBytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return head;
+}
+
+Image decode_compressed(const std::string& name, std::string_view bytes, ReadReport* report) {
+  auto texture = std::make_shared<const CompressedTexture>(read_compressed(name, bytes));
+  Image image = decoded(texture->levels[0], texture->format);
+  if (report != nullptr) *report = {4, kBytes, {}, std::move(texture)};
+  return image;
+}
+
 [[noreturn]] void fail_write(const fs::path& path, const std::string& reason) {
   throw spec::FileError(fmt::format("cannot write the image '{}': {}", path.string(), reason));
 }
@@ -470,6 +494,9 @@ void check_not_empty(const fs::path& path, int width, int height) {
 }  // namespace
 
 Image read_image(const fs::path& path, ReadReport* report) {
+  check_file(path);
+  if (is_compressed_file(head_of(path)))
+    return decode_compressed(path.string(), read_file(path, kMostCompressedBytes), report);
   const SilentLibraries silent;
   const DecoderPointer decoder = open_checked(path);
   return decode(path.string(), *decoder, report);
@@ -478,6 +505,8 @@ Image read_image(const fs::path& path, ReadReport* report) {
 Image read_image_memory(const std::string& name, std::string_view bytes, ReadReport* report) {
   const SilentLibraries silent;
   if (bytes.empty()) fail_read(name, "the image is empty (0 bytes)");
+  if (is_compressed_file(bytes.substr(0, kCompressedHeaderBytes)))
+    return decode_compressed(name, bytes, report);
   const std::string extension = extension_of(bytes);
   if (extension.empty())  // OpenImageIO would try every reader
     fail_read(name, "unknown format of an embedded image; use PNG or JPEG");

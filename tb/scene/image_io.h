@@ -5,10 +5,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tb/scene/compressed_file.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -21,9 +23,11 @@ struct ReadReport {
   int channels = 0;
   std::string format;  // pixel type of the file: "uint8", "uint16", "half", "float"
   std::vector<std::string> conversions;
+  std::shared_ptr<const CompressedTexture> compressed = nullptr;  // of a file of blocks
 };
 
-// Reads any format that OpenImageIO knows, as RGBA8 with alpha not premultiplied.
+// Reads any format that OpenImageIO knows, and the compressed textures of compressed_file.h (level
+// 0, decoded), as RGBA8 with alpha not premultiplied.
 //   premultiplied colours      divided by alpha before the conversions below; unchanged where
 //                              alpha is 0
 //   16-bit and other integers  v * 255 / max, rounded half up

@@ -472,6 +472,7 @@ class GltfImporter final : public Importer {
     ReadReport report;
     ours.image = read_image_memory(fmt::format("{}: {}", path().string(), shown_name(ours.name)),
                                    encoded->second, &report);
+    ours.compressed = report.compressed;
     for (const std::string& conversion : report.conversions)
       builder_.note(fmt::format("'{}': {}", shown_name(ours.name), conversion));
     return textures_[key] = builder_.add_texture(std::move(ours));

@@ -337,6 +337,7 @@ int MeshBuilder::texture_from_file(const fs::path& file, spec::texture::Wrap wra
   try {
     ReadReport report;
     texture.image = read_image(file, &report);
+    texture.compressed = report.compressed;
     for (const std::string& conversion : report.conversions)
       note(fmt::format("'{}': {}", texture.name, conversion));
   } catch (const spec::FileError& error) {

@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "spec/texture/descriptor.h"
+#include "tb/scene/compressed_file.h"
 #include "tb/scene/image.h"
 
 namespace deburr::tb {
@@ -23,6 +25,7 @@ struct Texture {
   std::string name = {};
   Image image = {};  // level 0; mip_chain() makes the other levels
   spec::texture::Wrap wrap_s = spec::texture::Wrap::kRepeat, wrap_t = spec::texture::Wrap::kRepeat;
+  std::shared_ptr<const CompressedTexture> compressed = nullptr;  // if read from a file of blocks
 };
 
 struct Material {

@@ -116,6 +116,7 @@ Texture choose_texture(const std::string& wanted, std::string_view otherwise,
   add_once(mesh.files, texture.name);
   ReadReport report;
   texture.image = read_image(texture.name, &report);
+  texture.compressed = report.compressed;
   for (const std::string& conversion : report.conversions)
     mesh.notes.push_back(fmt::format("'{}': {}", texture.name, conversion));
   if (texture.image.width > spec::texture::kMaxTextureSize ||

@@ -50,7 +50,7 @@ std::string configuration(const CounterpartUnit& unit,
 
 const TextureCounterpart* find(const CounterpartUnit& unit,
                                const spec::texture::Parameters& as_built) {
-  if (as_built.width > 1) return nullptr;
+  if (as_built.width > 1 || as_built.decode != spec::texture::Decode::kNone) return nullptr;
   const std::string wanted = configuration(unit, as_built);
   for (const TextureCounterpart& counterpart : counterparts())
     if (counterpart.unit == unit.name && configuration(unit, counterpart.parameters) == wanted)
@@ -112,6 +112,10 @@ StandIns texture_counterparts(const std::vector<std::string>& units,
         fmt::format("run.hdl: the units in SystemVerilog are those of texture.width = 1, and "
                     "texture.width is {}: set it to 1, or leave out run.hdl (--hdl)",
                     as_built.width));
+  if (!units.empty() && as_built.decode != spec::texture::Decode::kNone)
+    throw spec::ConfigError(
+        "run.hdl: a unit that decodes blocks does not run as SystemVerilog: set texture.decode = "
+        "none, or leave out run.hdl (--hdl)");
   std::vector<const TextureCounterpart*> chosen;
   for (const std::string& name : units) {
     const CounterpartUnit& unit = unit_named(name);

@@ -15,10 +15,15 @@ void TextureMeter::collect(Result& result) const {
 
   const std::uint64_t bilinears = unit_.address.addresser.bilinears.value();
   const std::uint64_t fragments = unit_.filter.fragments.value();
-  double texel_bytes = 4;
-  if (!textures_.descriptors().empty())
-    texel_bytes =
-        spec::texture::kFormatBytes[static_cast<std::size_t>(textures_.descriptors()[0].format)];
+  double texel_bytes = 4;  // also of blocks that are decoded before the cache
+  if (!textures_.descriptors().empty()) {
+    const spec::texture::Format format = textures_.descriptors()[0].format;
+    const auto index = static_cast<std::size_t>(format);
+    if (!spec::texture::is_compressed(format))
+      texel_bytes = spec::texture::kFormatBytes[index];
+    else if (unit_.parameters().decode == spec::texture::Decode::kAfter)
+      texel_bytes = spec::texture::kFormatBlockBytes[index] / 16.0;
+  }
   add(result, "fragments", fragments, "fragment", "Colours delivered.");
   add(result, "bilinears", bilinears, "request", "Bilinear requests, one per sample and level.");
   add(result, "bilinears_per_fragment", ratio(bilinears, fragments), "request/fragment",

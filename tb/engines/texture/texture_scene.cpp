@@ -8,6 +8,8 @@
 
 #include "spec/error.h"
 #include "tb/engines/texture/texture_levels.h"
+#include "tb/scene/block_encoder.h"
+#include "tb/scene/compressed_file.h"
 #include "tb/scene/textures.h"
 
 namespace deburr::tb {
@@ -44,6 +46,13 @@ Scene load(const SceneParameters& p, WrapChoice wrap, std::uint32_t seed, const 
   look(scene, p);
   scene.camera = moved(scene.camera, move.motion, move.frame);
   return scene;
+}
+
+std::vector<Image> chain_of(const Image& image, const SamplerParameters& sampler) {
+  std::vector<Image> levels =
+      mip_chain(image, is_srgb(sampler) ? MipSpace::kSrgb : MipSpace::kStored);
+  levels.resize(std::min(levels.size(), static_cast<std::size_t>(sampler.levels)));
+  return levels;
 }
 
 }  // namespace
@@ -107,17 +116,14 @@ SceneParameters in_frame(SceneParameters scene, const FrameLists& lists, int fra
 }
 
 void TextureScene::lay_out(const SamplerParameters& sampler) {
-  const MipSpace space =
-      sampler.format == spec::texture::Format::kSrgb8A8 ? MipSpace::kSrgb : MipSpace::kStored;
   for (const Texture& texture : scene_.mesh.textures) {
     if (std::max(texture.image.width, texture.image.height) > spec::texture::kMaxTextureSize)
       throw spec::ConfigError(fmt::format(
           "texture '{}' has {} x {} texels, the unit takes at most {} each way: scale it down",
           texture.name, texture.image.width, texture.image.height, spec::texture::kMaxTextureSize));
-    std::vector<Image> levels = mip_chain(texture.image, space);
-    levels.resize(std::min(levels.size(), static_cast<std::size_t>(sampler.levels)));
     spec::texture::Descriptor d;
     d.format = sampler.format;
+    d.srgb = sampler.srgb;
     d.layout = sampler.layout;
     d.wrap_s = texture.wrap_s;
     d.wrap_t = texture.wrap_t;
@@ -127,8 +133,32 @@ void TextureScene::lay_out(const SamplerParameters& sampler) {
     d.lod_bias = static_cast<std::int16_t>(sampler.lod_bias);
     d.min_lod = static_cast<std::uint16_t>(sampler.min_lod);
     d.max_lod = static_cast<std::uint16_t>(sampler.max_lod);
-    memory_.add(levels_of(levels), d);
+    if (spec::texture::is_compressed(d.format))
+      add_blocks(texture, sampler, d);
+    else
+      memory_.add(levels_of(chain_of(texture.image, sampler)), d);
   }
+}
+
+void TextureScene::add_blocks(const Texture& texture, const SamplerParameters& sampler,
+                              const spec::texture::Descriptor& d) {
+  const auto name = spec::texture::kFormatNames[static_cast<std::size_t>(d.format)];
+  if (texture.compressed && texture.compressed->format == d.format) {
+    std::vector<CompressedTexture::Level> levels = texture.compressed->levels;
+    levels.resize(std::min(levels.size(), static_cast<std::size_t>(sampler.levels)));
+    memory_.add(levels_of(levels), d);
+    scene_.mesh.notes.push_back(fmt::format("texture '{}': {} blocks and {} {} of the file",
+                                            texture.name, name, levels.size(),
+                                            levels.size() == 1 ? "level" : "levels"));
+    return;
+  }
+  std::vector<CompressedTexture::Level> levels;
+  for (const Image& level : chain_of(texture.image, sampler))
+    levels.push_back({level.width, level.height, encode_blocks(level, d.format)});
+  memory_.add(levels_of(levels), d);
+  scene_.mesh.notes.push_back(
+      fmt::format("texture '{}' as {}: {:.1f} dB", texture.name, name,
+                  block_psnr(texture.image, decoded(levels[0], d.format), d.format)));
 }
 
 TextureGolden make_golden(const TextureScene& scene, const spec::texture::Parameters& parameters,

@@ -70,6 +70,7 @@ struct SamplerParameters {
   std::uint8_t anisotropy = 4;  // index into kAnisotropyNames: log2 of N_max
   WrapChoice wrap = WrapChoice::kScene;
   spec::texture::Format format = spec::texture::Format::kRgba8;
+  bool srgb = false;
   spec::texture::Layout layout = spec::texture::Layout::kTiled;
   std::int32_t levels = spec::texture::kMaxLevels;
   std::int32_t lod_bias = 0;
@@ -86,13 +87,20 @@ void describe(SamplerParameters& p, Visitor& v) {
   v.choice("anisotropy", p.anisotropy, kAnisotropyNames, "Largest number of samples, N_max.");
   v.choice("wrap", p.wrap, kWrapChoiceNames,
            "Wrap mode of both axes; scene: as the mesh specifies.");
-  v.choice("format", p.format, spec::texture::kFormatNames, "Texel format in memory.");
+  v.choice("format", p.format, spec::texture::kFormatNames,
+           "Texel format in memory; bc and etc2 need texture.decode.");
+  v.boolean("srgb", p.srgb, "The blocks hold sRGB codes; only bc1, bc3 and etc2.");
   v.choice("layout", p.layout, spec::texture::kLayoutNames, "Order of the texels in memory.");
   v.integer("levels", p.levels, 1, spec::texture::kMaxLevels, "level",
             "Number of mip levels, limited by the size of the texture.");
   v.integer("lod_bias", p.lod_bias, -32768, 32767, "1/256 level", "Added to the level of detail.");
   v.integer("min_lod", p.min_lod, 0, 65535, "1/256 level", "Lower limit of the level of detail.");
   v.integer("max_lod", p.max_lod, 0, 65535, "1/256 level", "Upper limit of the level of detail.");
+}
+
+// Whether the unit decodes R, G and B to linear light.
+inline bool is_srgb(const SamplerParameters& sampler) {
+  return sampler.format == spec::texture::Format::kSrgb8A8 || sampler.srgb;
 }
 
 // Adds the parameters "sampler.*"; `trilinear` is an alias of linear_mipmap_linear.
@@ -119,6 +127,9 @@ class TextureScene final : public DrawnScene {
   TextureScene(const SceneParameters& scene, const SamplerParameters& sampler, std::uint32_t seed,
                const CameraMove& move, Fragments fragments);
   void lay_out(const SamplerParameters& sampler);
+  // Notes in the mesh where the blocks come from.
+  void add_blocks(const Texture& texture, const SamplerParameters& sampler,
+                  const spec::texture::Descriptor& descriptor);
 
   Scene scene_;
   FragmentStream stream_;

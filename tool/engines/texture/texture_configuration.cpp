@@ -56,6 +56,21 @@ void reject_empty_lod_range(const tb::SamplerParameters& sampler) {
         sampler.min_lod, sampler.max_lod));
 }
 
+void reject_unsupported_format(const tb::SamplerParameters& sampler,
+                               const spec::texture::Parameters& texture) {
+  const auto format = spec::texture::kFormatNames[static_cast<std::size_t>(sampler.format)];
+  if (spec::texture::is_compressed(sampler.format) &&
+      texture.decode == spec::texture::Decode::kNone)
+    throw spec::ConfigError(
+        fmt::format("sampler.format = {}: the unit has no decoder of blocks: set texture.decode = "
+                    "after",
+                    format));
+  if (sampler.srgb && !spec::texture::may_be_srgb(sampler.format))
+    throw spec::ConfigError(fmt::format(
+        "sampler.srgb: {} holds no sRGB codes: leave it out, or set sampler.format = {}", format,
+        spec::texture::is_compressed(sampler.format) ? "bc1, bc3 or etc2_rgb" : "srgb8_a8"));
+}
+
 void reject_unused_lookups(const tb::ParameterSet& set) {
   if (set.find("run.line_trace")->text() == "none")
     set.reject("run.line_trace_lookups", "it needs run.line_trace (--line-trace text)");

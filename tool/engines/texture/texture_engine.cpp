@@ -60,7 +60,9 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
           preset_help(spec::texture::kPresetNames, spec::texture::Configuration().preset)},
          {"--roll", "scene.roll", "Degrees by which the camera is turned"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
-         {"--format", "sampler.format", "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8"},
+         {"--format", "sampler.format",
+          "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8; with --set texture.decode=after: bc1, "
+          "bc3, bc4, bc5, etc2_rgb, etc2_rgb_a1, etc2_rgba8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
          {"--fragments", "scene.fragments",
           "Fragments of another rasteriser: a trace, text or binary (docs/reference/traces.md)"},
@@ -77,6 +79,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
+    reject_unsupported_format(sampler_, texture_);
     reject_unused_lookups(set);
     counterpart_units_ = tb::counterpart_units(counterparts_.units);
     if (!counterpart_units_.empty()) {
@@ -209,8 +212,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
   tb::RenderOptions reference_options() const {
     tb::RenderOptions options;
     options.sampling = tb::Sampling::kBilinear;
-    options.averaging = sampler_.format == spec::texture::Format::kSrgb8A8 ? tb::Averaging::kLinear
-                                                                           : tb::Averaging::kStored;
+    options.averaging = is_srgb(sampler_) ? tb::Averaging::kLinear : tb::Averaging::kStored;
     return options;
   }
 
@@ -224,7 +226,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
       return names[static_cast<std::size_t>(value)];
     };
     return fmt::format(
-        "{}{} fragments, {}, N_max {}, {} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
+        "{}{} fragments, {}, N_max {}, {}{} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
         "kernel {}, blend {}; width {}, cache {} bytes, {} ways; memory latency {} clk{}{}",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
@@ -232,7 +234,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
         name(sampler_.mode, spec::texture::kMinFilterNames),
         name(sampler_.anisotropy, tb::kAnisotropyNames),
-        name(sampler_.format, spec::texture::kFormatNames),
+        name(sampler_.format, spec::texture::kFormatNames), sampler_.srgb ? " sRGB" : "",
         name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
         name(texture_.axes, spec::texture::kAxesNames),
         name(texture_.footprint, spec::texture::kFootprintNames),
@@ -246,8 +248,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
   }
 
   bool linear_light() const {
-    return sampler_.format == spec::texture::Format::kSrgb8A8 &&
-           texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
+    return is_srgb(sampler_) && texture_.srgb_output == spec::texture::SrgbOutput::kLinear;
   }
 
   // Pictures are stored as sRGB, whatever the unit outputs for sRGB textures.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tool/engines/texture/texture_role.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "spec/error.h"
@@ -124,11 +126,12 @@ class TextureRole final : public PictureDrawer {
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
-    if (sampler_.format == spec::texture::Format::kSrgb8A8 &&
-        texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
+    reject_unsupported_format(sampler_, texture_);
+    if (is_srgb(sampler_) && texture_.srgb_output == spec::texture::SrgbOutput::kLinear)
       throw spec::ConfigError(
-          "sampler.format: the frame buffer keeps codes, and srgb8_a8 delivers linear light: set "
-          "texture.srgb_output = encoded");
+          fmt::format("sampler.{}: the frame buffer keeps codes, and {} delivers linear light: set "
+                      "texture.srgb_output = encoded",
+                      sampler_.srgb ? "srgb" : "format", sampler_.srgb ? "it" : "srgb8_a8"));
   }
   std::vector<Shorthand> shorthands() const override {
     return joined(scene_shorthands("object"), sequence_shorthands());

@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from app_support import DEBURR, CommandTest, engines, float_tiff, pages_tiff, png
+from app_support import DEBURR, CommandTest, bc1_dds, engines, float_tiff, pages_tiff, png
 
 
 class TextureFiles(CommandTest):
@@ -55,6 +55,21 @@ class TextureFiles(CommandTest):
         whole = pages_tiff(64, 64, 1)
         for part in (0.3, 0.6, 0.99):
             self.texture(5, "truncated.tif", whole[:int(part * len(whole))], says="truncated.tif")
+
+    def test_reads_blocks_of_dds(self):
+        whole = bc1_dds(13, 7)
+        file = self.write("brick.dds", whole)
+        self.write("brick.mtl", "newmtl a\nmap_Kd brick.dds\n")
+        mesh = self.write("brick.obj", "mtllib brick.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n"
+                          "vt 0 1\nf 1/1 2/2 3/3\n")
+        for engine, *arguments in (("texture", "--texture", file), ("frame", "--scene", "quad", "--texture", file),
+                                   ("geometric", "--in", mesh), ("morphological", "--in", file)):
+            size = [] if engine == "morphological" else ["--size", "16x16"]
+            self.expect(0, "run", engine, *size, *arguments, "--out", self.path("out"), says="PASS")
+        self.texture(5, "cut.dds", whole[:-1], says=["cut.dds", "level 2 of 3 x 1 texels needs 8 bytes", "copy it"])
+        self.texture(5, "cube.dds", bc1_dds(8, 8, caps2=0xFE00), says=["cube.dds", "cube map; write one of its faces"])
+        self.expect(5, "run", "morphological", "--in", self.write("cut.dds", whole[:-1]), "--out", self.path("out"),
+                    says="cut.dds")
 
     def test_accepts_16_bit_image(self):
         self.texture(0, "deep.png", png(16, 16, bits=16), says="PASS")
@@ -122,6 +137,31 @@ class MeshFiles(CommandTest):
 
     def test_unknown_scene_suggests_similar_name(self):
         self.run_texture(2, "--scene", "plain", says="plane")
+
+
+class CompressedFormats(CommandTest):
+    """Formats of blocks."""
+
+    DECODE = ("--set", "texture.decode=after")
+
+    def test_rejects_blocks_without_decoder(self):
+        self.run_texture(2, "--format", "bc1", says=["sampler.format = bc1", "set texture.decode = after"])
+        self.expect(2, "run", "frame", "--set", "sampler.format=etc2_rgb", "--out", self.path("out"),
+                    says="set texture.decode = after")
+
+    def test_rejects_srgb_of_other_formats(self):
+        self.run_texture(2, "--set", "sampler.srgb=true", says=["sampler.srgb: rgba8", "srgb8_a8"])
+        self.run_texture(2, *self.DECODE, "--format", "bc4", "--set", "sampler.srgb=true", says="sampler.srgb: bc4")
+
+    def test_frame_keeps_codes(self):
+        self.expect(2, "run", "frame", *self.DECODE, "--set", "sampler.format=bc1", "--set", "sampler.srgb=true",
+                    "--out", self.path("out"), says=["sampler.srgb", "texture.srgb_output = encoded"])
+
+    def test_notes_origin_of_blocks(self):
+        file = self.write("brick.dds", bc1_dds(16, 16))
+        for name, noted in ((file, "bc1 blocks and 3 levels of the file"), ("brick", "texture 'brick' as bc1: ")):
+            self.run_texture(0, *self.DECODE, "--format", "bc1", "--texture", name, says=["PASS", noted])
+            self.assertIn(noted, str(self.notes()))
 
 
 class Notes(CommandTest):

@@ -31,6 +31,16 @@ def png(width, height, bits=8, channels=3, declared=None):
             + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
+def bc1_dds(width, height, levels=3, caps2=0):
+    """A DDS of grey blocks."""
+    head = (124, 0xA1007, height, width, 0, 0, levels, *([0] * 11), 32, 4)
+    data = b"DDS " + struct.pack("<20I", *head) + b"DXT1" + struct.pack("<10I", *([0] * 5), 0x401008, caps2, 0, 0, 0)
+    for level in range(levels):
+        across, down = (max(1, side >> level) + 3 >> 2 for side in (width, height))
+        data += struct.pack("<HHI", 0x8410, 0x4208, 0x12345678) * (across * down)
+    return data
+
+
 def float_tiff(width, height, value=0.5, channels=3):
     """A little-endian TIFF of 1 or 3 channels of 32-bit floats: one value everywhere, or these values."""
     values = value if isinstance(value, list) else [value] * (channels * width * height)

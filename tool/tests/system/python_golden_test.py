@@ -386,6 +386,19 @@ class Texture(unittest.TestCase):
         self.assertTrue((self.unit.filter(quads)["rgba"] == 0).all())
         self.assertIsNotNone(self.unit.describe(5)["fault"])
 
+    def test_textures_of_blocks(self):
+        white = numpy.array([[[255, 255, 0, 0, 0, 0, 0, 0]]], dtype=numpy.uint8)
+        levels = [numpy.tile(white, (2, 3, 1)), numpy.tile(white, (1, 2, 1))]
+        unit = golden.TextureUnit(decode="after")
+        unit.load(levels, format="bc1", width=11, height=5, min_filter="nearest")
+        described = unit.describe()
+        self.assertEqual([described[key] for key in ("width", "height", "levels", "block_bytes", "fault")],
+                         [11, 5, 2, 8, None])
+        quads = golden.quads_of(numpy.zeros((2, 2)), numpy.zeros((2, 2)))
+        self.assertTrue((unit.filter(quads)["rgba"] == 255).all())
+        unit.load(levels[:1], texture=1, format="bc1")
+        self.assertEqual((unit.describe(1)["width"], unit.describe(1)["height"]), (12, 8))
+
     def test_quads_match(self):
         s = numpy.array([[0.5, 200], [-1, math.nan]])
         quads = golden.quads_of(s, numpy.zeros((2, 2)))
@@ -698,6 +711,11 @@ class BadCalls(unittest.TestCase):
         for texture in (0, 1):  # an existing texture is unchanged
             rejected("level 1: expected uint8 of (32, 32, 4)", unit.load, [checkerboard(), checkerboard()], texture)
         rejected("'format' = 'rgb'", unit.load, checkerboard(), wrap_s="clamp_to_edge", format="rgb")
+        blocks = [numpy.zeros((2, 3, 8), dtype=numpy.uint8), numpy.zeros((1, 1, 8), dtype=numpy.uint8)]
+        rejected("texture 2: ", unit.load, blocks[:1], 2, format="bc1")
+        decoder = golden.TextureUnit(decode="after")
+        rejected("level 1: expected uint8 of (1, 2, 8)", decoder.load, blocks, format="bc1")
+        rejected("level 0: expected uint8 of (2, 3, 16)", decoder.load, blocks, format="bc3")
         rejected("expected sides that are powers of two", golden.mip_levels, vector_image("noise"))
         rejected("both even", golden.quads_of, numpy.zeros((3, 4)), numpy.zeros((3, 4)))
         rejected("covered", golden.quads_of, numpy.zeros((2, 4)), numpy.zeros((2, 4)), numpy.zeros((2, 4)))

@@ -52,5 +52,17 @@ TEST(TextureCounterparts, RejectWidthAbove1) {
   }
 }
 
+TEST(TextureCounterparts, RejectDecoders) {
+  spec::texture::Parameters decoding;
+  decoding.decode = spec::texture::Decode::kAfter;
+  EXPECT_FALSE(available_texture_counterparts(decoding, 1));
+  try {
+    texture_counterparts({"filter"}, decoding, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const spec::ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("run.hdl"), HasSubstr("texture.decode = none")));
+  }
+}
+
 }  // namespace
 }  // namespace deburr::tb::counterparts_test

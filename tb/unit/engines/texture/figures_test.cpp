@@ -120,11 +120,15 @@ TEST(TextureFigures, ResetChangesNoFigure) {
 
 TEST(TextureFigures, CoverEveryFragmentAndLine) {
   const std::pair<spec::texture::Format, double> formats[] = {{spec::texture::Format::kRgba8, 4},
-                                                              {spec::texture::Format::kL8, 1}};
+                                                              {spec::texture::Format::kL8, 1},
+                                                              {spec::texture::Format::kBc1, 0.5},
+                                                              {spec::texture::Format::kBc3, 1}};
   for (const auto& [format, bytes] : formats)
     for (const int line : {64, 128}) {
       TextureSetup setup = small_setup();
       setup.texture.cache_line_bytes = line;
+      if (spec::texture::is_compressed(format))
+        setup.texture.decode = spec::texture::Decode::kAfter;
       const TextureScene& of = scene(format);
       const Json r = run(of, setup);
       const auto w = [&](const char* name) { return work(r, name); };

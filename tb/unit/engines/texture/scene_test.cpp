@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <fstream>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "golden/texture/sampling.h"
@@ -15,9 +18,12 @@
 #include "spec/texture/registers.h"
 #include "tb/engines/texture/texture_levels.h"
 #include "tb/engines/texture/texture_scene.h"
+#include "tb/scene/block_encoder.h"
+#include "tb/scene/compressed_file.h"
 #include "tb/scene/quality.h"
 #include "tb/scene/reference.h"
 #include "tb/scene/textures.h"
+#include "tb/stimuli/compressed_files.h"
 
 namespace deburr::tb::scene_test {
 namespace {
@@ -30,6 +36,7 @@ TEST(TextureMemory, TexelsFollowFormatAndLayout) {
     for (std::size_t f = 0; f < spec::texture::kFormatNames.size(); ++f) {
       spec::texture::Descriptor sampler;
       sampler.format = static_cast<spec::texture::Format>(f);
+      if (spec::texture::is_compressed(sampler.format)) continue;
       sampler.layout = layout;
       platform::TextureMemory memory;
       const int handle = memory.add(levels_of(levels), sampler);
@@ -52,6 +59,25 @@ TEST(TextureMemory, TexelsFollowFormatAndLayout) {
         EXPECT_TRUE(k == 0 || used.begin()->first > d.base[k - 1]) << "levels overlap";
       }
     }
+  }
+}
+
+// Every level, so that its base and the padding before it count too.
+void expect_in_memory(const platform::TextureMemory& memory, const CompressedTexture& texture) {
+  const spec::texture::Descriptor& d = memory.descriptors().at(0);
+  const std::size_t bytes =
+      spec::texture::kFormatBlockBytes[static_cast<std::size_t>(texture.format)];
+  ASSERT_EQ(d.levels, texture.levels.size());
+  for (std::size_t k = 0; k < texture.levels.size(); ++k) {
+    const CompressedTexture::Level& level = texture.levels[k];
+    const std::uint8_t* block = level.blocks.data();
+    for (int y = 0; y < level.height; y += 4)
+      for (int x = 0; x < level.width; x += 4, block += bytes) {
+        const std::uint32_t a = golden::texture::texel_address(d, static_cast<int>(k), x, y);
+        ASSERT_LE(a + bytes, memory.bytes().size());
+        EXPECT_TRUE(std::equal(block, block + bytes, memory.bytes().begin() + a))
+            << "level " << k << ", texel " << x << ", " << y;
+      }
   }
 }
 
@@ -80,6 +106,7 @@ TEST(DescriptorRegisters, HoldEachFieldAtItsPosition) {
   d.height = 0x456;
   d.levels = 11;
   d.format = spec::texture::Format::kSrgb8A8;
+  d.srgb = true;
   d.layout = spec::texture::Layout::kTiled;
   d.wrap_s = spec::texture::Wrap::kMirroredRepeat;
   d.wrap_t = spec::texture::Wrap::kClampToEdge;
@@ -95,8 +122,8 @@ TEST(DescriptorRegisters, HoldEachFieldAtItsPosition) {
   ASSERT_EQ(at.size(), 4u + spec::texture::kMaxLevels);
   const std::uint32_t start = reg::kTextureBase + 3 * reg::kTextureStride;
   EXPECT_EQ(at.at(start + reg::kSize), 0x04560123u);
-  EXPECT_EQ(at.at(start + reg::kMode),
-            4u | 1u << 4 | 1u << 8 | 2u << 10 | 5u << 12 | 1u << 16 | 11u << 20 | 4u << 24);
+  EXPECT_EQ(at.at(start + reg::kMode), 4u | 1u << 4 | 1u << 5 | 1u << 8 | 2u << 10 | 5u << 12 |
+                                           1u << 16 | 11u << 20 | 4u << 24);
   EXPECT_EQ(at.at(start + reg::kLodBias), 0xFF00u);
   EXPECT_EQ(at.at(start + reg::kLodClamp), 0x0A0B0102u);
   EXPECT_EQ(at.at(start + reg::kLevelBase + 4 * 12), 64u * 12);
@@ -154,6 +181,77 @@ TEST(TextureScene, WrapModeAppliesToFragmentsAndReference) {
       else
         EXPECT_LT(db, 20) << static_cast<int>(wrap) << ' ' << static_cast<int>(other);
     }
+}
+
+SceneParameters textured(const std::string& texture) {
+  SceneParameters p = small("quad");
+  p.texture = texture;
+  return p;
+}
+SamplerParameters sampled(spec::texture::Format format) {
+  SamplerParameters sampler;
+  sampler.format = format;
+  return sampler;
+}
+
+TEST(TextureScene, EncodesEveryLevel) {
+  for (const spec::texture::Layout layout :
+       {spec::texture::Layout::kLinear, spec::texture::Layout::kTiled})
+    for (const spec::texture::Format format :
+         {spec::texture::Format::kBc1, spec::texture::Format::kBc5,
+          spec::texture::Format::kEtc2Rgba8}) {
+      SamplerParameters sampler = sampled(format);
+      sampler.layout = layout;
+      const TextureScene scene(textured("brick"), sampler, 1);
+      expect_in_memory(scene.memory(),
+                       stimuli::compressed(make_texture("brick", 32, 32, 1), format, 6));
+      EXPECT_THAT(scene.scene().mesh.notes,
+                  ::testing::ElementsAre(::testing::ContainsRegex("texture 'brick' as .* dB")));
+    }
+}
+
+TEST(TextureScene, SrgbBlocksAreAveragedInLinearLight) {
+  SamplerParameters sampler = sampled(spec::texture::Format::kBc1);
+  sampler.srgb = true;
+  const TextureScene scene(textured("checker"), sampler, 1);
+  EXPECT_TRUE(scene.memory().descriptors()[0].srgb);
+  CompressedTexture wanted{sampler.format, true, {}};
+  for (const Image& level : mip_chain(make_texture("checker", 32, 32), MipSpace::kSrgb))
+    wanted.levels.push_back({level.width, level.height, encode_blocks(level, sampler.format)});
+  expect_in_memory(scene.memory(), wanted);
+  EXPECT_NE(wanted.levels.back().blocks,
+            encode_blocks(mip_chain(make_texture("checker", 32, 32)).back(), sampler.format));
+}
+
+TEST(TextureScene, BlocksOfAFileAreTakenAsTheyAre) {
+  const std::string file = testing::TempDir() + "/blocks.ktx";
+  // Levels of another image, so that a chain made of level 0 would differ.
+  CompressedTexture texture =
+      stimuli::compressed(make_texture("noise", 20, 12), spec::texture::Format::kBc3, 3);
+  texture.levels[1] =
+      stimuli::compressed(make_texture("brick", 10, 6), spec::texture::Format::kBc3, 1).levels[0];
+  std::ofstream(file, std::ios::binary) << stimuli::ktx1_file(texture);
+
+  const TextureScene same(textured(file), sampled(spec::texture::Format::kBc3), 1);
+  expect_in_memory(same.memory(), texture);
+  EXPECT_THAT(same.scene().mesh.notes,
+              ::testing::ElementsAre(::testing::HasSubstr("bc3 blocks and 3 levels of the file")));
+  EXPECT_EQ(same.inputs().size(), 1u);
+
+  SamplerParameters fewer = sampled(spec::texture::Format::kBc3);
+  fewer.levels = 2;
+  CompressedTexture two = texture;
+  two.levels.pop_back();
+  expect_in_memory(TextureScene(textured(file), fewer, 1).memory(), two);
+
+  const Image image = decoded(texture.levels[0], texture.format);
+  const TextureScene other(textured(file), sampled(spec::texture::Format::kEtc2Rgb), 1);
+  expect_in_memory(other.memory(), stimuli::compressed(image, spec::texture::Format::kEtc2Rgb, 5));
+  const TextureScene texels(textured(file), sampled(spec::texture::Format::kRgba8), 1);
+  platform::TextureMemory wanted;
+  wanted.add(levels_of(mip_chain(image)), texels.memory().descriptors()[0]);
+  EXPECT_EQ(texels.memory().bytes(), wanted.bytes());
+  EXPECT_TRUE(texels.scene().mesh.notes.empty());
 }
 
 TEST(TextureScene, SameSeedGivesSameTextures) {
