@@ -106,7 +106,8 @@ PayloadNode PayloadBuilder::field(std::string name, std::ptrdiff_t offset, std::
   const std::string full = path_ + name;
   const std::uint32_t listed = bits;
   for (const auto& [what, narrower] : shape_.widths)
-    if (full == what || full.starts_with(what + ".")) bits = narrower;
+    if (full.starts_with(what) && (full.size() == what.size() || full[what.size()] == '.'))
+      bits = narrower;
   DEBURR_CHECK(bits <= listed && listed != 0,
                fmt::format("{}: {} bits, expected 0..{} as listed", full, bits, listed));
   const std::uint32_t written = format_bits(format);

@@ -50,6 +50,21 @@ Activity GroupFormer::tick(Cycle cycle) {
   return emitted != 0 || takes ? kBusy : kIdle;
 }
 
+// A word, and the number that selects its bank.
+inline void GroupFormer::add_word(std::uint32_t place, std::uint32_t word, Exceeded& exceeded) {
+  Bank& bank = banks_[place & bank_mask_];
+  if (bank.group != group_) {
+    bank.group = group_;
+    bank.words = 0;
+  }
+  const auto end = bank.word.begin() + bank.words;
+  if (std::find(bank.word.begin(), end, word) != end) return;
+  if (bank.words == reads_)
+    exceeded.banks = true;
+  else
+    bank.word[bank.words++] = word;
+}
+
 // Adds the lines and words of a request to those of the group.
 inline void GroupFormer::add(const Waiting& request, Lines& lines,
                              std::array<std::uint8_t, 4>& index, Exceeded& exceeded) {
@@ -67,36 +82,29 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
       exceeded.lookups |= ++lines.count > lookups_;
     }
     // Of words, with the line turned as the row asks.
-    const std::uint32_t turned = address ^ (request.turned[i >> 1] ? turn_ : 0);
-    const std::uint32_t words = word_count(request.request.control.codec);
-    for (std::uint32_t n = 0; n < words; ++n) {
-      Bank& bank = banks_[((turned >> 2) + n) & bank_mask_];
-      const std::uint32_t word = (address >> 2) + n;
-      if (bank.group != group_) {
-        bank.group = group_;
-        bank.words = 0;
-      }
-      const auto end = bank.word.begin() + bank.words;
-      if (std::find(bank.word.begin(), end, word) != end) continue;
-      if (bank.words == reads_)
-        exceeded.banks = true;
-      else
-        bank.word[bank.words++] = word;
-    }
+    add_word((address ^ (request.turned[i >> 1] ? turn_ : 0)) >> 2, address >> 2, exceeded);
   }
 }
 
-// Adds the blocks of a request. Returns false if there are more than can be decoded.
-bool GroupFormer::add_blocks(const Waiting& request, Blocks& blocks) const {
+// Adds the blocks of a request, and their words after the first ones.
+void GroupFormer::add_blocks(const Waiting& request, Blocks& blocks, Exceeded& exceeded) {
   const std::uint8_t codec = request.request.control.codec;
-  if (codec == 0) return true;
-  for (const std::uint32_t address : request.address) {
-    const auto end = blocks.at.begin() + blocks.count;
-    if (std::find(blocks.at.begin(), end, std::pair{address, codec}) != end) continue;
-    if (blocks.count == decoders_) return false;
-    blocks.at[blocks.count++] = {address, codec};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint32_t address = request.address[i],
+                        turned = address ^ (request.turned[i >> 1] ? turn_ : 0);
+    for (std::uint32_t n = 1; n < word_count(codec); ++n)
+      add_word((turned >> 2) + n, (address >> 2) + n, exceeded);
+    std::uint32_t k = 0;
+    while (k < blocks.count && (blocks.address[k] != address || blocks.codec[k] != codec)) ++k;
+    if (k < blocks.count) continue;
+    if (k == decoders_) {
+      exceeded.decoders = true;
+      continue;
+    }
+    blocks.address[k] = address;
+    blocks.codec[k] = codec;
+    ++blocks.count;
   }
-  return true;
 }
 
 // Fast path: a group of the `most` oldest requests, if they are within all limits for sure. Lines
@@ -156,7 +164,8 @@ std::uint32_t GroupFormer::emit_within(std::uint32_t most, LineGroup& group) {
     std::array<std::uint8_t, 4> index{};
     if (waiting.lines != 0) {
       add(waiting, lines, index, exceeded);
-      exceeded.decoders = !add_blocks(waiting, blocks);
+      if (waiting.blocks != 0) [[unlikely]]
+        add_blocks(waiting, blocks, exceeded);
     }
     // If the oldest request exceeds a limit by itself, `exceeded` stays set, and the group has only
     // this request.

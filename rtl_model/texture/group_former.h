@@ -16,7 +16,6 @@
 #include <memory>
 #include <string>
 #include <systemc>
-#include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -89,7 +88,8 @@ class GroupFormer final : public Unit {
   // Distinct blocks, by address and codec.
   struct Blocks {
     std::uint32_t count = 0;
-    std::array<std::pair<std::uint32_t, std::uint8_t>, spec::texture::kMostDecoders> at;
+    std::array<std::uint32_t, spec::texture::kMostDecoders> address;
+    std::array<std::uint8_t, spec::texture::kMostDecoders> codec;
   };
 
   std::uint32_t emit(Cycle cycle);
@@ -97,7 +97,8 @@ class GroupFormer final : public Unit {
   [[gnu::noinline]] std::uint32_t emit_within(std::uint32_t most, LineGroup& group);
   void add(const Waiting& request, Lines& lines, std::array<std::uint8_t, 4>& index,
            Exceeded& exceeded);
-  bool add_blocks(const Waiting& request, Blocks& blocks) const;
+  void add_word(std::uint32_t place, std::uint32_t word, Exceeded& exceeded);
+  [[gnu::noinline]] void add_blocks(const Waiting& request, Blocks& blocks, Exceeded& exceeded);
   void take(Cycle cycle);
   void enter(const TexelToken& token, Waiting& waiting) const;
   void count(std::uint32_t emitted, std::uint32_t buffered, Cycle cycle);
