@@ -22,8 +22,10 @@ struct Palette {
   std::array<Rgb, 8> colour{};                         // ETC2: four of each half
   std::array<std::array<std::int32_t, 8>, 2> value{};  // alpha is the first
   std::uint32_t clear = 0;                             // bit s: selector s is a hole
-  bool planar = false;  // colour 0, and from it to H and V in colours 1 and 2
+  bool planar = false;      // colour 0, and from it to H and V in colours 1 and 2
+  std::uint32_t kinds = 0;  // bit k: of kind k, for coverage
 };
+enum Kind { kFour, kThree, kSeven, kFive, kIndividual, kDifferential, kT, kH, kPlanar, kHoles };
 // The selectors of texel (x, y), after stage 1.
 struct Selectors {
   std::uint32_t colour = 0;
@@ -72,6 +74,7 @@ void bc_colours(std::uint64_t bits, bool three_allowed, BlockRule rule, Palette&
   const std::uint32_t c0 = field(bits, 15, 0), c1 = field(bits, 31, 16);
   const bool three = three_allowed && c0 <= c1;
   const std::int32_t up = rule == BlockRule::kRounded ? 1 : 0;
+  out.kinds |= 1U << (three ? kThree : kFour);
   const Rgb a = end_point(c0, rule), b = end_point(c1, rule);
   out.colour[0] = a;
   out.colour[1] = b;
@@ -82,10 +85,12 @@ void bc_colours(std::uint64_t bits, bool three_allowed, BlockRule rule, Palette&
   if (three) out.clear = 1U << 3;
 }
 
-void bc_values(std::uint64_t bits, BlockRule rule, Fault fault, std::array<std::int32_t, 8>& out) {
+void bc_values(std::uint64_t bits, BlockRule rule, Fault fault, std::size_t n, Palette& palette) {
+  std::array<std::int32_t, 8>& out = palette.value[n];
   const auto a = static_cast<std::int32_t>(field(bits, 7, 0)),
              b = static_cast<std::int32_t>(field(bits, 15, 8));
   const bool seven = (a > b) != (fault == Fault::kValues);
+  palette.kinds |= 1U << (seven ? kSeven : kFive);
   const std::int32_t up = rule == BlockRule::kRounded ? 1 : 0, parts = seven ? 7 : 5;
   out[0] = a;
   out[1] = b;
@@ -116,8 +121,11 @@ void etc_colours(std::uint64_t bits, bool punch_through, Fault fault, Palette& o
   const auto paint = [&](const std::array<Rgb, 4>& colours) {
     for (std::size_t s = 0; s < 8; ++s) out.colour[s] = colours[s % 4];
   };
-  if (!d && !punch_through)
+  const auto meet = [&](Kind kind) { out.kinds |= 1U << kind; };
+  if (!d && !punch_through) {
+    meet(kIndividual);
     return halves({four(63), four(55), four(47)}, {four(59), four(51), four(43)});
+  }
 
   std::array<std::int32_t, 3> base{}, other{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -129,6 +137,10 @@ void etc_colours(std::uint64_t bits, bool punch_through, Fault fault, Palette& o
   const auto in_range = [&](std::size_t c) { return other[c] >= 0 && other[c] <= 31; };
   bool t_mode = !in_range(0), h_mode = in_range(0) && !in_range(1);
   if (fault == Fault::kModes) std::swap(t_mode, h_mode);
+  if (t_mode || h_mode || in_range(2)) {
+    meet(t_mode ? kT : h_mode ? kH : kDifferential);
+    if (holes) meet(kHoles);
+  }
   if (t_mode) {
     const Rgb a = {widened(field(bits, 60, 59) << 2 | field(bits, 57, 56), 4), four(55), four(51)},
               b = {four(47), four(43), four(39)};
@@ -151,7 +163,8 @@ void etc_colours(std::uint64_t bits, bool punch_through, Fault fault, Palette& o
                                      (number(a) >= number(b) ? 1U : 0U)];
     return paint({sum(colour(a), e), sum(colour(a), -e), sum(colour(b), e), sum(colour(b), -e)});
   }
-  if (!in_range(2)) {  // planar
+  if (!in_range(2)) {
+    meet(kPlanar);
     out.planar = true;
     out.clear = 0;
     const Rgb o = {widened(field(bits, 62, 57), 6),
@@ -196,16 +209,16 @@ Palette palette(const Block& block, Format format, BlockRule rule, Fault fault) 
   const std::size_t colours = half_of_colours(format);
   switch (format) {
     case Format::kBc3:
-      bc_values(little(block, 0), rule, fault, out.value[0]);
+      bc_values(little(block, 0), rule, fault, 0, out);
       [[fallthrough]];
     case Format::kBc1:
       bc_colours(little(block, colours), format == Format::kBc1, rule, out);
       break;
     case Format::kBc5:
-      bc_values(little(block, 1), rule, fault, out.value[1]);
+      bc_values(little(block, 1), rule, fault, 1, out);
       [[fallthrough]];
     case Format::kBc4:
-      bc_values(little(block, 0), rule, fault, out.value[0]);
+      bc_values(little(block, 0), rule, fault, 0, out);
       break;
     case Format::kEtc2Rgba8:
       eac_values(big(block, 0), out.value[0]);
@@ -297,8 +310,7 @@ Activity BlockDecoderOf<Width>::tick(Cycle cycle) {
 }
 
 template <class Width>
-void BlockDecoderOf<Width>::decode(const BlockGroup& group,
-                                   typename Width::TexelQuads& texels) const {
+void BlockDecoderOf<Width>::decode(const BlockGroup& group, typename Width::TexelQuads& texels) {
   std::array<Palette, spec::texture::kMostDecoders> palettes;
   std::uint32_t known = 0;  // bit k: of block k
   set_count(texels, group.count);
@@ -312,8 +324,12 @@ void BlockDecoderOf<Width>::decode(const BlockGroup& group,
     const Format format = format_of(request.control.codec);
     for (std::uint32_t i = 0; i < 4; ++i) {
       const std::size_t k = std::min<std::size_t>(request.index[i], palettes.size() - 1);
-      if ((known >> k & 1) == 0) palettes[k] = palette(group.block[k], format, rule_, fault);
-      known |= 1U << k;
+      if ((known >> k & 1) == 0) {
+        palettes[k] = palette(group.block[k], format, rule_, fault);
+        for (std::uint32_t left = palettes[k].kinds; left != 0; left &= left - 1)
+          ++kinds[static_cast<std::size_t>(std::countr_zero(left))];
+        known |= 1U << k;
+      }
       const std::uint32_t x = request.control.within >> 2 * (i % 2) & 3,
                           y = request.control.within >> (4 + 2 * (i / 2)) & 3;
       out.texel[i] =

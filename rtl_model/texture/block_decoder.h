@@ -11,7 +11,9 @@
 // Source    Microsoft, BC1, BC3 to BC5; Khronos Data Format Specification, ETC2.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
@@ -22,6 +24,12 @@
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
+
+// What blocks are met: ends of colours and values of BC, modes of ETC2, and blocks with holes.
+inline constexpr std::array<std::string_view, 10> kBlockKindNames = {
+    "four_colours", "three_colours", "seven_steps", "five_steps",
+    "individual",   "differential",  "t",           "h",
+    "planar",       "holes"};
 
 // The part that does not depend on the width.
 class BlockDecoderBase : public Unit {
@@ -34,6 +42,8 @@ class BlockDecoderBase : public Unit {
 
   In<BlockGroup> blocks_in{"blocks_in"};
   Counter blocks{"blocks", "blocks", "distinct blocks of requests decoded"};
+  // For coverage, no hardware: palettes made, by the names above.
+  std::array<std::uint64_t, kBlockKindNames.size()> kinds{};
 
  protected:
   using Unit::Unit;
@@ -54,7 +64,7 @@ class BlockDecoderOf : public BlockDecoderBase {
  private:
   static constexpr std::size_t kStages = 3;
 
-  void decode(const BlockGroup& group, typename Width::TexelQuads& texels) const;
+  void decode(const BlockGroup& group, typename Width::TexelQuads& texels);
   BlockGroup faulty(BlockGroup group);
 
   const std::uint32_t decoders_;

@@ -30,10 +30,18 @@ struct TextureOutcome {
 inline void add_slots(const rtl::texture::TextureUnit& unit, TextureOutcome& outcome) {
   if (!unit.cache.wide) return;
   const rtl::texture::GroupFormer& former = unit.cache.wide->group_former;
-  outcome.slots = {former.requests.value(),   former.lookups.value(),      former.banks.value(),
-                   former.set.value(),        former.partial_quad.value(), former.starved.value(),
-                   former.allocate.value(),   former.miss_queue.value(),   former.wait_fill.value(),
-                   former.write_fill.value(), former.bank_pass.value()};
+  outcome.slots = {former.requests.value(),
+                   former.lookups.value(),
+                   former.banks.value(),
+                   former.set.value(),
+                   former.decoders ? former.decoders->value() : 0,
+                   former.partial_quad.value(),
+                   former.starved.value(),
+                   former.allocate.value(),
+                   former.miss_queue.value(),
+                   former.wait_fill.value(),
+                   former.write_fill.value(),
+                   former.bank_pass.value()};
   outcome.all_slots = former.slots.value();
   outcome.output_slots = former.output.value();
 }

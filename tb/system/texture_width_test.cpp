@@ -106,6 +106,36 @@ INSTANTIATE_TEST_SUITE_P(Texture, Width,
                                   std::get<1>(p.param);
                          });
 
+// Blocks: formats of both sizes, in both layouts, with more and fewer decoders than blocks, and
+// with small lines. A mip level of 63 x 63 texels has blocks that reach beyond its edge.
+TEST_P(Width, CyclesOfBlocksEqualPrediction) {
+  using spec::texture::Format, spec::texture::Layout;
+  const auto& [build, source] = GetParam();
+  struct Blocks {
+    Format format;
+    Layout layout;
+    std::int32_t decoders, line_bytes;
+  };
+  for (const Blocks& blocks : {Blocks{Format::kBc1, Layout::kTiled, 0, 64},
+                               {Format::kBc3, Layout::kLinear, 4, 64},
+                               {Format::kEtc2Rgba8, Layout::kTiled, build.width == 1 ? 1 : 5, 64},
+                               {Format::kBc4, Layout::kLinear, build.width == 1 ? 2 : 4, 32}}) {
+    SCOPED_TRACE(std::string(spec::texture::kFormatNames[static_cast<std::size_t>(blocks.format)]));
+    TextureRunOptions options;
+    options.texture = parameters(build);
+    options.texture.decode = spec::texture::Decode::kAfter;
+    options.texture.cache_decoders = blocks.decoders;
+    options.texture.cache_line_bytes = blocks.line_bytes;
+    options.texture.cache_bytes = 4096;
+    SamplerParameters sampler;
+    sampler.format = blocks.format;
+    sampler.layout = blocks.layout;
+    SceneParameters scene = picture(source, 64);
+    if (blocks.layout == Layout::kLinear) scene.texture_size = 63;
+    expect_prediction(scene, sampler, options);
+  }
+}
+
 // Turned lines, texels of one bank in one request, lines of two beats, few lines in flight: on the
 // ports of `wide` and on those of `narrow_ports`.
 struct Other {

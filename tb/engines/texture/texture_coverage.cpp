@@ -26,6 +26,10 @@ constexpr std::array kGroups = {
     CoverageGroup{"texture/blend", "Fragments by the order of sums over samples and levels."},
     CoverageGroup{"texture/derivatives", "Fragments by the rule for differences."},
     CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."},
+    CoverageGroup{"texture/block",
+                  "Compressed blocks decoded: colours and steps between values of BC, modes of "
+                  "ETC2, and blocks with holes (docs/reference/texture/compressed.md)."},
+    CoverageGroup{"texture/decode", "Fragments of compressed textures, by where they are decoded."},
     CoverageGroup{"texture/slots", "Slots of widths above 1 without a request, by cause."}};
 
 constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
@@ -78,8 +82,13 @@ Coverage TextureCoverage::declared() {
     coverage.declare(fmt::format("texture/blend/{}", blend));
   for (const auto rule : spec::texture::kDerivativesNames)
     coverage.declare(fmt::format("texture/derivatives/{}", rule));
+  for (const auto kind : rtl::texture::kBlockKindNames)
+    coverage.declare(fmt::format("texture/block/{}", kind));
+  for (const auto where : spec::texture::kDecodeNames)
+    if (where != "none") coverage.declare(fmt::format("texture/decode/{}", where));
   for (const auto outcome : kCache) coverage.declare(fmt::format("texture/cache/{}", outcome));
   for (const SlotBin& bin : kSlots) coverage.declare(fmt::format("texture/slots/{}", bin.name));
+  coverage.declare("texture/slots/decoders");
   return coverage;
 }
 
@@ -91,6 +100,8 @@ void TextureCoverage::see(const golden::texture::TextureGolden& golden,
     const golden::texture::FragmentAnalysis a = golden.analyse(quad, lane);
     if (!a.valid) continue;
     ++formats_[index(texture.format)];
+    srgb_ += texture.srgb || texture.format == spec::texture::Format::kSrgb8A8;
+    compressed_ += is_compressed(texture.format);
     ++samples_[index(a.lod.samples)];
     ++major_[index(a.footprint.major)];
     if (a.lod.magnified) {
@@ -120,7 +131,7 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
                  magnified_[filter]);
   coverage.hit(fmt::format("texture/output/{}",
                            spec::texture::kSrgbOutputNames[index(configuration_.srgb_output)]),
-               formats_[index(spec::texture::Format::kSrgb8A8)]);
+               srgb_);
   for (std::size_t n = 1; n < samples_.size(); ++n) {
     coverage.hit(fmt::format("texture/samples/{}", n), samples_[n]);
     if (configuration_.kernel == Kernel::kTent)
@@ -136,10 +147,20 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
   coverage.hit(fmt::format("texture/derivatives/{}",
                            spec::texture::kDerivativesNames[index(configuration_.derivatives)]),
                fragments);
-  if (unit.cache.wide)
+  if (compressed_ != 0)
+    coverage.hit(fmt::format("texture/decode/{}",
+                             spec::texture::kDecodeNames[index(unit.parameters().decode)]),
+                 compressed_);
+  if (unit.cache.block_decoder)
+    for (std::size_t kind = 0; kind < rtl::texture::kBlockKindNames.size(); ++kind)
+      coverage.hit(fmt::format("texture/block/{}", rtl::texture::kBlockKindNames[kind]),
+                   unit.cache.block_decoder->kinds[kind]);
+  if (unit.cache.wide) {
+    const GroupFormer& former = unit.cache.wide->group_former;
     for (const SlotBin& bin : kSlots)
-      coverage.hit(fmt::format("texture/slots/{}", bin.name),
-                   (unit.cache.wide->group_former.*bin.slots).value());
+      coverage.hit(fmt::format("texture/slots/{}", bin.name), (former.*bin.slots).value());
+    if (former.decoders) coverage.hit("texture/slots/decoders", former.decoders->value());
+  }
   const auto& tags = unit.cache.tag_stage;
   coverage.hit("texture/cache/hit", tags.hits.value());
   coverage.hit("texture/cache/miss", tags.misses.value());

@@ -41,6 +41,7 @@ class TextureCoverage {
   std::array<ByMode, spec::texture::kLayoutNames.size()> modes_{};
   Counts<decltype(spec::texture::kFormatNames)> formats_{};
   Counts<decltype(spec::texture::kMagFilterNames)> magnified_{};
+  std::uint64_t srgb_ = 0, compressed_ = 0;
   std::array<std::uint64_t, 17> samples_{};
   std::array<std::uint64_t, 8> major_{};
 };
