@@ -30,7 +30,7 @@ SHARED = {
 PARTS = {"DescriptorWalk": "DescriptorStore"}
 # Modules that hold one of two units, that of the width which is built, by the base that both have.
 BUILT = {
-    "TextureCache": {"TagUnit", "DataUnit"},
+    "TextureCache": {"TagUnit", "DataUnit", "BlockDecoderBase"},
     "TextureUnit": {"DerivativeUnitBase", "LevelUnitBase", "SampleWalkerBase", "TexelAddresserBase", "FilterPipelineBase"},
 }
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
