@@ -14,16 +14,6 @@ using spec::texture::kCoordinateFractionBits;
 
 constexpr std::int64_t kOne = std::int64_t{1} << kCoordinateFractionBits;
 
-// Places in blocks of texels in columns x0, x1 and rows y0, y1; odd rows of blocks are turned.
-[[gnu::noinline]] void place_in_blocks(const TextureState& texture, std::uint32_t x0,
-                                       std::uint32_t x1, std::uint32_t y0, std::uint32_t y1,
-                                       TexelToken& out) {
-  const bool rows = texture.layout == spec::texture::Layout::kLinear;
-  out.turned = {rows && y0 / 4 % 2 != 0, rows && y1 / 4 % 2 != 0};
-  out.control.codec = texture.codec;
-  out.control.within = static_cast<std::uint8_t>(x0 % 4 | x1 % 4 << 2 | y0 % 4 << 4 | y1 % 4 << 6);
-}
-
 }  // namespace
 
 template <class Width>
@@ -93,8 +83,12 @@ inline void TexelAddresserOf<Width>::request(const TextureState& texture, const 
   out.address = {upper + left, upper + right, lower + left, lower + right};
   const bool rows = texture.layout == spec::texture::Layout::kLinear;
   out.turned = {rows && y.first % 2 != 0, rows && y.second % 2 != 0};
-  if (texture.codec != 0) [[unlikely]]
-    place_in_blocks(texture, x.first, x.second, y.first, y.second, out);
+  if (texture.codec == 0) [[likely]]
+    return;
+  out.turned = {rows && y.first / 4 % 2 != 0, rows && y.second / 4 % 2 != 0};
+  control.codec = texture.codec;
+  control.within = static_cast<std::uint8_t>(x.first % 4 | x.second % 4 << 2 | y.first % 4 << 4 |
+                                             y.second % 4 << 6);
 }
 
 // Stages 2 to 4 for one axis: wraps the coordinate, scales it to texels, splits it, and brings both
