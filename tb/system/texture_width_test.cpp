@@ -126,7 +126,7 @@ TEST_P(Width, CyclesOfBlocksEqualPrediction) {
     options.texture.decode = spec::texture::Decode::kAfter;
     options.texture.cache_decoders = blocks.decoders;
     options.texture.cache_line_bytes = blocks.line_bytes;
-    options.texture.cache_bytes = 4096;
+    options.texture.cache_bytes = 8192;
     SamplerParameters sampler;
     sampler.format = blocks.format;
     sampler.layout = blocks.layout;
