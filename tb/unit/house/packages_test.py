@@ -15,9 +15,9 @@ import tempfile
 # Files for the builds of users.
 NOT_OURS = ("examples/", "cmake/package/", "cmake/FindSystemC.cmake", "cmake/Packages.cmake", "build/")
 BARE = re.compile(r"^\s*(find_\w+|pkg_check_modules|pkg_search_module)\s*\(([^)]*)\)", re.M)
-# Optional packages: a compiler cache, Mesa, SystemVerilog tools, packages of the Python module, and packages that
+# Optional packages: a compiler cache, Mesa, libsquish, SystemVerilog tools, packages of the Python module, and packages that
 # pkg-config may find instead of CMake.
-OPTIONAL = {"DEBURR_VERILATOR", "DEBURR_MAKE", "Python", "pybind11",
+OPTIONAL = {"DEBURR_VERILATOR", "DEBURR_MAKE", "DEBURR_SQUISH", "DEBURR_SQUISH_HEADER", "Python", "pybind11",
             "CCACHE_PROGRAM", "PC_OracleEgl", "PC_OpenImageIO", "PC_OracleOpenImageIO", "OpenImageIO", "pagmo", "GTest"}
 NAMED = re.compile(r"\bdeburr_(?:find_package|find|missing|missing_module)\(([^)]*)\)")
 

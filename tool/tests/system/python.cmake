@@ -3,7 +3,7 @@
 if(TARGET deburr_python)
   add_dependencies(deburr_system_tests deburr_python)
   set(modules "${PROJECT_BINARY_DIR}/python")
-  foreach(class Vectors Texture Ideal Layouts BadCalls Threads Declarations)
+  foreach(class Vectors Texture Ideal Layouts BadCalls Pickle Threads Declarations)
     add_test(NAME python_golden.${class} COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/python_golden_test.py" "${modules}"
                                                  "${PROJECT_SOURCE_DIR}/docs" ${class})
     set_tests_properties(python_golden.${class} PROPERTIES LABELS system TIMEOUT 300)
