@@ -20,7 +20,7 @@ constexpr bool is_power_of_two(std::int32_t value) {
 // Leaves at least two directions per cycle: 1, 2, 4 for two, four, eight axes.
 constexpr std::int32_t most_axis_cycles(Axes axes) { return 1 << static_cast<std::int32_t>(axes); }
 
-inline constexpr std::array<BuildRule<Parameters>, 27> kBuildRules = {{
+inline constexpr std::array<BuildRule<Parameters>, 25> kBuildRules = {{
     {{"cache.bytes"},
      "must be a power of two",
      [](const Parameters& p) { return is_power_of_two(p.cache_bytes); }},
@@ -116,28 +116,24 @@ inline constexpr std::array<BuildRule<Parameters>, 27> kBuildRules = {{
        return p.width == 1 || p.cache_outstanding == 0 || p.cache_outstanding >= p.cache_lookups;
      },
      [](const Parameters& p) { return "make it at least " + std::to_string(p.cache_lookups); }},
-    {{"cache.decoders", "decode"},
-     "must be 0 unless decode = after, which alone has decoders behind the cache",
-     [](const Parameters& p) { return p.cache_decoders == 0 || p.decode == Decode::kAfter; }},
-    {{"cache.decoders", "width"},
+    {{"cache.decoders", "decode", "width"},
      "must be at most 4 with width = 1, since a request asks for at most four blocks",
-     [](const Parameters& p) { return p.width > 1 || p.cache_decoders <= kBlocksPerRequest; }},
-    {{"cache.decoders", "width"},
+     [](const Parameters& p) {
+       return p.decode != Decode::kAfter || p.width > 1 || p.cache_decoders <= kBlocksPerRequest;
+     }},
+    {{"cache.decoders", "decode", "width"},
      "must be at least 4 with a width above 1, so that a group of one request is decoded in one "
      "cycle; 0: 6",
      [](const Parameters& p) {
-       return p.width == 1 || p.cache_decoders == 0 || p.cache_decoders >= kBlocksPerRequest;
+       return p.decode != Decode::kAfter || p.width == 1 || p.cache_decoders == 0 ||
+              p.cache_decoders >= kBlocksPerRequest;
      }},
     {{"cache.compressed_lines", "decode"},
-     "must be 0 unless decode = before, which alone keeps lines of memory",
-     [](const Parameters& p) {
-       return p.cache_compressed_lines == 0 || p.decode == Decode::kBefore;
-     }},
-    {{"cache.compressed_lines"},
      "must be a power of two, at least 4",
      [](const Parameters& p) {
-       return p.cache_compressed_lines == 0 || (is_power_of_two(p.cache_compressed_lines) &&
-                                                p.cache_compressed_lines >= kLeastCompressedLines);
+       return p.decode != Decode::kBefore || p.cache_compressed_lines == 0 ||
+              (is_power_of_two(p.cache_compressed_lines) &&
+               p.cache_compressed_lines >= kLeastCompressedLines);
      }},
     {{"cache.line_bytes", "decode"},
      "must be 64 with decode = before, which fills lines of 4 x 4 decoded texels",

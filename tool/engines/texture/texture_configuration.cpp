@@ -63,12 +63,22 @@ void reject_unsupported_format(const tb::SamplerParameters& sampler,
       texture.decode == spec::texture::Decode::kNone)
     throw spec::ConfigError(
         fmt::format("sampler.format = {}: the unit has no decoder of blocks: set texture.decode = "
-                    "after",
+                    "after or before",
                     format));
   if (sampler.srgb && !spec::texture::may_be_srgb(sampler.format))
     throw spec::ConfigError(fmt::format(
         "sampler.srgb: {} holds no sRGB codes: leave it out, or set sampler.format = {}", format,
         spec::texture::is_compressed(sampler.format) ? "bc1, bc3 or etc2_rgb" : "srgb8_a8"));
+}
+
+void reject_unused_decoders(const tb::ParameterSet& set, const spec::texture::Parameters& texture) {
+  using spec::texture::Decode;
+  if (texture.decode != Decode::kAfter)
+    set.reject("texture.cache.decoders", "it needs texture.decode = after");
+  if (texture.decode != Decode::kBefore)
+    set.reject("texture.cache.compressed_lines", "it needs texture.decode = before");
+  if (texture.decode == Decode::kNone)
+    set.reject("texture.bc", "it needs texture.decode = after or before");
 }
 
 void reject_unused_lookups(const tb::ParameterSet& set) {

@@ -12,7 +12,9 @@ RandomDraws texture_draws() {
                {"texture.cache.line_bytes", power_of_two<5, 7>},
                {"texture.cache.ways", power_of_two<0, 3>},
                {"texture.cache.fifo_depth", magnitude<2, 300>},
+               {"texture.cache.compressed_lines", power_of_two<2, 6>},
                {"texture.axis_cycles", power_of_two<0, 2>}};
+  all.frequent = {"texture.decode", "sampler.format"};
   // Fixed are a file, sequences, which only the golden model processes, and units in SystemVerilog,
   // which most builds lack.
   all.fixed = {"scene.fragments", "sequence.frames", "sequence.motion", "run.hdl"};

@@ -67,6 +67,18 @@ BuildChecks<Parameters, rtl::texture::TextureUnit> checks() {
           {{{"width", "4"}, {"cache.lookups", "8"}, {"cache.outstanding", "4"}},
            "cache.outstanding",
            "make it at least 8"},
+          {{{"decode", "after"}, {"cache.decoders", "5"}},
+           "cache.decoders",
+           "at most 4 with width = 1"},
+          {{{"decode", "after"}, {"width", "4"}, {"cache.decoders", "3"}},
+           "cache.decoders",
+           "at least 4 with a width above 1"},
+          {{{"decode", "before"}, {"cache.compressed_lines", "12"}},
+           "cache.compressed_lines",
+           "power of two, at least 4"},
+          {{{"decode", "before"}, {"cache.line_bytes", "128"}},
+           "cache.line_bytes",
+           "must be 64 with decode = before"},
       }};
 }
 
