@@ -193,7 +193,7 @@ class BuildChecks {
       EXPECT_EQ(built(p), "taken") << "draw " << i;
       ++built_ones;
     }
-    EXPECT_GT(built_ones, draws / 20);
+    EXPECT_GT(built_ones, draws / 50);
     EXPECT_GT(rejected, draws / 20);
   }
 

@@ -91,7 +91,7 @@ TEST(TextureCheckBuild, RejectsOutOfRangeValues) { checks().expect_ranges(); }
 TEST(TextureCheckBuild, RangeEndsCanBeBuilt) { checks().expect_ends(); }
 
 TEST(TextureCheckBuild, RandomLegalConfigurationsCanBeBuilt) {
-  checks().expect_all_else_is_built(300);
+  checks().expect_all_else_is_built(600);
 }
 
 }  // namespace
