@@ -142,7 +142,7 @@ TEST(Cache, SupportsDirectMappedAndFullyAssociative) {
   EXPECT_EQ(full.sets(), 1u);
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_FALSE(full.lookup(line * 1000));
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_TRUE(full.lookup(line * 1000));
-  EXPECT_EQ(full.line_of(64 * 5 + 63), 5u);
+  EXPECT_EQ(full.memory_line(64 * 5 + 63), 5u);
 }
 
 // The predictor throws the same message as check_build().
