@@ -151,8 +151,6 @@ struct TextureGolden::NoTap {
   static constexpr bool kBlocks = false;
   void lane(int) {}
   void sample(int, std::int64_t, std::int64_t) {}
-  void request(int, const std::array<std::uint32_t, 4>&, std::array<bool, 2>,
-               const std::array<std::uint8_t, 4>&, spec::texture::Format) {}
   void fill(std::uint32_t) {}
   void invalid() {}
   void end() {}
@@ -331,26 +329,22 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
     if (spec::texture::is_compressed(descriptor.format)) row /= 4;
     return descriptor.layout == spec::texture::Layout::kLinear && row % 2 != 0;
   };
-  std::array<std::uint8_t, 4> inside{};
+  const auto inside = [&] {
+    const auto at = [](std::int32_t column, std::int32_t row) {
+      return static_cast<std::uint8_t>(row % 4 * 4 + column % 4);
+    };
+    return std::array<std::uint8_t, 4>{at(x.i0, y.i0), at(x.i1, y.i0), at(x.i0, y.i1),
+                                       at(x.i1, y.i1)};
+  };
   if constexpr (Tap::kBlocks) {
-    if (texture.blocks) {
-      const auto at = [](std::int32_t column, std::int32_t row) {
-        return static_cast<std::uint8_t>(row % 4 * 4 + column % 4);
-      };
-      inside = {at(x.i0, y.i0), at(x.i1, y.i0), at(x.i0, y.i1), at(x.i1, y.i1)};
-    }
+    tap.request(level, addresses(), {turned(y.i0), turned(y.i1)},
+                texture.blocks ? inside() : std::array<std::uint8_t, 4>{}, descriptor.format);
   }
-  tap.request(level, addresses(), {turned(y.i0), turned(y.i1)}, inside, descriptor.format);
-  if (predict_) {
-    std::array<std::uint32_t, 4> lines = addresses();
-    for (std::uint32_t& line : lines)
-      line = Tap::kBlocks ? cache_.line_of(descriptor.format, line) : cache_.memory_line(line);
-    predict(lines, tap);
-  }
+  if (predict_) predict(descriptor.format, addresses(), tap);
 
   const auto texels = [&] {
     if constexpr (Tap::kBlocks) {
-      if (texture.blocks) return read_blocks(table, descriptor, addresses(), inside);
+      if (texture.blocks) return read_blocks(table, descriptor, addresses(), inside());
     }
     const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
     return common ? read_rgba8(memory_.data(), addresses())
@@ -394,11 +388,17 @@ std::array<Channels, 4> TextureGolden::read_blocks(
 }
 
 template <class Tap>
-void TextureGolden::predict(const std::array<std::uint32_t, 4>& lines, Tap& tap) {
-  cache_.request(lines, [this, &tap](std::uint32_t line) {
-    tap.fill(line);
-    fill(line);
-  });
+void TextureGolden::predict(spec::texture::Format format,
+                            const std::array<std::uint32_t, 4>& addresses, Tap& tap) {
+  const auto line_of = [&](std::size_t texel) {
+    return Tap::kBlocks ? cache_.line_of(format, addresses[texel])
+                        : cache_.memory_line(addresses[texel]);
+  };
+  cache_.request({line_of(0), line_of(1), line_of(2), line_of(3)},
+                 [this, &tap](std::uint32_t line) {
+                   tap.fill(line);
+                   fill(line);
+                 });
 }
 
 void TextureGolden::fill(std::uint32_t line) {

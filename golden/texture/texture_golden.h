@@ -190,7 +190,8 @@ class TextureGolden {
                                       const std::array<std::uint8_t, 4>& inside) const;
   // Looks up the lines of a request.
   template <class Tap>
-  void predict(const std::array<std::uint32_t, 4>& lines, Tap& tap);
+  void predict(spec::texture::Format format, const std::array<std::uint32_t, 4>& addresses,
+               Tap& tap);
   void fill(std::uint32_t line);
   bool fails(std::uint32_t memory_line) const;
   void find_plain_levels(Texture& texture) const;
