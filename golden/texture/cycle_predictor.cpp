@@ -341,7 +341,6 @@ CyclePredictor::Group CyclePredictor::look_up(Count count) {
   Blocks blocks;
   BankCounts reads{};
   std::uint32_t most_reads = 0;
-  const bool decodes_after = parameters_.decode == spec::texture::Decode::kAfter;
   for (; count > 0; --count) {
     const CacheRequest& request = waiting_.front();
     const bool decoded = cache_.decodes_before() && spec::texture::is_compressed(request.format);
@@ -359,14 +358,14 @@ CyclePredictor::Group CyclePredictor::look_up(Count count) {
       turned_[line] = places[i].turned;
     }
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
-      const auto [line, first_word, words_each, odd_row] = places[i];
-      if (decodes_after) add_block(blocks, request, i);
+      const Place& at = places[i];
+      add_block(blocks, request, i);
       const auto end = missed.items.begin() + missed.count;
-      if (std::find(missed.items.begin(), end, line) != end) continue;
-      const bool turned = !decoded && turned_[line];
-      for (std::uint32_t word = first_word; word < first_word + words_each; ++word) {
-        if (!words.add(word_number(line, word))) continue;
-        most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(line, word, turned)]);
+      if (std::find(missed.items.begin(), end, at.line) != end) continue;
+      const bool turned = !decoded && turned_[at.line];
+      for (std::uint32_t word = at.word; word < at.word + at.words; ++word) {
+        if (!words.add(word_number(at.line, word))) continue;
+        most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(at.line, word, turned)]);
       }
     }
     waiting_.pop();

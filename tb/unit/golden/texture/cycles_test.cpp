@@ -686,6 +686,21 @@ TEST(Before, LinesOfOtherTexturesOvertakeBlocks) {
   EXPECT_EQ(cycles(p, quads), 141u + 17 + 20);
 }
 
+// Memory takes one line and holds the next one. Before these, two links of two lines, eight lines
+// of the MissQueue, two in its link, a group in the TagStage and two in its link.
+TEST(Before, LinksOfTheBlockFetcherHaveTwoEntries) {
+  Parameters p = wide();
+  p.cache_outstanding = 8;
+  const MemoryTiming memory{.latency = 1000, .outstanding = 1};
+  const auto stalls = [&](const Parameters& build, std::uint32_t n) {
+    Quads quads;
+    for (std::uint32_t line = 0; line < n; ++line) quads.push_back(Quad(4, memory_line(line)));
+    return predict(build, quads, memory).slots.miss_queue > 0;
+  };
+  EXPECT_FALSE(stalls(before(p), 2 + 2 * 2 + 8 + 2 + 1 + 2));
+  EXPECT_TRUE(stalls(before(p), 2 + 2 * 2 + 8 + 2 + 1 + 2 + 1));
+}
+
 TEST(Before, WordsAreThoseOfTheDecodedLine) {
   const auto passes = [&](const CacheRequest& request) {
     const Quads present = {{block(0)}, {block(1)}, {block(2)}, {block(3)}, {at(kLine)}, {kInvalid}};
@@ -729,6 +744,9 @@ TEST(Before, LimitsOfAGroupFollowFromDecodedLines) {
   EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(8, 7)}).slots.banks, 2u);
   EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(8, 6)}).slots.banks, 0u);
   EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(9, 7)}).slots.banks, 0u);
+  CacheRequest odd_row = block(8, 7);  // not turned
+  odd_row.turned = {true, true};
+  EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), odd_row}).slots.banks, 2u);
   // Lines of 128 sets.
   EXPECT_EQ(formed(p, {block(0, 0), block(128, 1), block(256, 2)}).slots.set, 2u);
   EXPECT_EQ(formed(p, {block(0, 0), block(128, 1), block(257, 2)}).slots.set, 0u);
