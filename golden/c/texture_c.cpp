@@ -154,9 +154,9 @@ int deburr_texture_fills(deburr_golden* golden, uint32_t* lines, size_t lines_si
       *count = 0;
       return;
     }
-    const auto& fills = h.golden->fills();
-    std::copy_n(fills.begin(), std::min(fills.size(), to.size()), to.data());
-    *count = static_cast<std::uint32_t>(fills.size());
+    const auto& fetched = h.golden->memory_lines();
+    std::copy_n(fetched.begin(), std::min(fetched.size(), to.size()), to.data());
+    *count = static_cast<std::uint32_t>(fetched.size());
   });
 }
 

@@ -10,6 +10,7 @@ namespace deburr::golden::texture {
 namespace {
 
 constexpr std::uint32_t kShiftRegisterStart = 0xACE1;
+constexpr std::size_t kDefaultCompressedLines = 16;
 
 }  // namespace
 
@@ -21,18 +22,42 @@ CachePredictor::CachePredictor(const spec::texture::Parameters& parameters)
   line_shift_ = std::countr_zero(line);
   set_mask_ = bytes / (line * ways_) - 1;
   tags_.resize(bytes / line);
+  if (parameters.decode == spec::texture::Decode::kBefore) {
+    const auto lines = static_cast<std::size_t>(parameters.cache_compressed_lines);
+    compressed_.resize(lines == 0 ? kDefaultCompressedLines : lines);
+  }
   reset();
 }
 
 void CachePredictor::invalidate() {
   std::fill(tags_.begin(), tags_.end(), Way{});
   any_ = false;
+  std::fill(compressed_.begin(), compressed_.end(), std::nullopt);
+  next_compressed_ = 0;
 }
 
 void CachePredictor::reset() {
   invalidate();
   time_ = 0;
   shift_register_ = kShiftRegisterStart;
+}
+
+CachePredictor::Fetch CachePredictor::fetch(std::uint32_t line) {
+  const std::uint32_t codec = line >> kCodecShift;
+  if (codec == 0) return {.memory_line = line};
+  const auto format = static_cast<std::size_t>(spec::texture::Format::kBc1) + codec - 1;
+  const std::uint32_t bytes = spec::texture::kFormatBlockBytes[format];
+  Fetch fetch{.memory_line = memory_line(line * bytes), .decoded = true};  // drops the codec
+  const auto found = std::find(compressed_.begin(), compressed_.end(), fetch.memory_line);
+  fetch.requested = found == compressed_.end();
+  if (fetch.requested) {
+    fetch.slot = static_cast<std::uint32_t>(next_compressed_);
+    compressed_[next_compressed_] = fetch.memory_line;
+    next_compressed_ = (next_compressed_ + 1) % compressed_.size();
+  } else {
+    fetch.slot = static_cast<std::uint32_t>(found - compressed_.begin());
+  }
+  return fetch;
 }
 
 bool CachePredictor::present(std::uint32_t line) const {

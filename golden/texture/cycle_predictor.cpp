@@ -55,6 +55,7 @@ Parameters resolved(Parameters p, const MemoryTiming& memory) {
         std::clamp<std::int64_t>((lines + 3) / 4 * 4, 8, spec::texture::kMostOutstanding));
   }
   if (p.cache_decoders == 0) p.cache_decoders = p.width == 1 ? 4 : 6;
+  if (p.cache_compressed_lines == 0) p.cache_compressed_lines = 16;
   return p;
 }
 
@@ -72,25 +73,19 @@ struct Distinct {
 // A group of 4 requests has up to 16 texels; a block has up to 4 words.
 using Lines = Distinct<std::uint32_t, 16>;
 using Blocks = Distinct<std::uint64_t, 16>;  // address and format
-using Words = Distinct<std::uint32_t, 64>;
+using Words = Distinct<std::uint64_t, 64>;   // line and word
 using BankCounts = std::array<std::uint8_t, spec::texture::kMostLineBanks *
                                                 spec::texture::kMostCacheLineBytes / kWordBytes>;
 
-// Words that a texel reads.
-std::uint32_t words_of(const CacheRequest& request) {
-  const std::uint32_t bytes =
-      spec::texture::kFormatBlockBytes[static_cast<std::size_t>(request.format)];
-  return bytes == 0 ? 1 : bytes / kWordBytes;
+std::uint64_t word_number(std::uint32_t line, std::uint32_t word) {
+  constexpr std::uint32_t kMostWords = spec::texture::kMostCacheLineBytes / kWordBytes;
+  return std::uint64_t{line} * kMostWords + word;
 }
 
 void add_block(Blocks& blocks, const CacheRequest& request, std::size_t texel) {
   if (!spec::texture::is_compressed(request.format)) return;
   blocks.add(std::uint64_t{request.addresses[texel]} << 8 |
              static_cast<std::uint64_t>(request.format));
-}
-
-bool turned_row(const CacheRequest& request, std::size_t texel) {
-  return request.turned[texel / 2];
 }
 
 }  // namespace
@@ -109,6 +104,8 @@ CyclePredictor::CyclePredictor(const Parameters& parameters, const MemoryTiming&
       transfer_(static_cast<Cycle>(transfer_of(parameters, memory))),
       beats_(static_cast<Cycle>(std::max(1, parameters.cache_line_bytes / kBeatBytes))) {
   fifo_.depth = static_cast<std::size_t>(parameters_.cache_fifo_depth);
+  if (cache_.decodes_before())
+    compressed_lines_.resize(static_cast<std::size_t>(parameters_.cache_compressed_lines));
 }
 
 void CyclePredictor::add(std::span<const CacheRequest> quad) {
@@ -133,7 +130,12 @@ void CyclePredictor::add(std::span<const CacheRequest> quad) {
 CyclePrediction CyclePredictor::finish() {
   while (!idle()) step();
   // The DataStage pushes in the next cycle, and the FilterPipeline pops in the one after it.
-  return {last_left_ + 2 + filter_latency(parameters_), requests_, groups_, lines_, slots_};
+  return {last_left_ + 2 + filter_latency(parameters_),
+          requests_,
+          groups_,
+          lines_,
+          memory_lines_,
+          slots_};
 }
 
 bool CyclePredictor::idle() const {
@@ -147,6 +149,7 @@ void CyclePredictor::step() {
   data_stalls_[cycle_ % 4] = data_stage();
   latency_fifo();
   memory_port();
+  if (cache_.decodes_before()) block_fetcher();
   miss_queue();
   tag_stalls_[cycle_ % 2] = tag_stage();
   if (width_ > 1) group_former();
@@ -222,13 +225,23 @@ void CyclePredictor::sample_walker() {
 
 // ---- groups -------------------------------------------------------------------------------------
 
-std::size_t CyclePredictor::bank_of(std::uint32_t address, bool turned) const {
+CyclePredictor::Place CyclePredictor::place(const CacheRequest& request, std::size_t texel) const {
+  const std::uint32_t address = request.addresses[texel];
+  const std::uint32_t line = cache_.line_of(request.format, address);
+  const bool blocks = spec::texture::is_compressed(request.format);
+  if (blocks && cache_.decodes_before()) return {.line = line, .word = request.inside[texel]};
+  const auto format = static_cast<std::size_t>(request.format);
+  return {.line = line,
+          .word = address % cache_.line_bytes() / kWordBytes,
+          .words = blocks ? spec::texture::kFormatBlockBytes[format] / kWordBytes : 1u,
+          .turned = request.turned[texel / 2]};
+}
+
+std::size_t CyclePredictor::bank_of(std::uint32_t line, std::uint32_t word, bool turned) const {
   const auto words = static_cast<std::uint32_t>(parameters_.cache_line_bytes / kWordBytes);
   const std::uint32_t half_tile = parameters_.cache_line_bytes == 32 ? 4 : 8;
-  const std::uint32_t word = (address / kWordBytes % words) ^ (turned ? half_tile : 0);
-  const std::uint32_t line_bank =
-      cache_.line_of(address) % static_cast<std::uint32_t>(parameters_.cache_line_banks);
-  return line_bank * words + word;
+  const std::uint32_t line_bank = line % static_cast<std::uint32_t>(parameters_.cache_line_banks);
+  return line_bank * words + (word ^ (turned ? half_tile : 0));
 }
 
 // Number of requests of the next group; `limit`: what ends it, or null.
@@ -238,24 +251,23 @@ CyclePredictor::Count CyclePredictor::longest_group(Cause& limit) {
   Words words;
   Blocks blocks;
   BankCounts reads{};
+  const bool decodes_after = parameters_.decode == spec::texture::Decode::kAfter;
   bool too_many_reads = false, too_many_in_a_set = false;
   const Count most = std::min(width_, buffered_);
   for (Count n = 0; n < most; ++n) {
     const Waiting& request = waiting_[grouped_ + n];
-    const std::uint32_t words_each = words_of(request);
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
-      const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
-      add_block(blocks, request, i);
-      for (std::uint32_t w = 0; w < words_each; ++w) {
-        const std::uint32_t word = address + w * kWordBytes;
-        if (!words.add(word / kWordBytes)) continue;
-        std::uint8_t& count = reads[bank_of(word, turned_row(request, i))];
+      const Place at = place(request, i);
+      if (decodes_after) add_block(blocks, request, i);
+      for (std::uint32_t word = at.word; word < at.word + at.words; ++word) {
+        if (!words.add(word_number(at.line, word))) continue;
+        std::uint8_t& count = reads[bank_of(at.line, word, at.turned)];
         too_many_reads |= ++count > parameters_.cache_bank_reads;
       }
-      if (!lines.add(line)) continue;
+      if (!lines.add(at.line)) continue;
       const auto in_set =
           std::count_if(lines.items.begin(), lines.items.begin() + lines.count,
-                        [&](auto one) { return (one ^ line) % cache_.sets() == 0; });
+                        [&](auto one) { return (one ^ at.line) % cache_.sets() == 0; });
       too_many_in_a_set |= in_set > parameters_.cache_ways;
     }
     if (n == 0) continue;  // the oldest request always leaves
@@ -331,25 +343,29 @@ CyclePredictor::Group CyclePredictor::look_up(Count count) {
   std::uint32_t most_reads = 0;
   for (; count > 0; --count) {
     const CacheRequest& request = waiting_.front();
-    const std::uint32_t words_each = words_of(request);
+    const bool decoded = cache_.decodes_before() && spec::texture::is_compressed(request.format);
+    std::array<Place, 4> places;
     Lines used;
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
-      const std::uint32_t line = cache_.line_of(request.addresses[i]);
+      places[i] = place(request, i);
+      const std::uint32_t line = places[i].line;
       if (!used.add(line) || cache_.lookup(line)) continue;
       missed.add(line);
-      fills_.push({line % static_cast<std::uint32_t>(parameters_.cache_line_banks), ~Cycle{0}});
+      fills_.push(
+          {line % static_cast<std::uint32_t>(parameters_.cache_line_banks), cache_.fetch(line)});
+      if (decoded) continue;
       if (line >= turned_.size()) turned_.resize(2 * std::size_t{line} + 1);
-      turned_[line] = turned_row(request, i);
+      turned_[line] = places[i].turned;
     }
     for (std::size_t i = 0; i < 4 && request.valid; ++i) {
-      const std::uint32_t address = request.addresses[i], line = cache_.line_of(address);
+      const Place& at = places[i];
       add_block(blocks, request, i);
       const auto end = missed.items.begin() + missed.count;
-      if (std::find(missed.items.begin(), end, line) != end) continue;
-      for (std::uint32_t w = 0; w < words_each; ++w) {
-        const std::uint32_t word = address + w * kWordBytes;
-        if (!words.add(word / kWordBytes)) continue;
-        most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(word, turned_[line])]);
+      if (std::find(missed.items.begin(), end, at.line) != end) continue;
+      const bool turned = !decoded && turned_[at.line];
+      for (std::uint32_t word = at.word; word < at.word + at.words; ++word) {
+        if (!words.add(word_number(at.line, word))) continue;
+        most_reads = std::max<std::uint32_t>(most_reads, ++reads[bank_of(at.line, word, turned)]);
       }
     }
     waiting_.pop();
@@ -394,10 +410,8 @@ void CyclePredictor::latency_fifo() {
 // A FillBuffer entry that is freed in this cycle is reserved in the next one.
 void CyclePredictor::miss_queue() {
   const auto entries = static_cast<std::uint64_t>(parameters_.cache_outstanding);
-  if (sent_ < queued_ && sent_ - used_before_ < entries && memory_requests_.can_push(cycle_)) {
-    memory_requests_.push(0);
-    ++sent_;
-  }
+  Link<std::uint64_t>& out = cache_.decodes_before() ? fetches_ : memory_requests_;
+  if (sent_ < queued_ && sent_ - used_before_ < entries && out.can_push(cycle_)) out.push(sent_++);
   if (misses_.can_pop() && queued_ - sent_ + misses_.tokens.front() <= entries)
     queued_ += misses_.pop(cycle_);
 }
@@ -405,7 +419,8 @@ void CyclePredictor::miss_queue() {
 // Beyond its limit of transactions, memory accepts a request at the time of the next response.
 void CyclePredictor::memory_port() {
   if (!memory_requests_.can_pop() || cycle_ < port_free_) return;
-  memory_requests_.pop(cycle_);
+  const std::uint64_t number = memory_requests_.pop(cycle_);
+  ++memory_lines_;
   while (!responses_.empty() && responses_.front() <= cycle_) responses_.pop();
   const bool held = responses_.size() >= static_cast<std::size_t>(memory_.outstanding);
   const Cycle accepted = held ? responses_.front() : cycle_;
@@ -414,7 +429,60 @@ void CyclePredictor::memory_port() {
   const Cycle response = first_byte_ + std::max(transfer_, Cycle{1}) - 1;
   responses_.push(response);
   last_beat_ = std::max(response, last_beat_) + beats_;
-  fills_[requested_++ - used_].arrived = last_beat_ + 1;
+  if (cache_.decodes_before()) {
+    arriving_.push({number, last_beat_ + 1});
+  } else {
+    fill(number).arrived = last_beat_ + 1;
+  }
+}
+
+// The MissQueue pops a response per cycle, so the link to it always has room.
+void CyclePredictor::block_fetcher() {
+  constexpr std::uint32_t kNone = ~0u;
+  const bool popped = !arriving_.empty() && arriving_.front().popped == cycle_;
+  const std::uint64_t response = popped ? arriving_.front().fill : 0;
+  const bool passed_on = popped && !fill(response).fetch.decoded;
+  std::uint32_t leaving = kNone;  // compressed line of the block that leaves the queue
+  if (decoding_.back() == 0 || !passed_on) {
+    if (decoding_.back() != 0) fill(decoding_.back() - 1).arrived = cycle_ + 1;
+    std::shift_right(decoding_.begin(), decoding_.end(), 1);
+    decoding_.front() = 0;
+    if (!waiting_blocks_.empty()) {
+      const std::uint32_t slot = fill(waiting_blocks_.front()).fetch.slot;
+      if (compressed_lines_[slot].written < cycle_) {
+        decoding_.front() = waiting_blocks_.front() + 1;
+        waiting_blocks_.pop();
+        --compressed_lines_[slot].blocks;
+        leaving = slot;
+      }
+    }
+  }
+  if (passed_on) {
+    fill(response).arrived = cycle_ + 1;
+  } else if (popped) {
+    compressed_lines_[fill(response).fetch.slot].written = cycle_;
+  }
+  if (popped) arriving_.pop();
+  if (fetches_.can_pop() && fetch_next(leaving)) fetches_.pop(cycle_);
+}
+
+// False: the oldest fill of the link has to wait.
+bool CyclePredictor::fetch_next(std::uint32_t leaving) {
+  const std::uint64_t number = fetches_.tokens.front();
+  const CachePredictor::Fetch& fetch = fill(number).fetch;
+  if (fetch.requested) {
+    if (!memory_requests_.can_push(cycle_)) return false;
+    // A block that waits for this entry needs the line that is in it now.
+    if (fetch.decoded && (compressed_lines_[fetch.slot].blocks > 0 || fetch.slot == leaving))
+      return false;
+    memory_requests_.push(number);
+  }
+  if (!fetch.decoded) return true;
+  CompressedLine& line = compressed_lines_[fetch.slot];
+  if (fetch.requested) line.written = ~Cycle{0};
+  ++line.blocks;
+  waiting_blocks_.push(number);
+  return true;
 }
 
 CyclePredictor::DataStall CyclePredictor::data_stage() {

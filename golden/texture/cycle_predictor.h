@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Predicts the cycles of the texture unit from the addresses of its requests: address unit, groups,
-// tags, miss queue, memory, latency FIFO, data banks, BlockDecoder.
+// tags, miss queue, BlockFetcher, memory, latency FIFO, data banks, BlockDecoder.
 //
 // Written from docs/reference/texture/hardware.md, cache.md, width.md and compressed.md, for every
-// width. It
-// assumes that quads are always available and colours always accepted. Memory has a fixed latency.
+// width. It assumes that quads are always available and colours always accepted. Memory has a fixed
+// latency.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct Slots {
 struct CyclePrediction {
   // From the cycle that pops the first quad to the first one that can pop the last colour.
   std::uint64_t cycles = 0;
-  std::uint64_t requests = 0, groups = 0, fills = 0;
+  std::uint64_t requests = 0, groups = 0, fills = 0, memory_lines = 0;
   Slots slots;
 };
 
@@ -121,7 +121,22 @@ class CyclePredictor {
   };
   struct Fill {  // a missed line
     std::uint32_t line_bank = 0;
+    CachePredictor::Fetch fetch{};
     Cycle arrived = ~Cycle{0};  // cycle in which the MissQueue writes its last beat
+  };
+  struct Response {
+    std::uint64_t fill = 0;  // number of the fill that requested it
+    Cycle popped = 0;        // by the BlockFetcher
+  };
+  struct CompressedLine {
+    Cycle written = ~Cycle{0};
+    std::uint32_t blocks = 0;  // that wait for the decoder
+  };
+  // Where a texel, or the first word of its block, is in the cache.
+  struct Place {
+    std::uint32_t line = 0, word = 0;  // word of the line
+    std::uint32_t words = 1;           // that the texel reads
+    bool turned = false;
   };
   enum class TagStall : std::uint8_t { kNone, kAllocate, kMissQueue, kFifo };
   enum class DataStall : std::uint8_t { kNone, kWaitFill, kWriteFill, kBankPass, kDownstream };
@@ -132,6 +147,8 @@ class CyclePredictor {
   DataStall data_stage();
   void latency_fifo();
   void memory_port();
+  void block_fetcher();
+  bool fetch_next(std::uint32_t leaving);
   void miss_queue();
   TagStall tag_stage();
   Group look_up(Count count);
@@ -142,17 +159,20 @@ class CyclePredictor {
   void derivative_unit();
   void advance(Registers& unit, Link<Count>& in, Link<Count>& out);
   bool idle() const;
-  // Number of a bank of words.
-  std::size_t bank_of(std::uint32_t address, bool turned) const;
+  Place place(const CacheRequest& request, std::size_t texel) const;
+  // Number of the bank of word `word` of a line.
+  std::size_t bank_of(std::uint32_t line, std::uint32_t word, bool turned) const;
+  Fill& fill(std::uint64_t number) { return fills_[number - used_]; }
 
   spec::texture::Parameters parameters_;
   MemoryTiming memory_;
   Count width_;
   CachePredictor cache_;
-  std::vector<bool> turned_;  // by line number; only those of present lines are read
+  // By number of a line that is not a decoded block; only those of present lines are read.
+  std::vector<bool> turned_;
 
   Cycle cycle_ = 0, last_left_ = 0;
-  std::uint64_t requests_ = 0, groups_ = 0, lines_ = 0;
+  std::uint64_t requests_ = 0, groups_ = 0, lines_ = 0, memory_lines_ = 0;
   Ring<Waiting> waiting_;  // all requests before the TagStage; tokens are numbers of them
 
   Ring<Count> source_;
@@ -173,13 +193,20 @@ class CyclePredictor {
   std::array<TagStall, 2> tag_stalls_{};    // by cycle mod 2
   std::array<DataStall, 4> data_stalls_{};  // by cycle mod 4
 
-  std::uint64_t queued_ = 0, sent_ = 0, requested_ = 0, used_ = 0, used_before_ = 0;  // lines
-  Link<std::uint8_t> memory_requests_;
-  Ring<Fill> fills_;                                               // not used yet
-  std::array<Cycle, spec::texture::kMostFillWrites> bank_used_{};  // by bank of the FillBuffer
+  std::uint64_t queued_ = 0, sent_ = 0, used_ = 0, used_before_ = 0;  // fills
+  Link<std::uint64_t> memory_requests_;                               // numbers of fills
+  Ring<Fill> fills_;                                                  // not used yet
+  std::array<Cycle, spec::texture::kMostFillWrites> bank_used_{};     // by bank of the FillBuffer
   Cycle transfer_ = 0, beats_ = 1;
   Cycle first_byte_ = 0, last_beat_ = 0, port_free_ = 0;
   Ring<Cycle> responses_;  // of the transactions in flight
+
+  // The BlockFetcher of decode = before. The decoder's registers hold numbers of fills + 1.
+  Link<std::uint64_t> fetches_;
+  Ring<Response> arriving_;
+  std::vector<CompressedLine> compressed_lines_;
+  Ring<std::uint64_t> waiting_blocks_;
+  std::array<std::uint64_t, 3> decoding_{};
 
   Count read_ = 0;  // stage 2 of the DataStage, only with a BlockDecoder: its cycles of the token
   Link<Count> blocks_;

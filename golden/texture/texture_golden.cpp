@@ -92,9 +92,9 @@ void TextureGolden::find_plain_levels(Texture& texture) const {
   }
 }
 
-bool TextureGolden::fails(std::uint32_t line) const {
-  return (std::uint64_t{line} + 1) * cache_.line_bytes() > memory_.size() ||
-         (error_ && error_(line));
+bool TextureGolden::fails(std::uint32_t memory_line) const {
+  return (std::uint64_t{memory_line} + 1) * cache_.line_bytes() > memory_.size() ||
+         (error_ && error_(memory_line));
 }
 
 void TextureGolden::reset() {
@@ -151,8 +151,6 @@ struct TextureGolden::NoTap {
   static constexpr bool kBlocks = false;
   void lane(int) {}
   void sample(int, std::int64_t, std::int64_t) {}
-  void request(int, const std::array<std::uint32_t, 4>&, std::array<bool, 2>,
-               spec::texture::Format) {}
   void fill(std::uint32_t) {}
   void invalid() {}
   void end() {}
@@ -174,11 +172,13 @@ struct TextureGolden::RequestTap {
     next.t = t;
   }
   void request(int level, const std::array<std::uint32_t, 4>& addresses, std::array<bool, 2> turned,
-               spec::texture::Format format) {
+               const std::array<std::uint8_t, 4>& inside, spec::texture::Format format) {
     next.level = level;
     next.addresses = addresses;
     if (on) requests->push_back(next);
-    if (all) all->push_back({.addresses = addresses, .turned = turned, .format = format});
+    if (all)
+      all->push_back(
+          {.addresses = addresses, .turned = turned, .inside = inside, .format = format});
   }
   void fill(std::uint32_t line) {
     if (on) requests->back().misses.push_back(line);
@@ -329,19 +329,22 @@ Channels TextureGolden::bilinear(const Texture& texture, int level, bool linear,
     if (spec::texture::is_compressed(descriptor.format)) row /= 4;
     return descriptor.layout == spec::texture::Layout::kLinear && row % 2 != 0;
   };
-  tap.request(level, addresses(), {turned(y.i0), turned(y.i1)}, descriptor.format);
-  if (predict_) predict(addresses(), tap);
+  const auto inside = [&] {
+    const auto at = [](std::int32_t column, std::int32_t row) {
+      return static_cast<std::uint8_t>(row % 4 * 4 + column % 4);
+    };
+    return std::array<std::uint8_t, 4>{at(x.i0, y.i0), at(x.i1, y.i0), at(x.i0, y.i1),
+                                       at(x.i1, y.i1)};
+  };
+  if constexpr (Tap::kBlocks) {
+    tap.request(level, addresses(), {turned(y.i0), turned(y.i1)},
+                texture.blocks ? inside() : std::array<std::uint8_t, 4>{}, descriptor.format);
+  }
+  if (predict_) predict(descriptor.format, addresses(), tap);
 
   const auto texels = [&] {
     if constexpr (Tap::kBlocks) {
-      if (texture.blocks) {
-        const auto inside = [](std::int32_t column, std::int32_t row) {
-          return static_cast<unsigned>(row % 4 * 4 + column % 4);
-        };
-        return read_blocks(
-            table, descriptor, addresses(),
-            {inside(x.i0, y.i0), inside(x.i1, y.i0), inside(x.i0, y.i1), inside(x.i1, y.i1)});
-      }
+      if (texture.blocks) return read_blocks(table, descriptor, addresses(), inside());
     }
     const bool common = table.plain && descriptor.format == spec::texture::Format::kRgba8;
     return common ? read_rgba8(memory_.data(), addresses())
@@ -360,42 +363,54 @@ std::array<Channels, 4> TextureGolden::read(const LevelTable& table, spec::textu
                                             const std::array<std::uint32_t, 4>& addresses) const {
   std::array<Channels, 4> texels;
   for (std::size_t i = 0; i < 4; ++i) {
-    const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
+    const bool readable = table.plain || !fails(cache_.memory_line(addresses[i]));
     const std::uint32_t word = readable ? word_of(format, memory_.data() + addresses[i]) : 0;
     texels[i] = decode_channels(format, word);
   }
   return texels;
 }
 
-std::array<Channels, 4> TextureGolden::read_blocks(const LevelTable& table,
-                                                   const spec::texture::Descriptor& descriptor,
-                                                   const std::array<std::uint32_t, 4>& addresses,
-                                                   const std::array<unsigned, 4>& inside) const {
+std::array<Channels, 4> TextureGolden::read_blocks(
+    const LevelTable& table, const spec::texture::Descriptor& descriptor,
+    const std::array<std::uint32_t, 4>& addresses,
+    const std::array<std::uint8_t, 4>& inside) const {
   constexpr std::array<std::uint8_t, 16> kZeroBlock{};
   const auto decoded =
       descriptor.srgb ? spec::texture::Format::kSrgb8A8 : spec::texture::Format::kRgba8;
   std::array<Channels, 4> texels;
   for (std::size_t i = 0; i < 4; ++i) {
-    const bool readable = table.plain || !fails(cache_.line_of(addresses[i]));
+    const bool readable = table.plain || !fails(cache_.memory_line(addresses[i]));
     const std::uint8_t* block = readable ? memory_.data() + addresses[i] : kZeroBlock.data();
     texels[i] = decode_channels(decoded, block_texel(descriptor.format, parameters_.bc, block,
-                                                     inside[i] % 4, inside[i] / 4));
+                                                     inside[i] % 4u, inside[i] / 4u));
   }
   return texels;
 }
 
 template <class Tap>
-void TextureGolden::predict(const std::array<std::uint32_t, 4>& addresses, Tap& tap) {
-  const std::array<std::uint32_t, 4> lines = {
-      cache_.line_of(addresses[0]), cache_.line_of(addresses[1]), cache_.line_of(addresses[2]),
-      cache_.line_of(addresses[3])};
-  cache_.request(lines, [this, &tap](std::uint32_t line) {
-    tap.fill(line);
-    ++work_.line_fills;
-    if (fails(line)) ++work_.memory_errors;
-    if (record_fills_) fills_.push_back(line);
-    if (fill_sink_) fill_sink_(line);
-  });
+void TextureGolden::predict(spec::texture::Format format,
+                            const std::array<std::uint32_t, 4>& addresses, Tap& tap) {
+  const auto line_of = [&](std::size_t texel) {
+    return Tap::kBlocks ? cache_.line_of(format, addresses[texel])
+                        : cache_.memory_line(addresses[texel]);
+  };
+  cache_.request({line_of(0), line_of(1), line_of(2), line_of(3)},
+                 [this, &tap](std::uint32_t line) {
+                   tap.fill(line);
+                   fill(line);
+                 });
+}
+
+void TextureGolden::fill(std::uint32_t line) {
+  ++work_.line_fills;
+  if (record_fills_) fills_.push_back(line);
+  if (fill_sink_) fill_sink_(line);
+  const CachePredictor::Fetch fetch = cache_.fetch(line);
+  if (!fetch.requested) return;
+  ++work_.memory_lines;
+  if (fails(fetch.memory_line)) ++work_.memory_errors;
+  if (record_fills_ && cache_.decodes_before()) memory_lines_.push_back(fetch.memory_line);
+  if (memory_line_sink_) memory_line_sink_(fetch.memory_line);
 }
 
 }  // namespace deburr::golden::texture

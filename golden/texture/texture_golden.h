@@ -36,8 +36,8 @@ struct FragmentAnalysis {
   LevelOfDetail lod;
 };
 
-// Work so far, named like the status registers. line_fills and memory_errors stay 0 with
-// Traffic::kIgnore.
+// Work so far, named like the status registers. line_fills, memory_lines and memory_errors stay 0
+// with Traffic::kIgnore.
 struct TextureWork {
   std::uint64_t fragments = 0;          // colours delivered
   std::uint64_t invalid_fragments = 0;  // those with an invalid descriptor, colour zero
@@ -47,8 +47,9 @@ struct TextureWork {
   std::uint64_t samples = 0;            // sum of N
   std::uint64_t bilinears = 0;          // requests to the cache: samples x (1 or 2)
   std::uint64_t line_fills = 0;
-  std::uint64_t memory_errors = 0;             // line fills with an error response
-  std::array<std::uint64_t, 17> by_samples{};  // valid fragments with N = i
+  std::uint64_t memory_lines = 0;   // requested from memory; line_fills unless decode = before
+  std::uint64_t memory_errors = 0;  // those with an error response
+  std::array<std::uint64_t, 17> by_samples{};                       // valid fragments with N = i
   std::array<std::uint64_t, spec::texture::kMaxLevels> by_level{};  // bilinear requests to level i
   friend bool operator==(const TextureWork&, const TextureWork&) = default;
 };
@@ -76,8 +77,9 @@ struct CacheRequest {
   std::array<std::uint32_t, 4> addresses{};
   // Texels 00, 10 and 01, 11: odd row, of texels or of blocks, of the layout `linear`.
   std::array<bool, 2> turned{};
-  bool valid = true;  // false: the descriptor is invalid, and no texel is read
-  bool last = false;  // of its fragment
+  std::array<std::uint8_t, 4> inside{};  // positions of the texels in their blocks, 4 y + x
+  bool valid = true;                     // false: the descriptor is invalid, and no texel is read
+  bool last = false;                     // of its fragment
   spec::texture::Format format = spec::texture::Format::kRgba8;
 };
 
@@ -116,15 +118,24 @@ class TextureGolden {
   void clear_work() { work_ = {}; }  // counters, as by the clear bit of CONTROL
 
   // Called with the line number of each fill, in order. Without a sink, fills are only counted.
-  using FillSink = std::function<void(std::uint32_t line)>;
-  void set_fill_sink(FillSink sink) { fill_sink_ = std::move(sink); }
-  // Stores every fill in fills(): 4 bytes per fill.
+  using LineSink = std::function<void(std::uint32_t line)>;
+  void set_fill_sink(LineSink sink) { fill_sink_ = std::move(sink); }
+  // Called with each line that is requested from memory (address / line bytes), in order. These are
+  // the fills, unless decode = before.
+  void set_memory_line_sink(LineSink sink) { memory_line_sink_ = std::move(sink); }
+  // Stores both in fills() and memory_lines(): 4 bytes per fill, up to 8 with decode = before.
   void record_fills(bool on) { record_fills_ = on; }
   const std::vector<std::uint32_t>& fills() const { return fills_; }
-  void clear_fills() { fills_.clear(); }
+  const std::vector<std::uint32_t>& memory_lines() const {
+    return cache_.decodes_before() ? memory_lines_ : fills_;
+  }
+  void clear_fills() {
+    fills_.clear();
+    memory_lines_.clear();
+  }
 
-  // Lines with an error response: their bytes read as zero, and each fill is counted. Lines that
-  // extend past the end of `memory` always have one.
+  // Memory lines with an error response: their bytes read as zero, and each response is counted.
+  // Lines that extend past the end of `memory` always have one.
   using LinePredicate = std::function<bool(std::uint32_t line)>;
   void set_error_lines(LinePredicate error);
   // As byte ranges [first, last).
@@ -176,10 +187,13 @@ class TextureGolden {
   std::array<Channels, 4> read_blocks(const LevelTable& table,
                                       const spec::texture::Descriptor& descriptor,
                                       const std::array<std::uint32_t, 4>& addresses,
-                                      const std::array<unsigned, 4>& inside) const;
+                                      const std::array<std::uint8_t, 4>& inside) const;
+  // Looks up the lines of a request.
   template <class Tap>
-  void predict(const std::array<std::uint32_t, 4>& addresses, Tap& tap);
-  bool fails(std::uint32_t line) const;
+  void predict(spec::texture::Format format, const std::array<std::uint32_t, 4>& addresses,
+               Tap& tap);
+  void fill(std::uint32_t line);
+  bool fails(std::uint32_t memory_line) const;
   void find_plain_levels(Texture& texture) const;
 
   spec::texture::Parameters parameters_;
@@ -188,9 +202,10 @@ class TextureGolden {
   CachePredictor cache_;
   std::array<Texture, spec::texture::kMaxTextures> textures_;
   TextureWork work_;
-  FillSink fill_sink_;
+  LineSink fill_sink_, memory_line_sink_;
   bool record_fills_ = false;
   std::vector<std::uint32_t> fills_;
+  std::vector<std::uint32_t> memory_lines_;  // only with decode = before
   LinePredicate error_;
 };
 

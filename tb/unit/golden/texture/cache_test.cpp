@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// CachePredictor: which lookups of a sequence hit, for each replacement policy.
+// CachePredictor: which lookups of a sequence hit, for each replacement policy, and which lines of
+// memory are requested with decode = before.
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "golden/texture/cache_predictor.h"
@@ -142,7 +144,91 @@ TEST(Cache, SupportsDirectMappedAndFullyAssociative) {
   EXPECT_EQ(full.sets(), 1u);
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_FALSE(full.lookup(line * 1000));
   for (std::uint32_t line = 0; line < 8; ++line) EXPECT_TRUE(full.lookup(line * 1000));
-  EXPECT_EQ(full.line_of(64 * 5 + 63), 5u);
+  EXPECT_EQ(full.memory_line(64 * 5 + 63), 5u);
+}
+
+// ---- decode = before ----------------------------------------------------------------------------
+
+spec::texture::Parameters before(int compressed_lines) {
+  spec::texture::Parameters p = geometry(16384, 64, 2);
+  p.decode = spec::texture::Decode::kBefore;
+  p.cache_compressed_lines = compressed_lines;
+  return p;
+}
+
+TEST(CacheBefore, LineOfABlockIsItsCodecAndItsNumber) {
+  using spec::texture::Format;
+  const CachePredictor cache(before(4));
+  EXPECT_EQ(cache.line_of(Format::kBc1, 0xFFFFFFF8), 0x3FFFFFFFu);
+  EXPECT_EQ(cache.line_of(Format::kBc3, 0xFFFFFFF0), 0x4FFFFFFFu);
+  EXPECT_EQ(cache.line_of(Format::kBc4, 0), 0x60000000u);
+  EXPECT_EQ(cache.line_of(Format::kBc5, 0x100), 0x80000010u);
+  EXPECT_EQ(cache.line_of(Format::kEtc2Rgb, 0x100), 0xA0000020u);
+  EXPECT_EQ(cache.line_of(Format::kEtc2RgbA1, 0), 0xC0000000u);
+  EXPECT_EQ(cache.line_of(Format::kEtc2Rgba8, 0x100), 0xE0000010u);
+  EXPECT_EQ(cache.line_of(Format::kL8, 0xFFFFFFFF), 0x03FFFFFFu);
+  EXPECT_EQ(cache.line_of(Format::kSrgb8A8, 0x100), 4u);
+  spec::texture::Parameters after = geometry(16384, 64, 2);
+  after.decode = spec::texture::Decode::kAfter;
+  EXPECT_EQ(CachePredictor(after).line_of(Format::kBc1, 0x108), 4u);
+}
+
+constexpr std::uint32_t kBc1 = 1u << 29, kBc3 = 2u << 29;
+
+// Fills of lines, each with its memory line and whether it is requested.
+void expect_fetches(CachePredictor& cache,
+                    const std::vector<std::tuple<std::uint32_t, std::uint32_t, bool>>& fills) {
+  for (std::size_t i = 0; i < fills.size(); ++i) {
+    const auto& [line, memory_line, requested] = fills[i];
+    const CachePredictor::Fetch fetch = cache.fetch(line);
+    EXPECT_EQ(fetch.memory_line, memory_line) << i;
+    EXPECT_EQ(fetch.requested, requested) << i;
+    EXPECT_EQ(fetch.decoded, line >= kBc1) << i;
+  }
+}
+
+TEST(CacheBefore, BlocksOfAMemoryLineRequestItOnce) {
+  CachePredictor cache(before(4));
+  expect_fetches(cache, {{kBc1 | 8, 1, true},
+                         {kBc1 | 15, 1, false},
+                         {kBc1 | 16, 2, true},
+                         {kBc3 | 4, 1, false},
+                         {kBc3 | 12, 3, true},
+                         {0xFFFFFFFF, 0x03FFFFFF, true},
+                         {kBc1 | 0x1FFFFFFF, 0x03FFFFFF, false}});
+}
+
+TEST(CacheBefore, OtherTexturesDoNotTouchTheCompressedLines) {
+  CachePredictor cache(before(4));
+  expect_fetches(cache, {{1, 1, true}, {kBc1 | 8, 1, true}, {1, 1, true}, {2, 2, true}});
+  for (std::uint32_t line = 10; line < 20; ++line) EXPECT_TRUE(cache.fetch(line).requested);
+  expect_fetches(cache, {{kBc1 | 9, 1, false}});
+}
+
+TEST(CacheBefore, ReplacesTheCompressedLineAllocatedFirst) {
+  for (const int lines : {4, 16, 64, 0}) {
+    const auto n = static_cast<std::uint32_t>(lines == 0 ? 16 : lines);
+    CachePredictor cache(before(lines));
+    for (std::uint32_t i = 0; i < n; ++i) EXPECT_TRUE(cache.fetch(kBc1 | 8 * i).requested);
+    for (std::uint32_t i = 0; i < n; ++i) EXPECT_FALSE(cache.fetch(kBc1 | 8 * i).requested);
+    EXPECT_FALSE(cache.fetch(kBc1).requested);         // a use does not make it younger
+    EXPECT_TRUE(cache.fetch(kBc1 | 8 * n).requested);  // replaces 0
+    for (std::uint32_t i = 1; i <= n; ++i) EXPECT_FALSE(cache.fetch(kBc1 | 8 * i).requested);
+    EXPECT_TRUE(cache.fetch(kBc1).requested);  // replaces 1
+    EXPECT_FALSE(cache.fetch(kBc1 | 16).requested);
+    EXPECT_TRUE(cache.fetch(kBc1 | 8).requested);  // replaces 2
+    EXPECT_TRUE(cache.fetch(kBc1 | 16).requested);
+  }
+}
+
+TEST(CacheBefore, InvalidationAndResetEmptyTheCompressedLines) {
+  CachePredictor cache(before(4));
+  for (const bool reset : {false, true}) {
+    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(cache.fetch(kBc1 | 8 * i).requested);
+    reset ? cache.reset() : cache.invalidate();
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_TRUE(cache.fetch(kBc1 | 8 * i).requested);
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_FALSE(cache.fetch(kBc1 | 8 * i).requested);
 }
 
 // The predictor throws the same message as check_build().

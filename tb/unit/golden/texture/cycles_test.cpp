@@ -2,7 +2,10 @@
 // Predicted cycles and slots of small cases that are counted by hand from
 // docs/reference/texture/cache.md, width.md and compressed.md. Preset paper: 17 cycles of address
 // unit, 8 of the filter.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 #include "golden/texture/cycle_predictor.h"
 #include "tb/unit/golden/texture/support.h"
@@ -568,12 +571,197 @@ TEST(Cycles, DecodersAreTheLastCause) {
   EXPECT_EQ(formed(p, {first, bc1(kLine + 32, 8, 8, 8)}).slots.decoders, 3u);
 }
 
+// ---- decode = before ----------------------------------------------------------------------------
+
+Parameters before(Parameters p, int compressed_lines = 0) {
+  p.decode = spec::texture::Decode::kBefore;
+  p.cache_compressed_lines = compressed_lines;
+  return p;
+}
+// Block `number` of bc1, all texels at position `inside`: eight blocks per memory line.
+CacheRequest block(std::uint32_t number, std::uint8_t inside = 0) {
+  CacheRequest request = bc1(8 * number, 8 * number, 8 * number, 8 * number);
+  request.inside.fill(inside);
+  return request;
+}
+CacheRequest memory_line(std::uint32_t line) { return block(8 * line); }
+
+TEST(Before, AMissTakesTheTimesOfTheTable) {
+  const Parameters p = before(narrow());
+  EXPECT_EQ(cycles(p, {{kInvalid}}), 30u);
+  for (const int latency : {1, 7, 100}) {
+    const MemoryTiming memory{.latency = latency};
+    const auto l = static_cast<unsigned>(latency);
+    EXPECT_EQ(cycles(p, {{block(3)}}, memory), 30u + 5 + l + 6);
+    EXPECT_EQ(cycles(p, {{at(0)}}, memory), 30u + 5 + l + 2);
+  }
+  for (const int width : {2, 4}) {
+    Parameters w = wide();
+    w.width = w.fragments = width;
+    EXPECT_EQ(cycles(before(w), {{block(3)}}), cycles(w, {{at(0)}}) + 6);
+    EXPECT_EQ(cycles(before(w), {{at(0)}}), cycles(w, {{at(0)}}) + 2);
+    EXPECT_EQ(cycles(before(w), {{kInvalid}}), cycles(w, {{kInvalid}}));
+  }
+}
+
+// The second block is in the FillBuffer in cycle 9 after its request, whatever the latency.
+TEST(Before, AMissOfAPresentMemoryLineTakesNoMemory) {
+  for (const CacheRequest& other :
+       {block(7), blocks(spec::texture::Format::kEtc2Rgba8, 0, 0, 0, 0)}) {
+    const Quads quads = joined({{block(0)}}, joined(repeated({}, 300), {{other}}));
+    const CyclePrediction prediction = predict(before(narrow()), quads);
+    EXPECT_EQ(prediction.cycles, 301u + 30 + 5 + 3);
+    EXPECT_EQ(prediction.fills, 2u);
+    EXPECT_EQ(prediction.memory_lines, 1u);
+  }
+  // A decoded line that is present takes neither.
+  const Quads hit = joined({{block(0)}}, joined(repeated({}, 300), {{block(0, 5)}}));
+  EXPECT_EQ(cycles(before(narrow()), hit), 301u + 30);
+}
+
+// Blocks of one memory line follow each other through the decoder; two lines also take the bus.
+TEST(Before, BlocksWaitForTheirMemoryLineAndEnterInOrder) {
+  const Parameters p = before(narrow());
+  const auto two = [](std::uint32_t a, std::uint32_t b) {
+    return Quads{{bc1(8 * a, 8 * b, 8 * a, 8 * b)}};
+  };
+  EXPECT_EQ(cycles(p, two(0, 1)), 141u + 1);
+  EXPECT_EQ(cycles(p, two(0, 8)), 141u + 1);
+  const MemoryTiming narrow_bus{.bytes_per_cycle = 16};
+  EXPECT_EQ(cycles(p, two(0, 1), narrow_bus), 141u + 3 + 1);
+  EXPECT_EQ(cycles(p, two(0, 8), narrow_bus), 141u + 3 + 4);
+  // Block 1 is ready while block 8 waits for its line.
+  const Quads three = {{block(0)}, {block(8)}, {block(1)}};
+  EXPECT_EQ(cycles(p, three, narrow_bus), 141u + 3 + 4 + 1);
+  EXPECT_EQ(predict(p, three).memory_lines, 2u);
+}
+
+// With four compressed lines, the fifth memory line replaces the first one, whose block enters the
+// decoder in cycle 8 + L. The BlockFetcher pops it in 9 + L instead of 8.
+TEST(Before, AMemoryLineInUseIsNotReplaced) {
+  Quads quads;
+  for (std::uint32_t line = 0; line < 4; ++line) quads.push_back({memory_line(line)});
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 3);
+  quads.push_back({memory_line(4)});
+  EXPECT_EQ(cycles(before(narrow(), 8), quads), 141u + 4);
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 5 + 100);
+  quads.push_back({memory_line(5)});
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 6 + 100);
+  // Another block of the first line waits for those of lines 1 to 3.
+  quads.erase(quads.begin() + 4, quads.end());
+  quads.push_back({block(1)});
+  quads.push_back({memory_line(4)});
+  EXPECT_EQ(cycles(before(narrow(), 8), quads), 141u + 5);
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 9 + 100);
+  // A line of another texture is requested at once; its response holds the decoder for a cycle. A
+  // present block needs no line.
+  quads.back() = {at(4 * kLine)};
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 5 + 1);
+  quads.back() = {block(2)};
+  EXPECT_EQ(cycles(before(narrow(), 4), quads), 141u + 5);
+}
+
+// The block is pushed in cycle 11 + L. A response for another texture that is passed on in this
+// cycle belongs to a request four cycles later.
+TEST(Before, ResponsesForOtherTexturesHavePriorityOverTheDecoder) {
+  const Parameters p = before(narrow());
+  for (int later = 1; later <= 6; ++later) {
+    const Quads one =
+        joined({{block(0)}}, joined(repeated({kInvalid}, later - 1), {{at(9 * kLine)}}));
+    EXPECT_EQ(cycles(p, one), 141u + static_cast<unsigned>(later) + (later == 4 ? 1 : 0)) << later;
+  }
+  const Quads three = joined(joined({{block(0)}}, repeated({kInvalid}, 3)), lines(9, 3, 1));
+  EXPECT_EQ(cycles(p, three), 141u + 6 + 3);
+  // The decoder stalls as a whole: the two blocks stay next to each other.
+  const Quads two_blocks =
+      joined(joined({{block(0)}, {block(1)}}, repeated({kInvalid}, 2)), lines(9, 3, 1));
+  EXPECT_EQ(cycles(p, two_blocks), 141u + 6 + 3);
+}
+
+// The block is in the last stage of the decoder in cycles 11 + L to 28 + L, while lines pass until
+// 27 + L. Those are in the FillBuffer before the older fill.
+TEST(Before, LinesOfOtherTexturesOvertakeBlocks) {
+  const Parameters p = before(narrow());
+  const Quads quads = joined({{block(0)}}, lines(9, 20, 1));
+  EXPECT_EQ(cycles(p, quads), 141u + 17 + 20);
+}
+
+// Memory takes one line and holds the next one. Before these, two links of two lines, eight lines
+// of the MissQueue, two in its link, a group in the TagStage and two in its link.
+TEST(Before, LinksOfTheBlockFetcherHaveTwoEntries) {
+  Parameters p = wide();
+  p.cache_outstanding = 8;
+  const MemoryTiming memory{.latency = 1000, .outstanding = 1};
+  const auto stalls = [&](const Parameters& build, std::uint32_t n) {
+    Quads quads;
+    for (std::uint32_t line = 0; line < n; ++line) quads.push_back(Quad(4, memory_line(line)));
+    return predict(build, quads, memory).slots.miss_queue > 0;
+  };
+  EXPECT_FALSE(stalls(before(p), 2 + 2 * 2 + 8 + 2 + 1 + 2));
+  EXPECT_TRUE(stalls(before(p), 2 + 2 * 2 + 8 + 2 + 1 + 2 + 1));
+}
+
+TEST(Before, WordsAreThoseOfTheDecodedLine) {
+  const auto passes = [&](const CacheRequest& request) {
+    const Quads present = {{block(0)}, {block(1)}, {block(2)}, {block(3)}, {at(kLine)}, {kInvalid}};
+    return cycles(before(narrow()), joined(present, {{request}})) -
+           cycles(before(narrow()), present);
+  };
+  const auto of = [](std::array<std::uint32_t, 4> numbers, std::array<std::uint8_t, 4> inside) {
+    CacheRequest request = bc1(8 * numbers[0], 8 * numbers[1], 8 * numbers[2], 8 * numbers[3]);
+    request.inside = inside;
+    return request;
+  };
+  EXPECT_EQ(passes(of({0, 1, 2, 3}, {15, 12, 3, 0})), 1u);
+  EXPECT_EQ(passes(of({0, 0, 0, 0}, {5, 6, 9, 10})), 1u);
+  EXPECT_EQ(passes(of({0, 1, 0, 1}, {7, 4, 7, 4})), 1u);
+  EXPECT_EQ(passes(of({0, 1, 2, 2}, {5, 5, 6, 5})), 3u);
+  EXPECT_EQ(passes(of({0, 1, 2, 3}, {9, 9, 9, 9})), 4u);
+  // Lines of odd rows of blocks are not turned.
+  for (const std::uint8_t word : {std::uint8_t{0}, std::uint8_t{8}}) {
+    CacheRequest odd_row = of({0, 0, 9, 9}, {0, 0, 0, 0}),
+                 second = of({0, 0, 9, 9}, {0, 0, word, word});
+    odd_row.turned = second.turned = {false, true};
+    const Quads first = {{odd_row}, {kInvalid}};
+    EXPECT_EQ(cycles(before(narrow()), joined(first, {{second}})) - cycles(before(narrow()), first),
+              word == 0 ? 2u : 1u);
+  }
+}
+
+TEST(Before, LimitsOfAGroupFollowFromDecodedLines) {
+  Parameters p = before(wide());
+  // Six blocks of a memory line are six lines, and there is no limit on blocks.
+  const CacheRequest four = bc1(0, 8, 16, 24), two_more = bc1(32, 40, 32, 40);
+  for (const int lookups : {4, 5, 6, 8}) {
+    p.cache_lookups = lookups;
+    p.cache_bank_reads = 2;
+    const Formed six = formed(p, {four, two_more});
+    EXPECT_EQ(six.groups, lookups < 6 ? 2u : 1u) << lookups;
+    EXPECT_EQ(six.slots.lookups, lookups < 6 ? 3u : 0u) << lookups;
+  }
+  EXPECT_EQ(formed(p, {four, bc1(32, 40, 48, 56)}).groups, 1u);
+  // Blocks 0, 4 and 8 are in one line bank of four.
+  EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(8, 7)}).slots.banks, 2u);
+  EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(8, 6)}).slots.banks, 0u);
+  EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), block(9, 7)}).slots.banks, 0u);
+  CacheRequest odd_row = block(8, 7);  // not turned
+  odd_row.turned = {true, true};
+  EXPECT_EQ(formed(p, {block(0, 7), block(4, 7), odd_row}).slots.banks, 2u);
+  // Lines of 128 sets.
+  EXPECT_EQ(formed(p, {block(0, 0), block(128, 1), block(256, 2)}).slots.set, 2u);
+  EXPECT_EQ(formed(p, {block(0, 0), block(128, 1), block(257, 2)}).slots.set, 0u);
+  // The codec is part of the number: line 0 of each format is in set 0.
+  EXPECT_EQ(formed(p, {block(0, 0), at(4), blocks(spec::texture::Format::kEtc2Rgba8, 0, 0, 0, 0)})
+                .slots.set,
+            2u);
+}
+
 // ---- whole frames -------------------------------------------------------------------------------
 
 // A plane of 128 x 128 pixels.
 struct Frame {
   std::vector<Quad> quads;
-  std::uint64_t fills = 0;
+  std::uint64_t fills = 0, memory_lines = 0;
   Frame(const Parameters& p, spec::texture::Format format) {
     spec::texture::Descriptor sampler;
     sampler.format = format;
@@ -586,25 +774,36 @@ struct Frame {
       golden.process(quad, quads.back());
     }
     fills = golden.work().line_fills;
+    memory_lines = golden.work().memory_lines;
   }
 };
 
 TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
   using spec::texture::Blend, spec::texture::Format;
-  for (const auto& [blend, format] : {std::pair{Blend::kSample, Format::kRgba8},
-                                      {Blend::kLevel, Format::kRgba8},
-                                      {Blend::kLevel, Format::kBc1},
-                                      {Blend::kSample, Format::kEtc2Rgba8}}) {
-    Parameters p = with_decoders({}, 0);
+  using spec::texture::Decode;
+  for (const auto& [blend, format, decode] :
+       {std::tuple{Blend::kSample, Format::kRgba8, Decode::kAfter},
+        {Blend::kLevel, Format::kRgba8, Decode::kBefore},
+        {Blend::kLevel, Format::kBc1, Decode::kAfter},
+        {Blend::kLevel, Format::kBc1, Decode::kBefore},
+        {Blend::kSample, Format::kEtc2Rgba8, Decode::kAfter},
+        {Blend::kSample, Format::kEtc2Rgba8, Decode::kBefore}}) {
+    Parameters p;
+    p.decode = decode;
     p.blend = blend;
     const Frame frame(p, format);
+    const bool fewer = decode == Decode::kBefore && format != Format::kRgba8;
+    EXPECT_EQ(frame.memory_lines < frame.fills, fewer);
     const CyclePrediction one = predict(p, frame.quads);
     EXPECT_EQ(one.fills, frame.fills);
+    EXPECT_EQ(one.memory_lines, frame.memory_lines);
     for (const int width : {2, 4}) {
-      Parameters w = with_decoders(wide(), 0);
+      Parameters w = wide();
+      w.decode = decode;
       w.width = w.fragments = width;
       const CyclePrediction prediction = predict(w, frame.quads);
       EXPECT_EQ(prediction.fills, frame.fills);
+      EXPECT_EQ(prediction.memory_lines, frame.memory_lines);
       EXPECT_EQ(prediction.requests, one.requests);
       EXPECT_EQ(prediction.slots.requests, one.requests);
       EXPECT_EQ(prediction.slots.all() % static_cast<unsigned>(width), 0u);
@@ -613,7 +812,8 @@ TEST(Cycles, FillsAndRequestsOfAFrameDoNotDependOnTheWidth) {
   }
 }
 
-// Flags of each request: which lines are turned, validity, and the last of its fragment.
+// Fields of each request: which lines are turned, positions in blocks, validity, and the last of
+// its fragment.
 TEST(Cycles, RequestsHaveTheRowsOfTheirTexelsAndTheEndOfTheirFragment) {
   const Parameters p = with_decoders(narrow(), 0);
   using spec::texture::Format, spec::texture::Layout;
@@ -639,6 +839,10 @@ TEST(Cycles, RequestsHaveTheRowsOfTheirTexelsAndTheEndOfTheirFragment) {
       EXPECT_EQ(requests[0].turned[0], layout == Layout::kLinear && row / side % 2 == 1);
       EXPECT_EQ(requests[0].turned[1], layout == Layout::kLinear && (row + 1) / side % 2 == 1);
       EXPECT_EQ(requests[0].format, format);
+      // Columns 63 and 0.
+      const int y = 4 * (row % 4), next_y = 4 * ((row + 1) % 4);
+      EXPECT_THAT(requests[0].inside, side == 4 ? testing::ElementsAre(y + 3, y, next_y + 3, next_y)
+                                                : testing::ElementsAre(0, 0, 0, 0));
       EXPECT_TRUE(requests[0].last && requests[1].last);
       quad.texture = 3;
       golden.process(quad, requests);

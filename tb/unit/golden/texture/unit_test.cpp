@@ -166,9 +166,13 @@ class RandomWork {
     p.blend = static_cast<spec::texture::Blend>(pick(0, 1));
     p.derivatives = static_cast<spec::texture::Derivatives>(pick(0, 1));
     p.bc = static_cast<spec::texture::BlockRule>(pick(0, 1));
-    p.decode = spec::texture::Decode::kAfter;
+    p.decode = pick(0, 1) == 0 ? spec::texture::Decode::kAfter : spec::texture::Decode::kBefore;
     p.cache_bytes = 1 << pick(10, 14);
     p.cache_line_bytes = 1 << pick(5, 7);
+    if (p.decode == spec::texture::Decode::kBefore) {
+      p.cache_line_bytes = 64;
+      p.cache_compressed_lines = 1 << pick(2, 6);
+    }
     p.cache_ways = 1 << pick(0, 3);
     p.cache_replacement = static_cast<spec::texture::Replacement>(pick(0, 1));
     return p;
@@ -217,6 +221,52 @@ bool same(const BilinearRequest& a, const BilinearRequest& b) {
          a.addresses == b.addresses && a.misses == b.misses;
 }
 
+// Plain lists of lines: fills of the cache, and lines requested from memory.
+struct PlainTraffic {
+  PlainCache cache;
+  std::size_t most_compressed;  // 0: blocks are not decoded before the cache
+  std::uint32_t line_bytes, codec, block_bytes;
+  std::vector<std::uint32_t> fills, memory_lines, compressed;
+
+  PlainTraffic(const spec::texture::Parameters& p, spec::texture::Format format)
+      : cache(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes / p.cache_ways),
+              static_cast<std::uint32_t>(p.cache_ways),
+              p.cache_replacement == spec::texture::Replacement::kLru),
+        most_compressed(p.decode == spec::texture::Decode::kBefore &&
+                                format >= spec::texture::Format::kBc1
+                            ? static_cast<std::size_t>(p.cache_compressed_lines)
+                            : 0),
+        line_bytes(static_cast<std::uint32_t>(p.cache_line_bytes)),
+        codec(static_cast<std::uint32_t>(format) - 4),
+        block_bytes(format == spec::texture::Format::kBc3 ||
+                            format == spec::texture::Format::kBc5 ||
+                            format == spec::texture::Format::kEtc2Rgba8
+                        ? 16
+                        : 8) {}
+
+  // Returns the line numbers that the request fills.
+  std::vector<std::uint32_t> request(const std::array<std::uint32_t, 4>& addresses) {
+    std::vector<std::uint32_t> seen, missed;
+    for (const std::uint32_t address : addresses) {
+      const std::uint32_t memory_line = address / line_bytes;
+      const std::uint32_t line =
+          most_compressed > 0 ? codec * 0x20000000 + address / block_bytes : memory_line;
+      if (std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
+      seen.push_back(line);
+      if (cache.lookup(line)) continue;
+      missed.push_back(line);
+      if (std::find(compressed.begin(), compressed.end(), memory_line) != compressed.end())
+        continue;
+      memory_lines.push_back(memory_line);
+      if (most_compressed == 0) continue;
+      compressed.push_back(memory_line);
+      if (compressed.size() > most_compressed) compressed.erase(compressed.begin());
+    }
+    fills.insert(fills.end(), missed.begin(), missed.end());
+    return missed;
+  }
+};
+
 // Runs random work on both models. Returns the number of differences in colours, requests, fills
 // and counters. `spoil` may change a colour of the golden model.
 int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>& spoil) {
@@ -230,9 +280,7 @@ int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>
   golden.set_texture(5, texture.descriptor);
   without_traffic.set_texture(5, texture.descriptor);
   golden.record_fills(true);
-  PlainCache cache(golden.cache().sets(), golden.cache().ways(),
-                   p.cache_replacement == spec::texture::Replacement::kLru);
-  std::vector<std::uint32_t> fills;
+  PlainTraffic traffic(p, sampler.format);
   std::uint64_t fragments = 0, bilinears = 0;
   int count = 0;
   for (std::uint32_t tag = 0; tag < 150; ++tag) {
@@ -248,16 +296,8 @@ int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>
       PlainResult expected = plain(p, texture.descriptor, texture.memory, quad, lane);
       ++fragments;
       bilinears += expected.requests.size();
-      for (BilinearRequest& request : expected.requests) {
-        std::vector<std::uint32_t> seen;
-        for (const std::uint32_t address : request.addresses) {
-          const auto line = address / static_cast<std::uint32_t>(p.cache_line_bytes);
-          if (std::find(seen.begin(), seen.end(), line) != seen.end()) continue;
-          seen.push_back(line);
-          if (!cache.lookup(line)) request.misses.push_back(line);
-        }
-        fills.insert(fills.end(), request.misses.begin(), request.misses.end());
-      }
+      for (BilinearRequest& request : expected.requests)
+        request.misses = traffic.request(request.addresses);
       if (lane == seen_lane) expected_requests = expected.requests;
       if (next == colours.end()) return count + 1;
       spec::texture::Colour colour = *next++;
@@ -271,8 +311,11 @@ int differences(unsigned seed, const std::function<void(spec::texture::Colour&)>
     if (next != colours.end()) ++count;
     if (!std::ranges::equal(requests, expected_requests, same)) ++count;
   }
-  if (golden.fills() != fills) ++count;
-  if (golden.work().line_fills != fills.size() || without_traffic.work().line_fills != 0) ++count;
+  if (golden.fills() != traffic.fills) ++count;
+  if (golden.memory_lines() != traffic.memory_lines) ++count;
+  if (golden.work().line_fills != traffic.fills.size()) ++count;
+  if (golden.work().memory_lines != traffic.memory_lines.size()) ++count;
+  if (without_traffic.work().line_fills != 0 || without_traffic.work().memory_lines != 0) ++count;
   if (golden.work().fragments != fragments) ++count;
   if (golden.work().bilinears != bilinears) ++count;
   return count;
@@ -337,6 +380,68 @@ TEST(TextureGolden, FillsGoToTheSinkAndRepeatAfterInvalidation) {
   EXPECT_TRUE(golden.fills().empty());
   golden.process(quad);
   EXPECT_EQ(golden.work().line_fills, 8u);  // the texture was kept
+}
+
+// Two textures at the same addresses, of 2 x 2 lines of blocks and of texels.
+TEST(TextureGolden, MemoryLinesAreInTheOrderOfTheFillsThatRequestThem) {
+  using spec::texture::Decode;
+  for (const Decode decode : {Decode::kAfter, Decode::kBefore}) {
+    spec::texture::Parameters p;
+    p.decode = decode;
+    std::vector<std::uint8_t> memory(4096);
+    TextureGolden golden(p, memory);
+    spec::texture::Descriptor sampler;
+    sampler.levels = 1;
+    sampler.base[0] = 1024;
+    sampler.mag_filter = spec::texture::MagFilter::kNearest;
+    sampler.layout = spec::texture::Layout::kLinear;  // a row of blocks is a line
+    sampler.format = spec::texture::Format::kBc1;
+    sampler.width = 32;
+    sampler.height = 16;
+    golden.set_texture(0, sampler);
+    sampler.format = spec::texture::Format::kRgba8;
+    sampler.width = 16;
+    golden.set_texture(1, sampler);
+    std::vector<std::uint32_t> filled, requested;
+    golden.set_fill_sink([&](std::uint32_t line) { filled.push_back(line); });
+    golden.set_memory_line_sink([&](std::uint32_t line) { requested.push_back(line); });
+    golden.record_fills(true);
+    const auto read = [&](std::uint8_t texture, double x, double y) {
+      spec::texture::Quad quad =
+          flat_quad((x + 0.5) / (texture == 0 ? 32 : 16), (y + 0.5) / 16, 0, 0);
+      quad.texture = texture;
+      golden.process(quad);
+    };
+    const auto read_all = [&] {
+      read(0, 5, 0);   // block (1, 0)
+      read(0, 4, 3);   // the same
+      read(0, 31, 3);  // block (7, 0)
+      read(1, 15, 1);  // row 1
+      read(0, 0, 4);   // block (0, 1), whose bytes are those of row 1
+      read(1, 0, 0);   // row 0
+    };
+    read_all();
+    using Lines = std::vector<std::uint32_t>;
+    const Lines memory_lines = decode == Decode::kAfter ? Lines{16, 17} : Lines{16, 17, 17, 16};
+    const std::uint32_t bc1 = 1u << 29 | 128;
+    EXPECT_EQ(golden.fills(),
+              decode == Decode::kAfter ? memory_lines : (Lines{bc1 + 1, bc1 + 7, 17, bc1 + 8, 16}));
+    EXPECT_EQ(golden.memory_lines(), memory_lines);
+    EXPECT_EQ(filled, golden.fills());
+    EXPECT_EQ(requested, memory_lines);
+    EXPECT_EQ(golden.work().line_fills, filled.size());
+    EXPECT_EQ(golden.work().memory_lines, memory_lines.size());
+    read_all();
+    EXPECT_EQ(golden.memory_lines(), memory_lines);
+    golden.invalidate_cache();
+    golden.clear_fills();
+    read_all();
+    EXPECT_EQ(golden.memory_lines(), memory_lines);
+    golden.reset();
+    EXPECT_TRUE(golden.memory_lines().empty());
+    read_all();
+    EXPECT_EQ(golden.memory_lines(), memory_lines);
+  }
 }
 
 TEST(TextureGolden, CountsClampedSaturatedAndMagnifiedFragments) {
@@ -551,9 +656,9 @@ TEST(TextureGolden, ErrorLinesReadAsZeroBytesAndEachFillCounts) {
 }
 
 // The texels of a block of zeros, which docs/reference/texture/compressed.md lists.
-TEST(TextureGolden, BlocksOfErrorLinesAreZeroBytes) {
+void expect_zero_blocks(spec::texture::Decode decode) {
   spec::texture::Parameters p;
-  p.decode = spec::texture::Decode::kAfter;
+  p.decode = decode;
   for (auto format = spec::texture::Format::kBc1; format <= spec::texture::Format::kEtc2Rgba8;
        format = static_cast<spec::texture::Format>(static_cast<int>(format) + 1)) {
     spec::texture::Descriptor sampler;
@@ -562,14 +667,56 @@ TEST(TextureGolden, BlocksOfErrorLinesAreZeroBytes) {
     TextureGolden golden(p, texture.memory);
     golden.set_texture(0, texture.descriptor);
     golden.set_error_ranges({{5, 6}});
-    const QuadColours colours = golden.process(flat_quad(0.5 / 32, 0.5 / 32, 0.5, 0.5));
     const std::array<std::uint8_t, 16> zero{};
     const std::uint32_t texel = block_texel(format, p.bc, zero.data(), 0, 0);
-    for (std::size_t c = 0; c < 4; ++c)
-      EXPECT_EQ(colours.colours[0].rgba[c], texel >> 8 * c & 255) << static_cast<int>(format);
-    EXPECT_NE(colours.colours[3].rgba, colours.colours[0].rgba) << static_cast<int>(format);
-    EXPECT_EQ(golden.work().memory_errors, 1u);
+    // Then block (1, 0), of the same line: one response. Then both again.
+    const spec::texture::Quad first = flat_quad(0.5 / 32, 0.5 / 32, 0.5, 0.5);
+    const spec::texture::Quad second = flat_quad(4.5 / 32, 0.5 / 32, 0.5, 0.5);
+    for (const std::uint64_t errors : {1u, 2u}) {
+      for (const auto& quad : {first, second}) {
+        const QuadColours colours = golden.process(quad);
+        for (std::size_t c = 0; c < 4; ++c)
+          EXPECT_EQ(colours.colours[0].rgba[c], texel >> 8 * c & 255) << static_cast<int>(format);
+        EXPECT_NE(colours.colours[3].rgba, colours.colours[0].rgba) << static_cast<int>(format);
+        EXPECT_EQ(golden.work().memory_errors, errors);
+      }
+      golden.invalidate_cache();
+    }
   }
+}
+TEST(TextureGolden, BlocksOfErrorLinesAreZeroBytes) {
+  expect_zero_blocks(spec::texture::Decode::kAfter);
+}
+TEST(TextureGolden, EveryBlockDecodedFromAnErrorLineIsZeroAndTheResponseCountsOnce) {
+  expect_zero_blocks(spec::texture::Decode::kBefore);
+}
+
+// Decoded lines outlive their memory line: only a response counts.
+TEST(TextureGolden, AReplacedErrorLineCountsAgain) {
+  spec::texture::Descriptor sampler;
+  sampler.format = spec::texture::Format::kBc1;
+  sampler.layout = spec::texture::Layout::kLinear;
+  const EncodedTexture texture = white(32, 32, sampler);  // a row of blocks is a line
+  spec::texture::Parameters p;
+  p.decode = spec::texture::Decode::kBefore;
+  p.cache_compressed_lines = 4;
+  TextureGolden golden(p, texture.memory);
+  golden.set_texture(0, texture.descriptor);
+  golden.set_error_lines([](std::uint32_t line) { return line == 0; });
+  const auto read = [&](int column, int row) {  // of blocks
+    return golden.process(flat_quad((4 * column + 0.5) / 32, (4 * row + 0.5) / 32, 0, 0))
+        .colours[0]
+        .rgba;
+  };
+  const tb::texture::Rgba black = {0, 0, 0, 255};
+  EXPECT_EQ(read(0, 0), black);
+  for (int row = 1; row <= 4; ++row) EXPECT_NE(read(0, row), black);
+  EXPECT_EQ(read(0, 0), black);
+  EXPECT_EQ(golden.work().memory_errors, 1u);
+  EXPECT_EQ(golden.work().memory_lines, 5u);
+  EXPECT_EQ(read(1, 0), black);
+  EXPECT_EQ(golden.work().memory_errors, 2u);
+  EXPECT_EQ(golden.work().memory_lines, 6u);
 }
 
 // The second address of a range is exclusive. The line at `first` has the bytes first to first +
