@@ -50,7 +50,7 @@ TextureGolden TextureChecks::make_model() const {
 
 void TextureChecks::listen() {
   if (used_ && !setup_.expectation)
-    golden_.set_fill_sink([this](std::uint32_t line) { expect_line(line); });
+    golden_.set_memory_line_sink([this](std::uint32_t line) { expect_line(line); });
 }
 
 void TextureChecks::begin(const Image& blank) {
@@ -133,13 +133,14 @@ void TextureChecks::check_figures(const rtl::texture::TextureUnit& unit,
   const golden::texture::TextureWork& expected = work();
   const rtl::texture::TextureCache& cache = unit.cache;
   figures.check(unit, cache.memory_port, memory);
-  for (const auto& [counter, value] : {std::pair(&cache.miss_queue.fill_bytes, memory.bytes_read()),
-                                       {&cache.tag_stage.requests, expected.bilinears},
-                                       {&cache.tag_stage.misses, expected.line_fills},
-                                       {&cache.data_stage.lines_written, expected.line_fills},
-                                       {&unit.address.level.magnified, expected.magnified},
-                                       {&unit.address.walker.samples, expected.samples},
-                                       {&unit.filter.fragments, expected.fragments}})
+  for (const auto& [counter, value] :
+       {std::pair(&cache.miss_queue.fill_bytes, expected.line_fills * golden_.cache().line_bytes()),
+        {&cache.tag_stage.requests, expected.bilinears},
+        {&cache.tag_stage.misses, expected.line_fills},
+        {&cache.data_stage.lines_written, expected.line_fills},
+        {&unit.address.level.magnified, expected.magnified},
+        {&unit.address.walker.samples, expected.samples},
+        {&unit.filter.fragments, expected.fragments}})
     figures.check(unit, *counter, value);
 }
 

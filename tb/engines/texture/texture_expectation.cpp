@@ -14,9 +14,9 @@ TextureExpectation expected_of(const TextureScene& scene,
   for (const spec::texture::Quad& quad : scene.stream().quads) {
     golden.process(quad,
                    [&](const spec::texture::Colour& colour) { all.colours.push_back(colour); });
-    all.totals.push_back({all.colours.size(), golden.fills().size()});
+    all.totals.push_back({all.colours.size(), golden.memory_lines().size()});
   }
-  all.fills = golden.fills();
+  all.fills = golden.memory_lines();
   all.work = golden.work();
   return all;
 }

@@ -20,7 +20,7 @@ struct TextureExpectation {
   };
   std::vector<Totals> totals;  // per quad
   std::vector<spec::texture::Colour> colours;
-  std::vector<std::uint32_t> fills;  // line numbers
+  std::vector<std::uint32_t> fills;  // lines that are requested from memory
   golden::texture::TextureWork work;
 };
 

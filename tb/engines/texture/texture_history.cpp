@@ -34,12 +34,16 @@ std::string words_text(const std::array<std::uint32_t, 4>& w) {
   return fmt::format("{:#x}, {:#x}, {:#x}, {:#x}", w[0], w[1], w[2], w[3]);
 }
 
-// Distinct lines of a request, in order of first use.
-std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_t line_bytes) {
+// Distinct lines of a request, in order of first use (docs/reference/texture/compressed.md, "Before
+// the cache").
+constexpr std::uint32_t kCodecShift = 29;
+std::vector<std::uint32_t> lines_of(const BilinearRequest& request, std::uint32_t line_bytes,
+                                    std::uint32_t codec) {
   std::vector<std::uint32_t> lines;
   for (const std::uint32_t address : request.addresses)
-    if (std::find(lines.begin(), lines.end(), address / line_bytes) == lines.end())
-      lines.push_back(address / line_bytes);
+    if (const std::uint32_t line = codec << kCodecShift | address / line_bytes;
+        std::find(lines.begin(), lines.end(), line) == lines.end())
+      lines.push_back(line);
   return lines;
 }
 
@@ -164,6 +168,13 @@ QuadColours TextureHistory::expect(const traces::TracedQuad& quad,
   Fragment& fragment = fragments_.back();
   fragment.golden = true;
   fragment.analysis = golden.analyse(quad.quad, fragment.lane);
+  if (fragment.analysis.valid && golden.parameters().decode == spec::texture::Decode::kBefore) {
+    const spec::texture::Format format = golden.texture(quad.quad.texture).format;
+    fragment.block_bytes = spec::texture::kFormatBlockBytes[static_cast<std::size_t>(format)];
+    if (fragment.block_bytes != 0)
+      fragment.codec = 1 + static_cast<std::uint32_t>(format) -
+                       static_cast<std::uint32_t>(spec::texture::Format::kBc1);
+  }
   const QuadColours colours = golden.process(quad.quad, fragment.lane, fragment.requests);
   for (const spec::texture::Colour& colour : colours)
     if (colour.lane == fragment.lane) fragment.colour = colour.rgba;
@@ -319,13 +330,15 @@ class TextureHistory::Writer {
     constexpr std::array<const char*, 3> kOutcomes = {"hit", "merged", "miss"};
     const std::vector<LookedUp> seen =
         i < f_.lookups.size() ? f_.lookups[i].first : std::vector<LookedUp>();
+    const std::uint32_t line_bytes = f_.block_bytes != 0 ? f_.block_bytes : from_.line_bytes_;
     const std::vector<std::uint32_t> expected =
-        golden ? lines_of(*golden, from_.line_bytes_) : std::vector<std::uint32_t>();
+        golden ? lines_of(*golden, line_bytes, f_.codec) : std::vector<std::uint32_t>();
     const auto misses = [&](std::size_t g) {
       return std::count(golden->misses.begin(), golden->misses.end(), expected[g]) > 0;
     };
-    const auto line_text = [this](std::uint32_t line, const char* outcome) {
-      return fmt::format("{:#x} {}", std::uint64_t{line} * from_.line_bytes_, outcome);
+    const auto line_text = [&](std::uint32_t line, const char* outcome) {
+      const std::uint64_t number = line - (f_.codec << kCodecShift);
+      return fmt::format("{:#x} {}", number * line_bytes, outcome);
     };
     history_.compare_records(
         expected.size(), seen.size(),

@@ -58,6 +58,8 @@ class TextureHistory {
     golden::texture::FragmentAnalysis analysis{};
     std::vector<golden::texture::BilinearRequest> requests{};
     std::array<std::uint8_t, 4> colour{};
+    // With decode = before lines are blocks: their bytes, and the number above their own.
+    std::uint32_t block_bytes = 0, codec = 0;
 
     std::optional<rtl::Cycle> taken{};
     Seen<rtl::texture::DerivativeToken> derivative{};

@@ -193,8 +193,8 @@ class Fields(CommandTest):
     def test_texture_fields_are_decoded(self):
         small, large = ("--size", "48x32"), ("--size", "48x32", "--scene", "quad", "--set", "scene.texture_size=8")
         runs = {f"texture0-{field}": small for field in (
-            "size-width", "size-height", "mode-format", "mode-layout", "mode-wrap-s", "mode-wrap-t", "mode-min-filter",
-            "mode-mag-filter", "mode-levels", "mode-max-count-log2", "lod-bias-bias", "lod-clamp-min-lod",
+            "size-width", "size-height", "mode-format", "mode-layout", "mode-srgb", "mode-wrap-s", "mode-wrap-t",
+            "mode-min-filter", "mode-mag-filter", "mode-levels", "mode-max-count-log2", "lod-bias-bias", "lod-clamp-min-lod",
             "lod-clamp-max-lod")}
         self.misdecode("texture", {**runs, "texture0-mode-mag-filter": large})
 
