@@ -149,7 +149,7 @@ class TextureUnit {
   }
   py::array fills() {
     return turn([](c::TextureHandle& h) {
-      return owned(h.golden ? std::vector<std::uint32_t>(h.golden->fills())
+      return owned(h.golden ? std::vector<std::uint32_t>(h.golden->memory_lines())
                             : std::vector<std::uint32_t>{});
     });
   }
