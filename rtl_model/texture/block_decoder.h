@@ -13,37 +13,27 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 #include <systemc>
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/fabric/pipe.h"
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/block_colours.h"
 #include "rtl_model/texture/tokens.h"
 #include "rtl_model/texture/width.h"
 #include "spec/texture/parameters.h"
 
 namespace deburr::rtl::texture {
 
-// What blocks are met: ends of colours and values of BC, modes of ETC2, and blocks with holes.
-inline constexpr std::array<std::string_view, 10> kBlockKindNames = {
-    "four_colours", "three_colours", "seven_steps", "five_steps",
-    "individual",   "differential",  "t",           "h",
-    "planar",       "holes"};
-
 // The part that does not depend on the width.
 class BlockDecoderBase : public Unit {
  public:
-  // Faults that tests inject: modes T and H exchanged; the bits of each selector exchanged; values
-  // with the steps of the other mode; the second texel in the block of the first; the second half
-  // of a block of 16 bytes from the previous request.
-  enum class Fault : std::uint8_t { kNone, kModes, kSelectors, kValues, kEdge, kHalf };
+  using Fault = BlockFault;
   Fault fault = Fault::kNone;
 
   In<BlockGroup> blocks_in{"blocks_in"};
   Counter blocks{"blocks", "blocks", "distinct blocks of requests decoded"};
-  // For coverage, no hardware: palettes made, by the names above.
-  std::array<std::uint64_t, kBlockKindNames.size()> kinds{};
+  BlockKinds kinds{};
 
  protected:
   using Unit::Unit;

@@ -36,6 +36,7 @@ std::vector<Datasheet> units(const spec::texture::Parameters& p) {
                                wide ? WideLatencyFifo::datasheet() : LatencyFifo::datasheet(),
                                wide ? WideDataStage::datasheet(p) : DataStage::datasheet(p),
                                FilterPipeline::datasheet(p), Descriptors::datasheet(p)});
+  if (has_fetcher(p)) sheets.push_back(BlockFetcher::datasheet(p));
   if (has_decoders(p))
     sheets.push_back(wide ? wide::BlockDecoder::datasheet(p) : BlockDecoder::datasheet(p));
   return sheets;
@@ -57,7 +58,7 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   walking = width > 1 ? 2 : 1;
   texels = 4 * width;
   offset = log2_of(p.cache_line_bytes);
-  line = 32 - offset;
+  line = line_bits(p);
   slot = log2_of(p.cache_bytes) - offset;
   set = slot - log2_of(p.cache_ways);
   tag = line - set;
@@ -80,8 +81,16 @@ std::string chosen(const char* parameter, std::string_view value) {
 std::string chosen(const char* parameter, std::uint64_t value) {
   return chosen(parameter, std::to_string(value));
 }
+std::string with_decode(const spec::texture::Build& p) {
+  return p.decode != spec::texture::Decode::kNone
+             ? ", " + chosen("decode", spec::texture::kDecodeNames, p.decode)
+             : "";
+}
 std::string with_decoders(const spec::texture::Build& p) {
-  return has_decoders(p) ? ", " + chosen("decode", spec::texture::kDecodeNames, p.decode) : "";
+  return has_decoders(p) ? with_decode(p) : "";
+}
+std::string with_blocks(const spec::texture::Build& p) {
+  return p.decode != spec::texture::Decode::kNone ? ", `decode = after` or `before`" : "";
 }
 std::string chosen_axes(const spec::texture::Parameters& p) {
   return p.axes == spec::texture::Axes::kTwo ? "`axes = two`" : "`axes = four` or `eight`";
@@ -147,7 +156,7 @@ std::vector<Datasheet> datasheets() {
   }
   Parameters narrow = preset_parameters(Preset::kDeburr),
              wide = preset_parameters(Preset::kDeburr, NamedBuild::kWide);
-  for (const Decode decode : {Decode::kNone, Decode::kAfter})
+  for (const Decode decode : {Decode::kNone, Decode::kAfter, Decode::kBefore})
     for (Parameters* const p : {&narrow, &wide}) {
       p->decode = decode;
       builds.push_back({TextureCache::datasheet(*p)});

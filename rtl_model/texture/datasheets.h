@@ -36,7 +36,10 @@ template <class Names, class Value>
 std::string chosen(const char* parameter, const Names& names, Value value) {
   return chosen(parameter, names[static_cast<std::size_t>(value)]);
 }
-std::string with_decoders(const spec::texture::Build& build);  // "", or ", `decode = after`"
+std::string with_decode(const spec::texture::Build& build);    // ", `decode = after`", "" if none
+std::string with_decoders(const spec::texture::Build& build);  // the same only with decoders
+std::string with_blocks(
+    const spec::texture::Build& build);  // "", or ", `decode = after` or `before`"
 std::string chosen_axes(const spec::texture::Parameters& parameters);
 std::string sets_text(const spec::texture::Parameters& parameters);  // "128 sets of 2 ways, ..."
 

@@ -18,7 +18,8 @@ namespace reg = spec::texture::reg;
 // Descriptor bits in the registers: SIZE, MODE, bias, limits, per level a base without its six zero
 // bits; and a valid bit. Formats of blocks and `srgb` take two bits more.
 std::uint32_t word_bits(const spec::texture::Build& p) {
-  return 26 + (has_decoders(p) ? 21 : 19) + 16 + 32 + spec::texture::kMaxLevels * 26 + 1;
+  return 26 + (p.decode != spec::texture::Decode::kNone ? 21 : 19) + 16 + 32 +
+         spec::texture::kMaxLevels * 26 + 1;
 }
 
 // Bits needed to number n > 0 things: lb n, rounded up.
@@ -133,7 +134,7 @@ TextureState decode(const ControlRegisters& registers, std::uint32_t handle,
                min_filter < spec::texture::kMinFilterNames.size() && max_count_log2 <= 4;
   const auto stored = static_cast<spec::texture::Format>(format);
   const bool compressed = spec::texture::is_compressed(stored), srgb = f::kSrgb.of(mode) != 0;
-  if (decoders != spec::texture::Decode::kAfter)
+  if (decoders == spec::texture::Decode::kNone)
     valid = valid && !compressed && !srgb;
   else
     valid = valid && (!srgb || spec::texture::may_be_srgb(stored));
@@ -196,7 +197,7 @@ void Descriptors::written(const ControlRegisters& registers, std::uint32_t offse
 
 Datasheet Descriptors::datasheet(const spec::texture::Build& p) {
   return {.unit = "Descriptors",
-          .variant = has_decoders(p) ? chosen("decode", spec::texture::kDecodeNames, p.decode) : "",
+          .variant = p.decode != spec::texture::Decode::kNone ? with_blocks(p).substr(2) : "",
           .does = "Stores 16 texture descriptors as in the registers.",
           .latency = {0, "0: flip-flops without output register"},
           .stages = {

@@ -19,6 +19,7 @@ GroupFormer::GroupFormer(const sc_core::sc_module_name& name, ClockDomain& clock
       reads_(static_cast<std::uint32_t>(p.cache_bank_reads)),
       ways_(static_cast<std::uint32_t>(p.cache_ways)),
       decoders_(rtl::texture::decoders(p)),
+      blocks_(has_fetcher(p)),
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))),
       set_mask_(static_cast<std::uint32_t>(p.cache_bytes / p.cache_line_bytes / p.cache_ways) - 1),
@@ -51,7 +52,7 @@ Activity GroupFormer::tick(Cycle cycle) {
 }
 
 // A word, and the number that selects its bank.
-inline void GroupFormer::add_word(std::uint32_t place, std::uint32_t word, Exceeded& exceeded) {
+inline void GroupFormer::add_word(std::uint32_t place, std::uint64_t word, Exceeded& exceeded) {
   Bank& bank = banks_[place & bank_mask_];
   if (bank.group != group_) {
     bank.group = group_;
@@ -69,7 +70,8 @@ inline void GroupFormer::add_word(std::uint32_t place, std::uint32_t word, Excee
 inline void GroupFormer::add(const Waiting& request, Lines& lines,
                              std::array<std::uint8_t, 4>& index, Exceeded& exceeded) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t address = request.address[i], line = address >> line_log2_;
+    const std::uint32_t line = request.line[request.request.index[i]],
+                        offset = request.request.offset[i];
     std::uint32_t at = 0;
     while (at < lines.count && lines.line[at] != line) ++at;
     index[i] = static_cast<std::uint8_t>(at);
@@ -82,7 +84,10 @@ inline void GroupFormer::add(const Waiting& request, Lines& lines,
       exceeded.lookups |= ++lines.count > lookups_;
     }
     // Of words, with the line turned as the row asks.
-    add_word((address ^ (request.turned[i >> 1] ? turn_ : 0)) >> 2, address >> 2, exceeded);
+    const std::uint64_t address = std::uint64_t{line} << line_log2_ | offset;
+    const std::uint32_t place =
+        static_cast<std::uint32_t>(address) ^ (request.turned[i >> 1] ? turn_ : 0);
+    add_word(place >> 2, address >> 2, exceeded);
   }
 }
 
@@ -225,6 +230,8 @@ inline void GroupFormer::enter(const TexelToken& token, Waiting& waiting) const 
     waiting.lines = 0;
     return;
   }
+  if (blocks_ && token.control.codec != 0) [[unlikely]]
+    return enter_blocks(token, waiting);
   waiting.turned = token.turned;
   waiting.address = token.address;
   const auto& address = token.address;
@@ -258,6 +265,23 @@ inline void GroupFormer::enter(const TexelToken& token, Waiting& waiting) const 
   request.index = {0, static_cast<std::uint8_t>(k1), static_cast<std::uint8_t>(k2),
                    static_cast<std::uint8_t>(k3)};
   waiting.lines = n;
+}
+
+// The same for lines of decoded blocks, which are not turned. From here on it is a request of
+// texels.
+void GroupFormer::enter_blocks(const TexelToken& token, Waiting& waiting) {
+  GroupRequest& request = waiting.request;
+  waiting.turned = {};
+  waiting.lines = waiting.blocks = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint32_t line = block_line(token.control, token.address[i]);
+    std::uint8_t k = 0;
+    while (k < waiting.lines && waiting.line[k] != line) ++k;
+    if (k == waiting.lines) waiting.line[waiting.lines++] = line;
+    request.index[i] = k;
+    request.offset[i] = byte_in_block_line(token.control, i);
+  }
+  request.control.codec = request.control.within = 0;
 }
 
 // Counts the slots of a cycle that began with `buffered` requests. Empty cycles are counted when
@@ -305,7 +329,7 @@ Datasheet GroupFormer::datasheet(const spec::texture::Parameters& p) {
   Datasheet sheet = {
       .unit = "GroupFormer",
       .variant =
-          chosen("width", z.width) + ", " + chosen("cache.lookups", z.lookups) + with_decoders(p),
+          chosen("width", z.width) + ", " + chosen("cache.lookups", z.lookups) + with_decode(p),
       .does = "Forms groups of requests that the ports of the cache serve in one pass.",
       .latency = {2, "2, from a request in the buffer that leaves at once"},
       .stages = {{.clock = "1",

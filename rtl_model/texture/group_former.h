@@ -61,7 +61,7 @@ class GroupFormer final : public Unit {
   struct Waiting {
     GroupRequest request;               // `index`: number of the line among `line`
     std::uint32_t lines;                // 1..4; 0: an invalid request
-    std::array<std::uint32_t, 4> line;  // U27
+    std::array<std::uint32_t, 4> line;  // U27 (decode = before: U32)
     std::array<std::uint32_t, 4> address;
     std::uint32_t blocks;  // different ones
     std::array<bool, 2> turned;
@@ -76,7 +76,7 @@ class GroupFormer final : public Unit {
   struct Bank {
     std::uint64_t group;
     std::uint32_t words;
-    std::array<std::uint32_t, spec::texture::kMostBankReads> word;
+    std::array<std::uint64_t, spec::texture::kMostBankReads> word;
   };
   // The oldest request may be one of four lines that exceeds every limit.
   static constexpr std::size_t kMostLines = spec::texture::kMostLookups + 4;
@@ -97,13 +97,15 @@ class GroupFormer final : public Unit {
   [[gnu::noinline]] std::uint32_t emit_within(std::uint32_t most, LineGroup& group);
   void add(const Waiting& request, Lines& lines, std::array<std::uint8_t, 4>& index,
            Exceeded& exceeded);
-  void add_word(std::uint32_t place, std::uint32_t word, Exceeded& exceeded);
+  void add_word(std::uint32_t place, std::uint64_t word, Exceeded& exceeded);
   [[gnu::noinline]] void add_blocks(const Waiting& request, Blocks& blocks, Exceeded& exceeded);
   void take(Cycle cycle);
   void enter(const TexelToken& token, Waiting& waiting) const;
+  [[gnu::noinline]] static void enter_blocks(const TexelToken& token, Waiting& waiting);
   void count(std::uint32_t emitted, std::uint32_t buffered, Cycle cycle);
 
   std::uint32_t width_, lookups_, reads_, ways_, decoders_;
+  bool blocks_;  // `decode = before`: lines of decoded blocks
   std::uint32_t line_log2_, turn_, set_mask_, bank_mask_;
   // For emit_all(): low bits of a line number that select a line bank and a set, and the lines that
   // may share them.

@@ -17,8 +17,9 @@ MissQueue::MissQueue(const sc_core::sc_module_name& name, ClockDomain& clock,
             static_cast<std::uint32_t>(p.cache_fill_writes)),
       registers_(registers),
       line_bytes_(static_cast<std::uint32_t>(p.cache_line_bytes)),
+      address_unit_(has_fetcher(p) ? 1 : line_bytes_),
       lines_("lines", {.words = static_cast<std::uint64_t>(p.cache_outstanding),
-                       .word_bits = 32 - log2_of(p.cache_line_bytes),
+                       .word_bits = line_bits(p),
                        .kind = MemoryKind::kFlops,
                        .read_ports = 1,
                        .write_ports = static_cast<std::uint32_t>(p.cache_lookups),
@@ -75,7 +76,7 @@ inline Activity MissQueue::issue(Cycle cycle) {
   if (!fills.can_reserve(cycle)) return fill_buffer_full_;
   if (!requests_out.can_push(cycle)) return kStalledDownstream;
   MemoryRequest& request = requests_out.emplace(cycle);
-  request.address = std::uint64_t{next_line_.now(cycle, head_)} * line_bytes_;
+  request.address = std::uint64_t{next_line_.now(cycle, head_)} * address_unit_;
   request.tag = fills.reserve(cycle);
   request.lines = static_cast<std::uint16_t>(std::max(line_bytes_ / kLineBytes, 1u));
   request.write = false;
@@ -110,19 +111,19 @@ void MissQueue::reset() {
 Datasheet MissQueue::datasheet(const spec::texture::Parameters& p) {
   const Sizes z(p);
   const auto entry = static_cast<std::uint32_t>(std::bit_width(z.outstanding - 1));
-  return {
-      .unit = "MissQueue",
-      .variant = std::to_string(z.outstanding) + " entries, " + chosen("cache.lookups", z.lookups),
-      .does = "Sends missed lines to memory and collects them in the fill buffer.",
-      .latency = {0, "-"},
-      .interval = {1, "one line per cycle in each direction"},
-      .stages = {
-          {.clock = "-",
-           .work = "line to send; its entry is held from issue until the line is used",
-           .operators = {(z.lookups + 2) * op::add(entry), op::add(entry + 1),
-                         op::compare(entry + 1), op::logic(40)},
-           .longest = {op::add(entry + 1), op::compare(entry + 1), op::mux(z.line, z.lookups)},
-           .registers = entry + entry + 1}}};
+  return {.unit = "MissQueue",
+          .variant = std::to_string(z.outstanding) + " entries, " +
+                     chosen("cache.lookups", z.lookups) + (has_fetcher(p) ? with_decode(p) : ""),
+          .does = "Sends missed lines to memory and collects them in the fill buffer.",
+          .latency = {0, "-"},
+          .interval = {1, "one line per cycle in each direction"},
+          .stages = {
+              {.clock = "-",
+               .work = "line to send; its entry is held from issue until the line is used",
+               .operators = {(z.lookups + 2) * op::add(entry), op::add(entry + 1),
+                             op::compare(entry + 1), op::logic(40)},
+               .longest = {op::add(entry + 1), op::compare(entry + 1), op::mux(z.line, z.lookups)},
+               .registers = entry + entry + 1}}};
 }
 
 }  // namespace deburr::rtl::texture

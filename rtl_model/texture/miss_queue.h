@@ -7,6 +7,8 @@
 // Stalls    fill_buffer_full  All entries are held.
 //           downstream        The memory port is not ready.
 //           wait_memory       Lines are in flight or held, and there is nothing else to do.
+// Blocks    With `decode = before` a BlockFetcher is between this unit and the MemoryPort: the
+//           address of a request is a line number, and no response has an error.
 // Errors    A line answered with an error reads as zero, is counted and sets a sticky status bit.
 // Source    Igehy et al., 1998.
 #pragma once
@@ -68,6 +70,7 @@ class MissQueue final : public Unit {
 
   ControlRegisters& registers_;
   std::uint32_t line_bytes_;
+  std::uint32_t address_unit_;   // `decode = before`: addresses are line numbers
   Memory<std::uint32_t> lines_;  // line numbers in a ring buffer
   ReadPort<std::uint32_t> next_line_{lines_, "issue"};
   std::vector<WritePort<std::uint32_t>> new_lines_;

@@ -11,6 +11,7 @@ namespace deburr::rtl::texture {
 TagStage::TagStage(const sc_core::sc_module_name& name, ClockDomain& clock,
                    const spec::texture::Parameters& p)
     : TagUnit(name, clock, p),
+      blocks_(has_fetcher(p)),
       line_log2_(log2_of(p.cache_line_bytes)),
       turn_(turn_bytes(static_cast<std::uint32_t>(p.cache_line_bytes))) {}
 
@@ -41,6 +42,8 @@ inline void TagStage::read_sets(Cycle cycle) {
   occupied_ = true;
   if (!r.token.ticket.valid) return;
   r.read_at = cycle;
+  if (blocks_ && r.token.control.codec != 0) [[unlikely]]
+    return read_sets_of_blocks(cycle);
   const auto& address = r.token.address;
   r.line[0] = address[0] >> line_log2_;
   tags_.read(cycle, 0, r.line[0]);
@@ -61,6 +64,24 @@ inline void TagStage::read_sets(Cycle cycle) {
   if (first1 == 1) tags_.read(cycle, 1, line1);
   if (first2 == 2) tags_.read(cycle, 2, line2);
   if (first3 == 3) tags_.read(cycle, 3, line3);
+}
+
+// The same for lines of decoded blocks, which are not turned. From here on it is a request of
+// texels.
+void TagStage::read_sets_of_blocks(Cycle cycle) {
+  Request& r = request_;
+  FilterControl& control = r.token.control;
+  r.one_line = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    r.line[i] = block_line(control, r.token.address[i]);
+    r.token.address[i] = byte_in_block_line(control, i);
+    std::uint8_t first = 0;
+    while (r.line[first] != r.line[i]) ++first;
+    r.first[i] = first;
+    if (first == i) tags_.read(cycle, i, r.line[i]);
+  }
+  r.token.turned = {};
+  control.codec = control.within = 0;
 }
 
 // Looks up one line of the request in stage 2.
@@ -147,13 +168,14 @@ Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
   const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
   const Operator way = op::mux(z.tag + 2, std::max(z.ways, 2U));
   return {.unit = "TagStage",
-          .variant = sets_text(p) + with_decoders(p),
+          .variant = sets_text(p) + with_decode(p),
           .does = "Looks up the lines of a request, allocates those that miss and requests them.",
           .latency = {2},
           .stages =
               {{.clock = "1",
                 .work = "distinct lines, read their sets",
-                .operators = {6 * op::equal(z.line), op::logic(30)},
+                .operators = {6 * op::equal(z.line), op::logic(30),
+                              (has_fetcher(p) ? 4 : 0) * op::mux(z.line, 3)},
                 .longest = {op::mux(z.set_word, z.sets)},
                 // The sets; the first texel in each one's line, and valid.
                 .registers = texel_bits(p) + kLookups * z.set_word + 1 + 2 + 2 + 1},

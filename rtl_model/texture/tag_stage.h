@@ -43,12 +43,13 @@ class TagStage final : public TagUnit {
   // A request after stage 1.
   struct Request {
     TexelToken token;
-    std::array<std::uint32_t, 4> line;  // U27
+    std::array<std::uint32_t, 4> line;  // U27 (decode = before: U32)
     std::array<std::uint8_t, 4> first;  // U2, first texel in the same line
     bool one_line;
     Cycle read_at;  // check only, no hardware: when its sets were read
   };
   void read_sets(Cycle cycle);
+  [[gnu::noinline]] void read_sets_of_blocks(Cycle cycle);
   bool would_miss() const;
   void look_up(Cycle cycle, CacheToken& out);
   struct Line {
@@ -59,6 +60,7 @@ class TagStage final : public TagUnit {
   [[gnu::noinline]] Line order(std::uint32_t line, std::size_t texel, CacheToken& out,
                                MissToken& missed);
 
+  bool blocks_;  // `decode = before`: lines of decoded blocks
   std::uint32_t line_log2_;
   std::uint32_t turn_;  // bytes
   // Registers.

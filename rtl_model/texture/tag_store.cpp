@@ -17,7 +17,7 @@ std::uint32_t sets_log2(const spec::texture::Parameters& p) {
 // Tag, valid bit and rotation bit per way; one bit per pair of ways.
 std::uint32_t set_bits(const spec::texture::Parameters& p) {
   const auto ways = static_cast<std::uint32_t>(p.cache_ways);
-  const std::uint32_t tag = 32 - log2_of(p.cache_line_bytes) - sets_log2(p);
+  const std::uint32_t tag = line_bits(p) - sets_log2(p);
   const bool ordered = p.cache_replacement != spec::texture::Replacement::kRandom;
   return ways * (tag + 2) + (ordered ? ways * (ways - 1) / 2 : 0);
 }

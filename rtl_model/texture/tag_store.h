@@ -75,7 +75,8 @@ class TagStore {
   void reset();
 
  private:
-  // Never matches, since a line number has at most 27 bits. Models the valid bit.
+  // Never matches: a line number has at most 27 bits, and no decoded block has 29 ones below its
+  // codec 7, whose blocks have 16 bytes. Models the valid bit.
   static constexpr std::uint32_t kInvalid = ~std::uint32_t{0};
   static constexpr std::uint16_t kRandomStart = 0xACE1;
   static constexpr std::size_t kMostPorts = spec::texture::kMostLookups;
@@ -91,7 +92,7 @@ class TagStore {
   Memory<void> memory_;
   Ports<ReadPort<void>> reads_;
   Ports<WritePort<void>> writes_;
-  std::vector<std::uint32_t> tags_;   // U27 and valid
+  std::vector<std::uint32_t> tags_;   // U27 (decode = before: U32) and valid
   std::vector<std::uint8_t> turned_;  // U1
   std::vector<std::uint8_t> age_;     // order of uses, 0: most recent; a permutation per set
   std::uint16_t random_ = kRandomStart;

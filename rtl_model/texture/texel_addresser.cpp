@@ -130,14 +130,14 @@ template <class Width>
 Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const bool wide = p.width > 1;
   // Ticket, weight, index and count, flags and format of a request, and valid.
-  const bool blocks = has_decoders(p);
+  const bool blocks = p.decode != spec::texture::Decode::kNone;
   const std::uint32_t kept = 40 + 9 + 2 * 4 + 2 + (blocks ? 5 : 3) + 1;
   // Size, layout, wrap modes and bases of the levels of a descriptor.
   constexpr std::uint32_t kDescriptor = 26 + 1 + 4 + spec::texture::kMaxLevels * 26;
   const std::uint32_t descriptors = wide ? 2 : 1, bases = descriptors * spec::texture::kMaxLevels;
   Datasheet sheet = {
       .unit = "TexelAddresser",
-      .variant = (wide ? "`width` above 1" : "`width = 1`") + with_decoders(p),
+      .variant = (wide ? "`width` above 1" : "`width = 1`") + with_blocks(p),
       .does = "Computes the addresses of a sample's four texels and its bilinear fractions.",
       .latency = {5},
       .stages = {{.clock = "1",

@@ -12,10 +12,14 @@ namespace {
 
 constexpr std::uint32_t kAddressBits = 32;
 
-// The tag is an index into the fill buffer.
-std::uint32_t tag_bits(const spec::texture::Parameters& p) {
+// Of an index into the fill buffer, which is the tag of a request of the MissQueue.
+std::uint32_t entry_bits(const spec::texture::Parameters& p) {
   return static_cast<std::uint32_t>(
       std::bit_width(static_cast<std::uint32_t>(p.cache_outstanding - 1)));
+}
+
+std::uint32_t tag_bits(const spec::texture::Parameters& p) {
+  return has_fetcher(p) ? BlockFetcher::tag_bits(p) : entry_bits(p);
 }
 
 MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
@@ -25,6 +29,16 @@ MemoryPortParameters port_parameters(const spec::texture::Parameters& p) {
   port.max_burst_lines = static_cast<std::uint32_t>(p.cache_line_bytes) / port.line_bytes;
   port.read_only = true;
   return port;
+}
+
+// Between MissQueue and BlockFetcher: numbers of lines, and lines without an address.
+PayloadShape line_shape(const spec::texture::Parameters& p) {
+  PayloadShape shape = request_shape(port_parameters(p), line_bits(p), entry_bits(p));
+  shape.widths.emplace_back("lines", 0);
+  return shape;
+}
+PayloadShape fill_shape(const spec::texture::Parameters& p) {
+  return response_shape(port_parameters(p), 0, entry_bits(p));
 }
 
 }  // namespace
@@ -79,6 +93,9 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
       data_stage(narrow ? static_cast<DataUnit&>(narrow->data_stage) : wide->data_stage),
       block_decoder(narrow ? static_cast<BlockDecoderBase*>(narrow->block_decoder.get())
                            : wide->block_decoder.get()),
+      block_fetcher(has_fetcher(p)
+                        ? std::make_unique<BlockFetcher>("block_fetcher", clock, p, registers)
+                        : nullptr),
       memory_port("memory_port", clock, port_parameters(p)),
       misses_("misses", 2, miss_shape(p)),
       memory_requests_("memory_requests", 2,
@@ -102,10 +119,21 @@ TextureCache::TextureCache(const sc_core::sc_module_name& name, ClockDomain& clo
     leave(*wide, groups_out);
   }
   miss_queue.misses_in(misses_);
-  miss_queue.requests_out(memory_requests_);
   memory_port.requests_in(memory_requests_);
   memory_port.responses_out(memory_responses_);
-  miss_queue.responses_in(memory_responses_);
+  if (block_fetcher) {
+    lines_ = std::make_unique<Link<MemoryRequest>>("lines", 2, line_shape(p));
+    fills_ = std::make_unique<Link<MemoryResponse>>("fills", 2, fill_shape(p));
+    miss_queue.requests_out(*lines_);
+    block_fetcher->lines_in(*lines_);
+    block_fetcher->requests_out(memory_requests_);
+    block_fetcher->responses_in(memory_responses_);
+    block_fetcher->fills_out(*fills_);
+    miss_queue.responses_in(*fills_);
+  } else {
+    miss_queue.requests_out(memory_requests_);
+    miss_queue.responses_in(memory_responses_);
+  }
 }
 
 Datasheet TextureCache::memory_port_datasheet(const spec::texture::Parameters& parameters) {

@@ -10,7 +10,8 @@
 //                       MemoryPort (TLM-2.0)
 //
 // With `decode = after`, a BlockDecoder follows the DataStage:
-// docs/reference/texture/compressed.md. Links with two entries connect its units; `line_used` is a
+// docs/reference/texture/compressed.md. With `decode = before`, a BlockFetcher is between MissQueue
+// and MemoryPort. Links with two entries connect its units; `line_used` is a
 // wire. Order of fills, merged misses: docs/reference/texture/cache.md. Wide      With a width
 // above 1 the units are those of Wide below, behind a GroupFormer, and the
 //           tokens are groups: docs/reference/texture/width.md.
@@ -26,6 +27,7 @@
 #include "rtl_model/fabric/memory_port.h"
 #include "rtl_model/fabric/wire.h"
 #include "rtl_model/texture/block_decoder.h"
+#include "rtl_model/texture/block_fetcher.h"
 #include "rtl_model/texture/data_stage.h"
 #include "rtl_model/texture/group_former.h"
 #include "rtl_model/texture/latency_fifo.h"
@@ -80,8 +82,18 @@ class TextureCache final : public sc_core::sc_module {
   const std::unique_ptr<Wide> wide;
   TagUnit& tag_stage;
   DataUnit& data_stage;
-  BlockDecoderBase* const block_decoder;  // nullptr without decoders
+  BlockDecoderBase* const block_decoder;              // nullptr without decoders
+  const std::unique_ptr<BlockFetcher> block_fetcher;  // with `decode = before`
   MemoryPort memory_port;
+
+  // Of the unit that receives the responses.
+  const Counter& memory_errors() const {
+    return block_fetcher ? block_fetcher->memory_errors : miss_queue.memory_errors;
+  }
+  void invalidate() {
+    tag_stage.invalidate();
+    if (block_fetcher) block_fetcher->invalidate();
+  }
 
   static Datasheet memory_port_datasheet(const spec::texture::Parameters& parameters);
   static Datasheet datasheet(const spec::texture::Build& build = {});
@@ -89,6 +101,9 @@ class TextureCache final : public sc_core::sc_module {
  private:
   Link<MissToken> misses_;
   std::unique_ptr<Link<BlockGroup>> blocks_;  // with decoders
+  // From the MissQueue and to it, with a BlockFetcher.
+  std::unique_ptr<Link<MemoryRequest>> lines_;
+  std::unique_ptr<Link<MemoryResponse>> fills_;
   Link<MemoryRequest> memory_requests_;
   Link<MemoryResponse> memory_responses_;
 };

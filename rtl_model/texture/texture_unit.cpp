@@ -68,13 +68,13 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
 
   namespace reg = spec::texture::reg;
   control.set_resets(spec::texture::loaded_registers(parameters_));
-  control.on_command(reg::kControlInvalidate, [this] { cache.tag_stage.invalidate(); });
+  control.on_command(reg::kControlInvalidate, [this] { cache.invalidate(); });
   control.show(reg::kFragments, filter.fragments);
   control.show(reg::kBilinears, address.addresser.bilinears);
   control.show(reg::kLineFills, cache.miss_queue.line_fills);
   control.show(reg::kClamped, address.derivative.clamped);
   control.show(reg::kSaturated, address.derivative.saturated);
-  control.show(reg::kMemoryErrors, cache.miss_queue.memory_errors);
+  control.show(reg::kMemoryErrors, cache.memory_errors());
   control.show(reg::kInvalidFragments, address.derivative.invalid);
   if (stand_ins) stand_ins_ = stand_ins(*this, probe_);
 }

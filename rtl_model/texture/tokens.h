@@ -128,7 +128,8 @@ struct FilterControl {
   bool last_of_sample;         // completes a sample (second level, or the only one); with
                                // `blend = level`: completes a level (last sample)
   bool last_of_fragment;       // completes a fragment
-  // Of texels in blocks, from the TexelAddresser to the BlockDecoder of a build with decoders.
+  // Of texels in blocks, from the TexelAddresser to the BlockDecoder, or with `decode = before` to
+  // the TagStage (GroupFormer), which makes lines of decoded texels from them.
   std::uint8_t codec = 0;   // codec_of() their format; 0: not in blocks
   std::uint8_t within = 0;  // columns x0, x1 and rows y0, y1 modulo 4, of 2 bits each
   template <class Self, class Visit>
@@ -165,6 +166,17 @@ constexpr std::uint32_t block_log2(std::uint8_t codec) {
 // Words of a block, or of a texel that is not in one.
 constexpr std::uint32_t word_count(std::uint8_t codec) {
   return codec == 0 ? 1 : 1U << (block_log2(codec) - 2);
+}
+
+// With `decode = before` a line of the cache is a decoded block: its number, and texel i in it.
+inline constexpr std::uint32_t kBlockLineBits = 29;  // of a number, below the codec
+constexpr std::uint32_t block_line(const FilterControl& control, std::uint32_t address) {
+  return std::uint32_t{control.codec} << kBlockLineBits | address >> block_log2(control.codec);
+}
+constexpr std::uint8_t byte_in_block_line(const FilterControl& control, std::size_t i) {
+  const std::uint32_t x = control.within >> 2 * (i % 2) & 3,
+                      y = control.within >> (4 + 2 * (i / 2)) & 3;
+  return static_cast<std::uint8_t>(4 * (4 * y + x));
 }
 
 // SampleWalker -> TexelAddresser: one bilinear request.
@@ -213,7 +225,7 @@ struct MissToken {
   std::uint8_t count;                                           // 1..4, in a wide build 1..L
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
-    visit("line", self.line, 27);
+    visit("line", self.line, 32);
     visit("count", self.count, 4);
   }
 };
@@ -311,7 +323,7 @@ struct LineGroup {
     visit("count", self.count, 3);
     visit("lines", self.lines, 4);
     visit("at", self.at);
-    visit("line", self.line, 27);
+    visit("line", self.line, 32);
     visit("turned", self.turned, 1);
   }
 };
@@ -421,6 +433,13 @@ inline std::uint32_t decoders(const spec::texture::Build& p) {
 inline bool has_decoders(const spec::texture::Build& p) {
   return p.decode == spec::texture::Decode::kAfter;
 }
+// Lines of memory in front of the decoder, of a build with a BlockFetcher.
+inline bool has_fetcher(const spec::texture::Build& p) {
+  return p.decode == spec::texture::Decode::kBefore;
+}
+inline std::uint32_t compressed_lines(const spec::texture::Build& p) {
+  return p.cache_compressed_lines != 0 ? static_cast<std::uint32_t>(p.cache_compressed_lines) : 16;
+}
 // Omits the fields of blocks from the control of the token `path`.
 inline PayloadShape without_blocks(PayloadShape shape = {}, const std::string& path = "") {
   shape.widths.emplace_back(path + "control.codec", 0);
@@ -429,7 +448,7 @@ inline PayloadShape without_blocks(PayloadShape shape = {}, const std::string& p
 }
 // TexelToken of a build, and TexelQuadToken of every build.
 inline PayloadShape texel_shape(const spec::texture::Build& p) {
-  return has_decoders(p) ? PayloadShape{} : without_blocks();
+  return p.decode != spec::texture::Decode::kNone ? PayloadShape{} : without_blocks();
 }
 inline std::uint32_t texel_bits(const spec::texture::Build& p) {
   return Payload::of<TexelToken>(texel_shape(p)).bits();
@@ -447,9 +466,13 @@ inline PayloadShape block_shape(const spec::texture::Build& p) {
 inline std::uint32_t log2_of(std::int32_t power_of_two) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(power_of_two)));
 }
+// Bits of a line number.
+inline std::uint32_t line_bits(const spec::texture::Build& p) {
+  return has_fetcher(p) ? 32 : 32 - log2_of(p.cache_line_bytes);
+}
 inline PayloadShape miss_shape(const spec::texture::Build& p) {
   const auto lines = static_cast<std::uint32_t>(p.cache_lookups);
-  return {.widths = {{"line", 32 - log2_of(p.cache_line_bytes)},
+  return {.widths = {{"line", line_bits(p)},
                      {"count", static_cast<std::uint32_t>(std::bit_width(lines))}},
           .counts = {{"line", lines}}};
 }
@@ -474,7 +497,7 @@ inline PayloadShape group_shape(const spec::texture::Build& p) {
 }
 inline PayloadShape line_group_shape(const spec::texture::Build& p) {
   PayloadShape shape = group_shape(p);
-  shape.widths.emplace_back("line", 32 - log2_of(p.cache_line_bytes));
+  shape.widths.emplace_back("line", line_bits(p));
   shape.counts.emplace_back("line", p.cache_lookups);
   return shape;
 }

@@ -172,7 +172,7 @@ Datasheet WideTagStage::datasheet(const spec::texture::Parameters& p) {
   return {
       .unit = "WideTagStage",
       .variant = sets_text(p) + ", " + chosen("cache.lookups", lines) + ", " +
-                 chosen("cache.allocations", z.allocations) + with_decoders(p),
+                 chosen("cache.allocations", z.allocations) + with_decode(p),
       .does = "Looks up the lines of a group, allocates those that miss and requests them.",
       .latency = {2},
       .interval = {1, "max(1, misses / `allocations`) cycles per group"},
