@@ -91,16 +91,18 @@ TEST(TextureCoverage, EveryBinIsHit) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "blocks.ktx2";
     std::ofstream(file, std::ios::binary) << stimuli::ktx2_file(texture);
     TextureRunOptions options;
+    options.texture.decode = spec::texture::Decode::kBefore;
+    SamplerParameters sampler;
+    sampler.format = format;
+    SceneParameters scene = picture("tunnel", 48);
+    scene.texture = file.string();
+    run(coverage, scene, sampler, options);
     options.texture.decode = spec::texture::Decode::kAfter;
     options.texture.width = options.texture.fragments = 4;
     options.texture.cache_lookups = 8;
     options.texture.cache_line_banks = options.texture.cache_fill_writes = 4;
     options.texture.cache_bank_reads = 2;
     options.texture.cache_decoders = 4;
-    SamplerParameters sampler;
-    sampler.format = format;
-    SceneParameters scene = picture("tunnel", 48);
-    scene.texture = file.string();
     run(coverage, scene, sampler, options);
   }
   EXPECT_GT(coverage.size(), 90u);

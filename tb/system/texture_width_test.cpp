@@ -115,16 +115,23 @@ TEST_P(Width, CyclesOfBlocksEqualPrediction) {
     Format format;
     Layout layout;
     std::int32_t decoders, line_bytes;
+    std::int32_t compressed_lines = 0;  // not 0: decoded before the cache
   };
   for (const Blocks& blocks : {Blocks{Format::kBc1, Layout::kTiled, 0, 64},
                                {Format::kBc3, Layout::kLinear, 4, 64},
                                {Format::kEtc2Rgba8, Layout::kTiled, build.width == 1 ? 1 : 5, 64},
-                               {Format::kBc4, Layout::kLinear, build.width == 1 ? 2 : 4, 32}}) {
+                               {Format::kBc4, Layout::kLinear, build.width == 1 ? 2 : 4, 32},
+                               {Format::kBc1, Layout::kLinear, 0, 64, 16},
+                               {Format::kBc5, Layout::kTiled, 0, 64, 4},
+                               {Format::kEtc2Rgb, Layout::kTiled, 0, 64, 64},
+                               {Format::kRgba8, Layout::kLinear, 0, 64, 8}}) {
     SCOPED_TRACE(std::string(spec::texture::kFormatNames[static_cast<std::size_t>(blocks.format)]));
     TextureRunOptions options;
     options.texture = parameters(build);
-    options.texture.decode = spec::texture::Decode::kAfter;
+    options.texture.decode = blocks.compressed_lines != 0 ? spec::texture::Decode::kBefore
+                                                          : spec::texture::Decode::kAfter;
     options.texture.cache_decoders = blocks.decoders;
+    options.texture.cache_compressed_lines = blocks.compressed_lines;
     options.texture.cache_line_bytes = blocks.line_bytes;
     options.texture.cache_bytes = 8192;
     SamplerParameters sampler;
