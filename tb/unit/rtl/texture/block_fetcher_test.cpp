@@ -217,7 +217,9 @@ void check_line_in_use(bool faulty) {
       EXPECT_EQ(fill_of(b.filled()), fill) << "the last one from the line that replaced its own";
     return;
   }
-  for (const Fill& fill : {Fill(0, 20), Fill(1, 30), Fill(2, 40), Fill(3, 50), Fill(4, 20)})
+  b.answer(tags[0], numbers(60));
+  for (const Fill& fill :
+       {Fill(0, 20), Fill(1, 30), Fill(2, 40), Fill(3, 50), Fill(4, 20), Fill(5, 60)})
     EXPECT_EQ(fill_of(b.filled()), fill);
   // The replaced line is absent, the others are present.
   b.ask(kBc4, 64, 6);
