@@ -205,7 +205,8 @@ inline Activity BlockFetcher::accept(Cycle cycle, const MemoryRequest& asked, bo
   } else {
     if (!requests_out.can_push(cycle)) return kStalledDownstream;
     uses_of_entered_ = uses_before_.now(cycle, next_);
-    if (uses_of_entered_ != 0 && !may_replace) return line_in_use_;
+    if (uses_of_entered_ != 0 && !(may_replace && arrived_.backdoor(next_) != 0))
+      return line_in_use_;
     line = next_;
     next_ = next_ + 1 == tags_.words() ? 0 : next_ + 1;
     tag_written_.write(cycle, line, memory_line);

@@ -334,7 +334,8 @@ Datasheet GroupFormer::datasheet(const spec::texture::Parameters& p) {
       .latency = {2, "2, from a request in the buffer that leaves at once"},
       .stages = {{.clock = "1",
                   .work = "requests into the buffer",
-                  .operators = {2 * op::add(4), op::compare(4)},
+                  .operators = {2 * op::add(4), op::compare(4),
+                                (has_fetcher(p) ? n : 0) * op::mux(z.line, 3)},
                   .longest = {op::add(4), op::mux(texel_bits(p) + 1, z.width)},
                   .registers = 2 * 4},
                  // Of each texel: is its line (its word) the first, how many of its kind come

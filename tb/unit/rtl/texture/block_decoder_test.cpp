@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tb/unit/rtl/datasheets.h"
-#include "tb/unit/rtl/texture/support.h"
+#include "tb/unit/rtl/texture/cache_bench.h"
 
 namespace deburr::tb::texture_rtl::block_decoder_test {
 namespace {
@@ -161,12 +161,18 @@ TEST(TextureRtlBlockDecoder, ResetForgetsARequestInPasses) {
   EXPECT_THAT(cycles_of(b.ends.sink), ElementsAre(begin + 1 + 3));
 }
 
+spec::texture::Parameters fetcher_build(BlockRule rule) {
+  spec::texture::Parameters p = with_fetcher(small_cache());
+  p.bc = rule;
+  return p;
+}
+
 // ---- Values -------------------------------------------------------------------------------------
 
 using Rgba = std::array<int, 4>;
 constexpr Rgba kHole = {0, 0, 0, 0};
 
-// A decoder of each rule.
+// A decoder of each rule. The BlockFetcher decodes the same block.
 class TextureRtlBlocks : public testing::Test {
  protected:
   // The sixteen texels of a block, row by row, of which four make a request.
@@ -201,9 +207,19 @@ class TextureRtlBlocks : public testing::Test {
         const std::size_t at = 4 * (q / 2 * 2 + i / 2) + q % 2 * 2 + i % 2;
         for (std::size_t c = 0; c < 4; ++c) texels[at][c] = static_cast<int>(word >> (8 * c) & 255);
       }
+    FetcherBench& fetcher = rule == BlockRule::kTruncated ? truncated_fetcher_ : rounded_fetcher_;
+    fetcher.unit.fault = fault;
+    fetcher.unit.invalidate();
+    fetcher.ask(format, 0, 0);
+    fetcher.answer(fetcher.asked().tag, bytes_of(halves));
+    const rtl::MemoryResponse line = fetcher.filled();
+    for (std::size_t i = 0; i < line.data.size() && fault < BlockFault::kEdge; ++i)
+      EXPECT_EQ(line.data[i], texels[i / 4][i % 4]) << "texel " << i / 4;
     return texels;
   }
 
+  FetcherBench truncated_fetcher_{fetcher_build(BlockRule::kTruncated), "fetcher_"},
+      rounded_fetcher_{fetcher_build(BlockRule::kRounded), "rounded_fetcher_"};
   Bench truncated_{build(4)}, rounded_{build(4, BlockRule::kRounded), "rounded_"};
 };
 Rgba opaque(int r, int g, int b) { return {r, g, b, 255}; }

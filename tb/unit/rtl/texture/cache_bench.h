@@ -137,6 +137,83 @@ struct CacheBench {
   platform::MemoryModel memory;
 };
 
+// ---- Decoded blocks in the cache
+inline spec::texture::Parameters with_fetcher(spec::texture::Parameters p, std::int32_t lines = 0) {
+  p.decode = spec::texture::Decode::kBefore;
+  p.cache_compressed_lines = lines;
+  return p;
+}
+inline rtl::Line bytes_of(const std::vector<std::uint64_t>& words) {
+  rtl::Line line{};
+  for (std::size_t i = 0; i < 8 * words.size(); ++i)
+    line[i] = static_cast<std::uint8_t>(words[i / 8] >> 8 * (i % 8));
+  return line;
+}
+
+// The BlockFetcher alone, with the test at all four sides.
+struct FetcherBench {
+  explicit FetcherBench(const spec::texture::Parameters& p = with_fetcher(small_cache()),
+                        const std::string& prefix = "")
+      : clock((prefix + "clock").c_str(), period()),
+        control((prefix + "registers").c_str(), rtl::texture::register_table(),
+                rtl::texture::control_layout()),
+        bus((prefix + "bus").c_str()),
+        lines((prefix + "lines").c_str()),
+        requests((prefix + "requests").c_str()),
+        responses((prefix + "responses").c_str()),
+        fills((prefix + "fills").c_str()),
+        unit((prefix + "fetcher").c_str(), clock, p, control) {
+    bus.bus.bind(control.registers.bus);
+    clock.on_reset([this] { control.reset(); });
+    unit.lines_in(lines);
+    unit.requests_out(requests);
+    unit.responses_in(responses);
+    unit.fills_out(fills);
+  }
+  static std::uint32_t number(spec::texture::Format format, std::uint32_t address) {
+    rtl::texture::FilterControl control{};
+    control.codec = rtl::texture::codec_of(format);
+    return rtl::texture::block_line(control, address);
+  }
+  // In this cycle: a fill of the block at an address, of a line of another texture, and a response.
+  void ask(spec::texture::Format format, std::uint32_t address, std::uint32_t entry) {
+    push(number(format, address), entry);
+  }
+  void ask(std::uint32_t address, std::uint32_t entry) { push(address / 64, entry); }
+  void answer(std::uint32_t tag, const rtl::Line& data = {},
+              rtl::MemoryStatus status = rtl::MemoryStatus::kOk) {
+    rtl::MemoryResponse response;
+    response.tag = tag;
+    response.data = data;
+    response.status = status;
+    responses.push(clock.cycle(), response);
+  }
+  // The oldest request, and the oldest fill, when it comes.
+  rtl::MemoryRequest asked() {
+    ready_at(clock, requests);
+    return requests.take(clock.cycle());
+  }
+  rtl::MemoryResponse filled() {
+    ready_at(clock, fills);
+    return fills.take(clock.cycle());
+  }
+
+  ClockDomain clock;
+  rtl::ControlRegisters control;
+  platform::RegisterHost bus;
+  Link<rtl::MemoryRequest> lines, requests;
+  Link<rtl::MemoryResponse> responses, fills;
+  rtl::texture::BlockFetcher unit;
+
+ private:
+  void push(std::uint32_t line, std::uint32_t entry) {
+    rtl::MemoryRequest request;
+    request.address = line;
+    request.tag = entry;
+    lines.push(clock.cycle(), request);
+  }
+};
+
 // ---- Wide builds
 // ---------------------------------------------------------------------------------
 
@@ -187,7 +264,7 @@ struct WideBench {
     std::vector<std::uint8_t> image(1 << 20);
     for (std::size_t i = 0; i < image.size(); ++i)
       image[i] = static_cast<std::uint8_t>(CacheBench::word(i & ~3ull) >> (8 * (i & 3)));
-    memory.preload(0, cache.block_decoder ? numbered_blocks() : image);
+    memory.preload(0, has_blocks() ? numbered_blocks() : image);
   }
   void add(const std::vector<rtl::texture::TexelToken>& requests, std::uint8_t partial = 0) {
     ends.source.add(token_of(requests, partial));
@@ -210,7 +287,7 @@ struct WideBench {
         ASSERT_LT(i, asked.size());
         const rtl::texture::TexelQuadToken& got = taken.token.at[n];
         EXPECT_EQ(got.ticket.tag, asked[i].ticket.tag) << i;
-        if (cache.block_decoder) {
+        if (has_blocks()) {
           EXPECT_EQ(got.texel, texels_of(asked[i])) << i;
           continue;
         }
@@ -221,6 +298,7 @@ struct WideBench {
       }
     EXPECT_EQ(i, asked.size());
   }
+  bool has_blocks() const { return cache.block_decoder || cache.block_fetcher; }
   const rtl::texture::GroupFormer& former() const { return cache.wide->group_former; }
 
   ClockDomain clock;

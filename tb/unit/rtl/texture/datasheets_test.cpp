@@ -12,7 +12,8 @@ namespace deburr::tb::texture_rtl::datasheets_test {
 namespace {
 
 TEST(TextureRtlDatasheets, MatchTheContract) {
-  const std::string decode = "`decode = after`",
+  const std::string decode = "`decode = after`", before = "`decode = before`",
+                    blocks = decode + " or `before`",
                     wide_data =
                         "WideDataStage, `width = 4`, 64 banks, `cache.bank_reads = 2`, "
                         "`cache.fill_writes = 4`";
@@ -43,10 +44,18 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"SampleWalker, `count = any`, " + four + ", `width = 4`", 4, 1},
        {"TexelAddresser, `width = 1`", 5, 1},
        {"TexelAddresser, `width` above 1", 5, 1},
-       {"TexelAddresser, `width = 1`, " + decode, 5, 1},
-       {"TexelAddresser, `width` above 1, " + decode, 5, 1},
+       {"TexelAddresser, `width = 1`, " + blocks, 5, 1},
+       {"TexelAddresser, `width` above 1, " + blocks, 5, 1},
        {"GroupFormer, `width = 4`, `cache.lookups = 8`", 2, 1},
        {"GroupFormer, `width = 4`, `cache.lookups = 8`, " + decode, 2, 1},
+       {"GroupFormer, `width = 4`, `cache.lookups = 8`, " + before, 2, 1},
+       {"TagStage, " + sets + ", " + before, 2, 1},
+       {"WideTagStage, " + sets + ", `cache.lookups = 8`, `cache.allocations = 4`, " + before, 2,
+        1},
+       {"MissQueue, 64 entries, `cache.lookups = 4`, " + before, 0, 1},
+       {"MissQueue, 128 entries, `cache.lookups = 8`, " + before, 0, 1},
+       {"BlockFetcher, `cache.compressed_lines = 16`, 64 entries, `bc = truncated`", 5, 1},
+       {"BlockFetcher, `cache.compressed_lines = 16`, 128 entries, `bc = truncated`", 5, 1},
        {"TagStage, " + sets, 2, 1},
        {"TagStage, " + sets + ", " + decode, 2, 1},
        {"WideTagStage, " + sets + ", `cache.lookups = 8`, `cache.allocations = 4`", 2, 1},
@@ -69,7 +78,7 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"FilterPipeline, `srgb_output = linear`, ROM `weights`, `width = 4`", 8, 1},
        {"FilterPipeline, `srgb_output = encoded`, ROM `weights`", 9, 1},
        {"Descriptors", 0, 1},
-       {"Descriptors, " + decode, 0, 1}});
+       {"Descriptors, " + blocks, 0, 1}});
 }
 
 TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
@@ -79,6 +88,12 @@ TEST(TextureRtlDatasheets, CoverEveryUnitOfPresetPaper) {
 TEST(TextureRtlDatasheets, CoverEveryUnitWithDecoders) {
   spec::texture::Parameters p;
   p.decode = spec::texture::Decode::kAfter;
+  const UnitBench b(p);
+  expect_datasheets(b.unit, rtl::texture::datasheets(p));
+}
+TEST(TextureRtlDatasheets, CoverEveryUnitWithFetcher) {
+  spec::texture::Parameters p;
+  p.decode = spec::texture::Decode::kBefore;
   const UnitBench b(p);
   expect_datasheets(b.unit, rtl::texture::datasheets(p));
 }

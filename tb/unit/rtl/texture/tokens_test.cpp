@@ -93,6 +93,7 @@ TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
   large.cache_bytes = 512 * 128;
   many.cache_line_bytes = 32;
   many.width = 4;
+  many.decode = spec::texture::Decode::kBefore;
   many.cache_lookups = spec::texture::kMostLookups;
   large.decode = spec::texture::Decode::kAfter;
   EXPECT_EQ(Payload::of<CacheToken>(cache_shape(large)).bits(), Payload::of<CacheToken>().bits());
