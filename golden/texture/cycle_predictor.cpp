@@ -48,6 +48,8 @@ Parameters resolved(Parameters p, const MemoryTiming& memory) {
   if (p.cache_fifo_depth == 0) {
     p.cache_fifo_depth = memory.latency + 4 * whole_transfer(p, memory) + 3;
     if (p.width > 1) p.cache_fifo_depth += 16;
+    if (p.decode == spec::texture::Decode::kBefore)
+      p.cache_fifo_depth += 6;  // its fills come later
   }
   if (p.cache_outstanding == 0) {
     const std::int64_t lines = (std::int64_t{32} * p.width * (memory.latency + 12) + 111) / 112;

@@ -56,9 +56,10 @@ class LatencyFifo final : public LatencyFifoOf<CacheToken> {
   static constexpr std::int32_t depth(const spec::texture::Build& build,
                                       const MemoryCycles& memory) {
     if (build.cache_fifo_depth != 0) return build.cache_fifo_depth;
-    constexpr std::int32_t kAroundMemory = 3, kSlackOfGroups = 16;
+    constexpr std::int32_t kAroundMemory = 3, kSlackOfGroups = 16, kBlockFetcher = 6;
     return std::min(memory.latency + 4 * memory.transfer + kAroundMemory +
-                        (build.width > 1 ? kSlackOfGroups : 0),
+                        (build.width > 1 ? kSlackOfGroups : 0) +
+                        (build.decode == spec::texture::Decode::kBefore ? kBlockFetcher : 0),
                     spec::texture::kMostFifoDepth);
   }
 
