@@ -151,10 +151,10 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
     coverage.hit(fmt::format("texture/decode/{}",
                              spec::texture::kDecodeNames[index(unit.parameters().decode)]),
                  compressed_);
-  if (unit.cache.block_decoder)
-    for (std::size_t kind = 0; kind < rtl::texture::kBlockKindNames.size(); ++kind)
-      coverage.hit(fmt::format("texture/block/{}", rtl::texture::kBlockKindNames[kind]),
-                   unit.cache.block_decoder->kinds[kind]);
+  for (std::size_t kind = 0; kind < rtl::texture::kBlockKindNames.size(); ++kind)
+    coverage.hit(fmt::format("texture/block/{}", rtl::texture::kBlockKindNames[kind]),
+                 (unit.cache.block_decoder ? unit.cache.block_decoder->kinds[kind] : 0) +
+                     (unit.cache.block_fetcher ? unit.cache.block_fetcher->kinds[kind] : 0));
   if (unit.cache.wide) {
     const GroupFormer& former = unit.cache.wide->group_former;
     for (const SlotBin& bin : kSlots)

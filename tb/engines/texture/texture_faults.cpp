@@ -53,6 +53,11 @@ std::vector<InjectedFault> TextureFaults::list() const {
       setup_.texture.decode != spec::texture::Decode::kAfter ? "texture.decode = after" : "";
   for (const DecoderFault& fault : kDecoderFaults)
     list.push_back({fault.name, fault.meaning, "", needs});
+  const std::string needs_before =
+      setup_.texture.decode != spec::texture::Decode::kBefore ? "texture.decode = before" : "";
+  list.push_back({"replaced-line",
+                  "A memory line is replaced while blocks wait for it, which get those of another.",
+                  "", needs_before});
   for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
 }
@@ -67,6 +72,8 @@ void TextureFaults::inject(rtl::texture::TextureUnit& unit) const {
   for (const DecoderFault& fault : kDecoderFaults)
     if (injected(fault.name) && unit.cache.block_decoder)
       unit.cache.block_decoder->fault = fault.fault;
+  if (injected("replaced-line") && unit.cache.block_fetcher)
+    unit.cache.block_fetcher->replaces_used_lines = true;
 }
 
 void TextureFaults::load(platform::TextureDriver& driver,

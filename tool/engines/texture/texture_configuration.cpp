@@ -81,7 +81,10 @@ void reject_unused_decoders(const tb::ParameterSet& set, const spec::texture::Pa
     set.reject("texture.bc", "it needs texture.decode = after or before");
 }
 
-void reject_unused_lookups(const tb::ParameterSet& set) {
+void reject_unused_lookups(const tb::ParameterSet& set, const spec::texture::Parameters& texture) {
+  if (texture.decode == spec::texture::Decode::kBefore)
+    set.reject("run.line_trace_lookups",
+               "decoded blocks (texture.decode = before) have no address");
   if (set.find("run.line_trace")->text() == "none")
     set.reject("run.line_trace_lookups", "it needs run.line_trace (--line-trace text)");
 }

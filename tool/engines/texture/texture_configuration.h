@@ -27,8 +27,9 @@ void reject_unsupported_format(const tb::SamplerParameters& sampler,
                                const spec::texture::Parameters& texture);
 // ConfigError for parameters of decoders that are not built.
 void reject_unused_decoders(const tb::ParameterSet& set, const spec::texture::Parameters& texture);
-// ConfigError if lookups are requested without a trace that could contain them.
-void reject_unused_lookups(const tb::ParameterSet& set);
+// ConfigError if lookups are requested without a trace that could contain them, or of lines without
+// an address.
+void reject_unused_lookups(const tb::ParameterSet& set, const spec::texture::Parameters& texture);
 // ConfigError if parameters for drawing a scene are given with a fragment file.
 void reject_unused_scene(const tb::ParameterSet& set);
 

@@ -80,7 +80,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);
     reject_unsupported_format(sampler_, texture_);
-    reject_unused_lookups(set);
+    reject_unused_lookups(set, texture_);
     reject_unused_decoders(set, texture_);
     counterpart_units_ = tb::counterpart_units(counterparts_.units);
     if (!counterpart_units_.empty()) {

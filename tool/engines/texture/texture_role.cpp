@@ -122,7 +122,7 @@ class TextureRole final : public PictureDrawer {
   void resolve(tb::ParameterSet& set) override {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
-    reject_unused_lookups(set);
+    reject_unused_lookups(set, texture_);
     reject_unused_decoders(set, texture_);
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);

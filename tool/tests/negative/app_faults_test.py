@@ -5,7 +5,9 @@ By default the link checkers are off, so that the scoreboards must find the faul
 import html
 import json
 import os
+import random
 import re
+import struct
 import unittest
 
 from app_support import CommandTest
@@ -133,6 +135,23 @@ class Faults(CommandTest):
         _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
                                "texture.cache.bytes=1024")
         self.assertGreater(result["checks"]["traffic_mismatches"], 0)
+
+    def test_catches_faults_of_blocks(self):
+        # KTX 1 of ETC2 RGB with random blocks, which have every mode: the encoder uses neither T nor H.
+        blocks = random.Random(1).randbytes(16 * 16 * 8)
+        modes = self.path("modes.ktx")
+        with open(modes, "wb") as file:
+            file.write(b"\xabKTX 11\xbb\r\n\x1a\n" + struct.pack(
+                "<14I", 0x04030201, 0, 1, 0, 0x9274, 0x1907, 64, 64, 0, 0, 1, 1, 0, len(blocks)) + blocks)
+        after, before = ("--set", "texture.decode=after"), ("--set", "texture.decode=before", "--set",
+                                                            "texture.cache.compressed_lines=4")
+        for name, form, *more in (("swapped-modes", "etc2_rgb", *after, "--texture", modes), ("swapped-selectors", "bc1", *after),
+                                  ("wrong-alpha-mode", "bc4", *after, "--texture", "stones"), ("wrong-edge-block", "bc1", *after),
+                                  ("late-half", "bc3", *after), ("replaced-line", "bc1", *before)):
+            with self.subTest(name):
+                self.fault(name, 1, "mismatch", *self.UNCHECKED, "--format", form, *more)
+        self.fault("late-half", 2, "needs texture.decode = after", *self.UNCHECKED)
+        self.fault("replaced-line", 2, "needs texture.decode = before", *self.UNCHECKED)
 
     def test_catches_fault_on_any_link(self):
         # The highest bit of the first texel's red.
