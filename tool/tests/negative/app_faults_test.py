@@ -145,9 +145,10 @@ class Faults(CommandTest):
                 "<14I", 0x04030201, 0, 1, 0, 0x9274, 0x1907, 64, 64, 0, 0, 1, 1, 0, len(blocks)) + blocks)
         after, before = ("--set", "texture.decode=after"), ("--set", "texture.decode=before", "--set",
                                                             "texture.cache.compressed_lines=4")
-        for name, form, *more in (("swapped-modes", "etc2_rgb", *after, "--texture", modes), ("swapped-selectors", "bc1", *after),
-                                  ("wrong-alpha-mode", "bc4", *after, "--texture", "stones"), ("wrong-edge-block", "bc1", *after),
-                                  ("late-half", "bc3", *after), ("replaced-line", "bc1", *before)):
+        for name, form, *more in (
+                ("swapped-modes", "etc2_rgb", *after, "--texture", modes), ("swapped-selectors", "bc1", *after),
+                ("wrong-alpha-mode", "bc4", *after, "--texture", "stones"), ("wrong-edge-block", "bc1", *after),
+                ("late-half", "bc3", *after), ("replaced-line", "bc1", *before)):
             with self.subTest(name):
                 self.fault(name, 1, "mismatch", *self.UNCHECKED, "--format", form, *more)
         self.fault("late-half", 2, "needs texture.decode = after", *self.UNCHECKED)
