@@ -200,11 +200,10 @@ std::array<Stage, 2> stages(BlockRule rule, const char* first, const char* secon
                  fifth = op::multiply_constant(11, signed_digits(3277) - 1),
                  seventh = op::multiply_constant(11, signed_digits(9363) - 1),
                  widen = op::multiply_constant(6, signed_digits(527));
-  // End points or fields of the mode (57 bits), modifiers (28), mode, selectors; of two blocks of
-  // values the ends, order and selectors; of the alpha its modifiers and multiplier.
-  constexpr std::uint32_t kFields = 57 + 28 + 5 + 32 + 2 * (16 + 1 + 48) + 40 + 4 + 3;
-  // Colours, or the planes; values; selectors; mode and format.
-  constexpr std::uint32_t kPalette = 8 * 24 + 2 * 64 + 32 + 2 * 48 + 8;
+  // End points or fields of the mode (57 bits), modifiers (28), mode; of two blocks of values the
+  // ends and their order, of the alpha its modifiers and multiplier; format. Selectors of the
+  // texels stay in the block.
+  constexpr std::uint32_t kFields = 57 + 28 + 5 + 2 * (16 + 1) + 40 + 4 + 3 + 128;
   return {
       {{.clock = first,
         .work = "mode, end points and fields of each block",
@@ -214,16 +213,21 @@ std::array<Stage, 2> stages(BlockRule rule, const char* first, const char* secon
         .longest = {chosen, op::add(6), op::priority(4), op::mux(57, 6)},
         .registers = kFields},
        {.clock = second,
-        .work = "colours and values that the texels of each block select",
-        // BC: thirds and halves; ETC2: eight colours with modifiers; BC: six steps of two
-        // blocks of values; alpha of ETC2; planes.
-        .operators = {6 * op::add(10), 6 * third, 3 * op::add(9), 24 * op::mux(8, 3),
-                      24 * op::add(9), 24 * op::logic(kClamp), 4 * 6 * op::add(11), 2 * 6 * seventh,
-                      2 * 4 * fifth, 2 * 6 * op::mux(8, 3), 8 * op::multiply(5, 4), 8 * op::add(10),
-                      8 * op::logic(kClamp), 6 * op::subtract(9), op::mux(8 * 24, 3),
-                      op::mux(64, 2)},
-        .longest = {2 * op::add(11), seventh, op::mux(8, 3), op::mux(64, 2)},
-        .registers = kPalette}}};
+        .work = "what the texels of each block are summed of",
+        // BC: a third of each channel's difference, a seventh and a fifth of two values'
+        // differences; ETC2: two colours and their modifiers, planes; alpha of ETC2.
+        .operators = {3 * op::subtract(9), 3 * third, 2 * op::subtract(9), 2 * seventh, 2 * fifth,
+                      2 * op::mux(11, 2), 6 * op::subtract(9), 4 * op::multiply(4, 4),
+                      op::mux(kSummandBits - 32, 3)},
+        .longest = {op::subtract(9), seventh, op::mux(11, 2), op::mux(kSummandBits - 32, 3)},
+        .registers = kSummandBits + 128}}};
+}
+
+// Of a texel: its selectors, the summands that they choose, and three colours and alpha of them.
+std::vector<Operator> of_texels(std::uint32_t texels) {
+  return {texels * op::mux(8, 16),      3 * texels * op::mux(9, 4), 2 * texels * op::mux(11, 8),
+          2 * 3 * texels * op::add(11), 2 * texels * op::add(11),   4 * texels * op::logic(kClamp),
+          texels * op::mux(32, 3)};
 }
 
 }  // namespace deburr::rtl::texture::block_colours

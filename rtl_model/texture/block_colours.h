@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "rtl_model/fabric/datasheet.h"
 #include "rtl_model/texture/tokens.h"
@@ -127,6 +128,11 @@ inline std::uint32_t select(const Palette& from, const Selectors& s, Format form
   return packed(colour[0], colour[1], colour[2], has_alpha ? value : 255);
 }
 
+// What the texels of a block are summed of: two ends and a step of each channel (26 bits), planes
+// (54), modifiers (32), ends and steps of two values or alpha (38), mode, format.
+inline constexpr std::uint32_t kSummandBits = 3 * 26 + 54 + 32 + 2 * 38 + 8;
+// Operators that make texels of the summands of their blocks.
+std::vector<Operator> of_texels(std::uint32_t texels);
 // Stages 1 and 2 of a datasheet, for one block. `chosen` selects the block.
 std::array<Stage, 2> stages(BlockRule rule, const char* first, const char* second,
                             const Operator& chosen);

@@ -110,20 +110,15 @@ Datasheet BlockDecoderOf<Width>::datasheet(const spec::texture::Parameters& p) {
       .per = "block",
       // Two stages of the requests; of a request in passes its texels so far, and the pass.
       .shared_registers = 2 * request + (passes > 1 ? 4 * 32 + 2 : 0)};
-  // Of each texel: its selectors, its colour and values, the plane at it, and what it is made of.
+  // Each texel chooses the summands and selectors of its block.
   const std::uint32_t n = z.texels;
-  sheet.stages.push_back({.clock = "3",
-                          .work = "selects texels",
-                          .longest = {op::mux(78, d), op::add(10), 2 * op::add(11),
-                                      op::logic(block_colours::kClamp), op::mux(32, 5)}});
-  sheet.shared = {n * op::mux(9, 16 * d),
-                  n * op::mux(24, 8 * d),
-                  n * op::mux(16, 8 * d),
-                  n * op::mux(78, d),
-                  6 * n * op::add(10),
-                  6 * n * op::add(11),
-                  3 * n * op::logic(block_colours::kClamp),
-                  n * op::mux(32, 5)};
+  sheet.stages.push_back(
+      {.clock = "3",
+       .work = "selects and sums texels",
+       .longest = {op::mux(block_colours::kSummandBits, d), op::mux(9, 4), 2 * op::add(11),
+                   op::logic(block_colours::kClamp), op::mux(32, 3)}});
+  sheet.shared = block_colours::of_texels(n);
+  sheet.shared.push_back(n * op::mux(block_colours::kSummandBits + 64, d));
   return sheet;
 }
 

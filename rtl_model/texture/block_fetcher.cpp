@@ -280,11 +280,9 @@ Datasheet BlockFetcher::datasheet(const spec::texture::Parameters& parameters) {
                      colours,
                      {.clock = "5",
                       .work = "sixteen texels",
-                      .operators = {n * op::mux(24, 8), n * op::mux(16, 8), 6 * n * op::add(10),
-                                    6 * n * op::add(11), 3 * n * op::logic(block_colours::kClamp),
-                                    n * op::mux(32, 5)},
-                      .longest = {op::mux(24, 8), op::add(10), 2 * op::add(11),
-                                  op::logic(block_colours::kClamp), op::mux(32, 5)}}},
+                      .operators = block_colours::of_texels(n),
+                      .longest = {op::mux(9, 4), 2 * op::add(11), op::logic(block_colours::kClamp),
+                                  op::mux(32, 3)}}},
           .formats = "blocks of 8 or 16 bytes, texels of four channels U8.0."};
 }
 
