@@ -182,6 +182,7 @@ TEST(Estimate, MappedRowCountsForItsParametersOnly) {
   std::map<std::string, Json, std::less<>> given = {{"texture.width", 1},
                                                     {"texture.blend", "sample"},
                                                     {"texture.derivatives", "fine"},
+                                                    {"texture.decode", "none"},
                                                     {"texture.cache.line_bytes", 64},
                                                     {"texture.cache.outstanding", 64}};
   const auto basis = [&] {
