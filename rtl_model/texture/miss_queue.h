@@ -43,7 +43,7 @@ class MissQueue final : public Unit {
 
   FillBuffer fills;
 
-  Counter line_fills{"line_fills", "lines", "cache lines requested from memory"};
+  Counter line_fills{"line_fills", "lines", "lines that the cache requested"};
   Counter fill_bytes{"fill_bytes", "bytes", "bytes of the lines requested"};
   Counter memory_errors{"memory_errors", "lines", "line fills answered with an error"};
   Counter max_waiting{"max_waiting", "lines", "largest number of lines waiting to be requested"};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "rtl_model/texture/datasheets.h"
+#include "rtl_model/texture/width.h"
 
 namespace deburr::rtl::texture {
 namespace {

@@ -11,7 +11,8 @@ void TextureMeter::collect(Result& result) const {
   add_parts(result, unit_, 0);
   add(result, memory_);
   const std::uint64_t lines = unit_.cache.miss_queue.line_fills.value();
-  result.lines_filled += lines;
+  const auto& fetcher = unit_.cache.block_fetcher;
+  result.lines_filled += fetcher ? fetcher->memory_lines.value() : lines;
 
   const std::uint64_t bilinears = unit_.address.addresser.bilinears.value();
   const std::uint64_t fragments = unit_.filter.fragments.value();

@@ -61,7 +61,8 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
          {"--roll", "scene.roll", "Degrees by which the camera is turned"},
          {"--wrap", "sampler.wrap", "repeat, mirrored_repeat, clamp_to_edge, or scene (default)"},
          {"--format", "sampler.format",
-          "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8; with --set texture.decode=after: bc1, "
+          "rgba8 (default), rgb565, rgba4444, l8, srgb8_a8; with --set texture.decode=after or "
+          "before: bc1, "
           "bc3, bc4, bc5, etc2_rgb, etc2_rgb_a1, etc2_rgba8"},
          {"--layout", "sampler.layout", "tiled (default) or linear"},
          {"--fragments", "scene.fragments",
