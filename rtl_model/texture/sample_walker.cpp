@@ -199,7 +199,9 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   // two, the 12 lowest of 16 fraction bits are zero.
   const std::uint32_t step = z.step + (any ? 16 : 4), walk = step + 4;
   const std::uint32_t digits = signed_digits(static_cast<std::uint32_t>(p.spread));
-  const std::uint32_t walking = kFragment + 2 * step + 2 * walk + 4 + 1;
+  // With `spread = 0` there is no step: every sample is in the middle.
+  const std::uint32_t moves = p.spread != 0 ? 1 : 0;
+  const std::uint32_t walking = kFragment + moves * (2 * step + 2 * walk) + 4 + 1;
   Datasheet sheet = {
       .unit = "SampleWalker",
       .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p) +
@@ -211,7 +213,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                    "descriptor); `width` = W: W requests, of at most two groups of fragments"},
       .stages = {{.clock = "1",
                   .work = any ? "spread times axis, 1/N from ROM" : "spread times axis",
-                  .registers = f * (kFragment + 2 * z.step)}},
+                  .registers = f * (kFragment + moves * 2 * z.step)}},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",
@@ -225,28 +227,29 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
     stages[0].longest.push_back(op::rom_read(17, 16));
     stages.push_back({.clock = "2",
                       .work = "times 1/N",
-                      .operators = {2 * f * op::multiply(z.step, 17)},
-                      .longest = {op::multiply(z.step, 17)},
-                      .registers = f * (kFragment + 2 * step)});
+                      .operators = {moves * 2 * f * op::multiply(z.step, 17)},
+                      .longest = {moves * op::multiply(z.step, 17)},
+                      .registers = f * (kFragment + moves * 2 * step)});
     stages.push_back({.clock = "3",
                       .work = "offset of the first sample",
-                      .operators = {2 * f * op::multiply(step, 4)},
-                      .longest = {op::multiply(step, 4)},
+                      .operators = {moves * 2 * f * op::multiply(step, 4)},
+                      .longest = {moves * op::multiply(step, 4)},
                       .registers = walks * walking});
   } else {
-    stages.push_back({.clock = "2",
-                      .work = "shift by lb N, offset of the first sample",
-                      .operators = {2 * f * op::mux(step, 5), 2 * f * op::subtract(walk)},
-                      .longest = {op::mux(step, 5), op::subtract(walk)},
-                      .registers = walks * walking});
+    stages.push_back(
+        {.clock = "2",
+         .work = "shift by lb N, offset of the first sample",
+         .operators = {moves * 2 * f * op::mux(step, 5), moves * 2 * f * op::subtract(walk)},
+         .longest = {moves * op::mux(step, 5), moves * op::subtract(walk)},
+         .registers = walks * walking});
   }
   // A request rounds its position and adds it. Its walk moves on, or the next fragment comes.
   Stage request = {.clock = any ? "4" : "3",
                    .work = wide ? std::to_string(w) + " bilinear requests per cycle"
                                 : "one bilinear request per cycle",
-                   .operators = {4 * w * op::add(34), 2 * w * op::add(4), w * op::equal(4),
+                   .operators = {moves * 4 * w * op::add(34), 2 * w * op::add(4), w * op::equal(4),
                                  w * op::subtract(9), w * op::mux(9, 2)},
-                   .longest = {2 * op::add(34)}};
+                   .longest = {moves != 0 ? 2 * op::add(34) : op::add(4)}};
   auto& operators = request.operators;
   if (wide) {
     // The requests left of each fragment, and before it; the fragment of each request.
@@ -260,9 +263,9 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
     request.longest = {op::add(6),           levels * op::add(3), op::compare(3),
                        op::mux(walk, walks), op::add(walk),       2 * op::add(34)};
   } else {
-    operators.insert(operators.end(), {2 * op::add(walk), 2 * op::mux(walk, 2)});
+    operators.insert(operators.end(), {moves * 2 * op::add(walk), moves * 2 * op::mux(walk, 2)});
   }
-  if (by_level) operators.push_back(op::logic(2 * 2 * walks * walk));  // negated
+  if (by_level && moves != 0) operators.push_back(op::logic(2 * 2 * walks * walk));  // negated
   stages.push_back(request);
   return sheet;
 }

@@ -167,34 +167,37 @@ Datasheet TagStage::datasheet(const spec::texture::Parameters& p) {
   constexpr std::uint32_t kLookups = 4;
   const bool random = p.cache_replacement == spec::texture::Replacement::kRandom;
   const Operator way = op::mux(z.tag + 2, std::max(z.ways, 2U));
+  // A single set is read once, and each lookup passes it to the next one.
+  const std::uint32_t sets_read = std::min(kLookups, z.sets), choices = z.sets > 1 ? 1 : 0;
   return {.unit = "TagStage",
           .variant = sets_text(p) + with_decode(p),
           .does = "Looks up the lines of a request, allocates those that miss and requests them.",
           .latency = {2},
-          .stages =
-              {{.clock = "1",
-                .work = "distinct lines, read their sets",
-                .operators = {6 * op::equal(z.line), op::logic(30),
-                              (has_fetcher(p) ? 4 : 0) * op::mux(z.line, 3)},
-                .longest = {op::mux(z.set_word, z.sets)},
-                // The sets; the first texel in each one's line, and valid.
-                .registers = texel_bits(p) + kLookups * z.set_word + 1 + 2 + 2 + 1},
-               // A set as the lookups before it left it, of this request; hit, way and order of
-               // use; then the place of each texel and the lines that missed, in order. A set that
-               // is read in this cycle is one of those, or of the tags.
-               {.clock = "2",
-                .work = "up to four lookups, allocation, misses to the queue",
-                .operators = {6 * op::equal(z.set), op::mux(z.set_word, 2), op::mux(z.set_word, 3),
-                              op::mux(z.set_word, 4), kLookups * z.ways * op::equal(z.tag + 1),
-                              kLookups * z.ways * op::mux(z.tag + 2, 2),
-                              op::logic(kLookups * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
-                              op::mux(z.slot + 4, 2), op::mux(z.slot + 4, 3),
-                              op::mux(z.slot + 4, 4), op::mux(z.line + z.slot + 1, 2),
-                              op::mux(z.line + z.slot + 1, 3), op::mux(z.line + z.slot + 1, 4),
-                              op::count_ones(kLookups), kLookups * kLookups * op::equal(z.set),
-                              kLookups * op::mux(z.set_word, kLookups + 1)},
-                .longest = {op::equal(z.tag + 1), kLookups * way,
-                            op::mux(z.set_word, kLookups + 1)}}},
+          .stages = {{.clock = "1",
+                      .work = "distinct lines, read their sets",
+                      .operators = {6 * op::equal(z.line), op::logic(30),
+                                    (has_fetcher(p) ? 4 : 0) * op::mux(z.line, 3)},
+                      .longest = {op::mux(z.set_word, z.sets)},
+                      // The sets; the first texel in each one's line, and valid.
+                      .registers = texel_bits(p) + sets_read * z.set_word + 1 + 2 + 2 + 1},
+                     // A set as the lookups before it left it, of this request; hit, way and order
+                     // of use; then the place of each texel and the lines that missed, in order. A
+                     // set that is read in this cycle is one of those, or of the tags.
+                     {.clock = "2",
+                      .work = "up to four lookups, allocation, misses to the queue",
+                      .operators =
+                          {choices * 6 * op::equal(z.set), choices * op::mux(z.set_word, 2),
+                           choices * op::mux(z.set_word, 3), choices * op::mux(z.set_word, 4),
+                           kLookups * z.ways * op::equal(z.tag + 1),
+                           kLookups * z.ways * op::mux(z.tag + 2, 2),
+                           op::logic(kLookups * z.ways * (2 * z.ways + 2) + (random ? 200 : 0)),
+                           op::mux(z.slot + 4, 2), op::mux(z.slot + 4, 3), op::mux(z.slot + 4, 4),
+                           op::mux(z.line + z.slot + 1, 2), op::mux(z.line + z.slot + 1, 3),
+                           op::mux(z.line + z.slot + 1, 4), op::count_ones(kLookups),
+                           choices * kLookups * kLookups * op::equal(z.set),
+                           choices * kLookups * op::mux(z.set_word, kLookups + 1)},
+                      .longest = {op::equal(z.tag + 1), kLookups * way,
+                                  choices * op::mux(z.set_word, kLookups + 1)}}},
           .shared_registers = random ? 16U : 0U};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,29 @@ double memory_gates(const tb::MemoryFigures& m, const Primitives& p) {
   return gates;
 }
 
+bool is_arithmetic(rtl::OperatorKind kind) {
+  using Kind = rtl::OperatorKind;
+  return kind == Kind::kAdd || kind == Kind::kSubtract || kind == Kind::kCompare ||
+         kind == Kind::kMaximum || kind == Kind::kMagnitude || kind == Kind::kMultiplyConstant ||
+         kind == Kind::kCountOnes;
+}
+
+// An arithmetic operator that follows another one begins with the low bits of its result, before
+// the high ones have come.
+double ns_in_series(std::span<const rtl::Operator> operators, const Primitives& p) {
+  double ns = 0;
+  bool follows = false;
+  for (rtl::Operator one : operators) {
+    const std::uint32_t count = std::exchange(one.count, 1);
+    const bool arithmetic = is_arithmetic(one.kind);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      ns += p.ns(one) * (arithmetic && follows ? kOverlap : 1);
+      follows = follows || arithmetic;
+    }
+  }
+  return ns;
+}
+
 tb::UnitCost estimated(const Part& part, const Primitives& p) {
   tb::UnitCost cost;
   cost.name = part.name;
@@ -93,8 +117,7 @@ tb::UnitCost estimated(const Part& part, const Primitives& p) {
     cost.flip_flops += registers;
     if (registers > 0) gates += p.gates("register_enable", static_cast<double>(registers));
     for (const rtl::Stage& stage : sheet->stages) {
-      double ns = 0;
-      for (const rtl::Operator& one : stage.longest) ns += p.ns(one);
+      const double ns = ns_in_series(stage.longest, p);
       if (ns > cost.ns.value) {
         cost.ns = within(ns, kPathRange);
         cost.stage = stage.clock;

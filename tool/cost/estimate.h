@@ -17,6 +17,8 @@ namespace deburr::tool {
 // By the calibration on mapped units: an estimate is within these shares of the mapped figure.
 inline constexpr double kUnitRange = 0.35;  // gates of a unit, four units of five
 inline constexpr double kSumRange = 0.20;   // gates of an engine
+// Share of its ns that an arithmetic operator adds behind another one (docs/explanation/cost.md).
+inline constexpr double kOverlap = 0.6;
 inline constexpr double kPathRange = 0.40;  // ns, four units of five
 
 // The value of a parameter ("ENGINE.NAME"), null if there is none.

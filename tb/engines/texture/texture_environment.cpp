@@ -36,7 +36,7 @@ TextureEnvironment::TextureEnvironment(Simulation& simulation, const TextureScen
       meter_(this->name(), unit_, memory_, scene.memory()),
       extra_initiator_("stranger"),
       checks_(scene_, setup_, sent_, golden()) {
-  know(faults_.list());
+  know(faults_.list(scene.memory()));
   faults_.inject(unit_);
   let_blind(
       {&checks_.colours, &checks_.fills, &checks_.registers.board(), &checks_.figures.board()});

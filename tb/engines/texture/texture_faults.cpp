@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tb/engines/texture/texture_faults.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -11,24 +14,47 @@ namespace deburr::tb {
 namespace {
 
 using Fault = rtl::texture::BlockDecoderBase::Fault;
-struct DecoderFault {
+using spec::texture::Decode, spec::texture::Format;
+
+// A fault in blocks, and the formats in which it shows.
+struct BlockFault {
   const char *name, *meaning;
-  Fault fault;
+  Decode decode;
+  const char* formats;
+  bool (*shows)(Format);
+  Fault fault = Fault::kNone;
 };
-constexpr std::array<DecoderFault, 5> kDecoderFaults = {{
-    {"swapped-modes", "Blocks of ETC2 in mode T are decoded as in mode H, and the reverse.",
-     Fault::kModes},
-    {"swapped-selectors", "The two bits of each selector of colours are swapped.",
-     Fault::kSelectors},
-    {"wrong-alpha-mode", "Values of BC have the steps of the other mode.", Fault::kValues},
+bool has_colours(Format format) {
+  return is_compressed(format) && format != Format::kBc4 && format != Format::kBc5;
+}
+bool has_values(Format format) {
+  return format == Format::kBc3 || format == Format::kBc4 || format == Format::kBc5;
+}
+bool is_etc(Format format) { return format >= Format::kEtc2Rgb && format <= Format::kEtc2Rgba8; }
+bool has_halves(Format format) {
+  return is_compressed(format) &&
+         spec::texture::kFormatBlockBytes[static_cast<std::size_t>(format)] == 16;
+}
+constexpr std::array<BlockFault, 6> kBlockFaults = {{
+    {"swapped-modes",
+     "Blocks of ETC2 in mode T are decoded as in mode H, and the reverse; only files have them.",
+     Decode::kAfter, "etc2", is_etc, Fault::kModes},
+    {"swapped-selectors", "The two bits of each selector of colours are swapped.", Decode::kAfter,
+     "bc1, bc3 or etc2", has_colours, Fault::kSelectors},
+    {"wrong-alpha-mode", "Values of BC have the steps of the other mode.", Decode::kAfter,
+     "bc3, bc4 or bc5", has_values, Fault::kValues},
     {"wrong-edge-block", "The second texel of a request is taken from the block of the first.",
-     Fault::kEdge},
-    {"late-half", "The second half of a block of 16 bytes comes one request late.", Fault::kHalf},
+     Decode::kAfter, "blocks", spec::texture::is_compressed, Fault::kEdge},
+    {"late-half", "The second half of a block of 16 bytes comes one request late.", Decode::kAfter,
+     "bc3, bc5 or etc2_rgba8", has_halves, Fault::kHalf},
+    {"replaced-line",
+     "A memory line is replaced while blocks wait for it, which get those of another.",
+     Decode::kBefore, "blocks", spec::texture::is_compressed},
 }};
 
 }  // namespace
 
-std::vector<InjectedFault> TextureFaults::list() const {
+std::vector<InjectedFault> TextureFaults::list(const platform::TextureMemory& textures) const {
   std::vector<InjectedFault> list = {
       {"flip-bit", "Flips a bit of the red channel of colour 100.", "flip:colours:100:rgba.r.4"},
       {"drop-colour", "Drops colour 100.", "drop:colours:100"},
@@ -49,15 +75,17 @@ std::vector<InjectedFault> TextureFaults::list() const {
       {"wrong-sample", "Gives request 401 the weight of another number of samples.",
        "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
-  const std::string needs =
-      setup_.texture.decode != spec::texture::Decode::kAfter ? "texture.decode = after" : "";
-  for (const DecoderFault& fault : kDecoderFaults)
-    list.push_back({fault.name, fault.meaning, "", needs});
-  const std::string needs_before =
-      setup_.texture.decode != spec::texture::Decode::kBefore ? "texture.decode = before" : "";
-  list.push_back({"replaced-line",
-                  "A memory line is replaced while blocks wait for it, which get those of another.",
-                  "", needs_before});
+  for (const BlockFault& fault : kBlockFaults) {
+    const auto& all = textures.descriptors();
+    const bool shows =
+        std::any_of(all.begin(), all.end(), [&](const auto& d) { return fault.shows(d.format); });
+    const auto decode = spec::texture::kDecodeNames[static_cast<std::size_t>(fault.decode)];
+    list.push_back({fault.name, fault.meaning, "",
+                    setup_.texture.decode != fault.decode
+                        ? fmt::format("texture.decode = {}", decode)
+                    : !shows ? fmt::format("a texture of {}", fault.formats)
+                             : ""});
+  }
   for (InjectedFault& fault : memory_faults()) list.push_back(std::move(fault));
   return list;
 }
@@ -69,11 +97,11 @@ spec::texture::Parameters TextureFaults::as_built() const {
 }
 
 void TextureFaults::inject(rtl::texture::TextureUnit& unit) const {
-  for (const DecoderFault& fault : kDecoderFaults)
-    if (injected(fault.name) && unit.cache.block_decoder)
-      unit.cache.block_decoder->fault = fault.fault;
-  if (injected("replaced-line") && unit.cache.block_fetcher)
-    unit.cache.block_fetcher->replaces_used_lines = true;
+  for (const BlockFault& fault : kBlockFaults) {
+    if (!injected(fault.name)) continue;
+    if (unit.cache.block_decoder) unit.cache.block_decoder->fault = fault.fault;
+    if (unit.cache.block_fetcher) unit.cache.block_fetcher->replaces_used_lines = true;
+  }
 }
 
 void TextureFaults::load(platform::TextureDriver& driver,

@@ -21,7 +21,8 @@ class TextureFaults : public EngineFaults {
   TextureFaults(const FaultPlan& plan, std::string environment, const TextureSetup& setup)
       : EngineFaults(plan, std::move(environment)), setup_(setup) {}
 
-  std::vector<InjectedFault> list() const;
+  // Those of blocks need a texture in which they show.
+  std::vector<InjectedFault> list(const platform::TextureMemory& textures) const;
   // Parameters of the hardware with faults; the golden model always gets the intended ones.
   spec::texture::Parameters as_built() const;
   void inject(rtl::texture::TextureUnit& unit) const;

@@ -120,6 +120,19 @@ TEST(Estimate, AddsOperatorsAndRegistersOfUnit) {
   EXPECT_EQ(cost.technology, "made_up");
 }
 
+TEST(Estimate, ArithmeticInSeriesOverlaps) {
+  tb::Result result = adder();
+  const auto ns = [&](std::vector<rtl::Operator> longest) {
+    result.sheets[0].sheet.stages = {{.clock = "1", .work = "", .longest = std::move(longest)}};
+    return estimate(result, made_up()).units[0].ns.value;
+  };
+  const double add = ns({op::add(24)}), mux = ns({op::mux(24, 2)});
+  EXPECT_DOUBLE_EQ(ns({2 * op::add(24)}), add * (1 + kOverlap));
+  EXPECT_DOUBLE_EQ(ns({op::add(24), op::mux(24, 2), op::compare(24)}),
+                   add + mux + kOverlap * ns({op::compare(24)}));
+  EXPECT_DOUBLE_EQ(ns({2 * op::mux(24, 2)}), 2 * mux);
+}
+
 TEST(Estimate, CountsCopiesOnceEachAndSharedOnce) {
   tb::Result result = adder();
   const double one = estimate(result, made_up()).gates.value;

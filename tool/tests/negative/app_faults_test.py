@@ -153,6 +153,8 @@ class Faults(CommandTest):
                 self.fault(name, 1, "mismatch", *self.UNCHECKED, "--format", form, *more)
         self.fault("late-half", 2, "needs texture.decode = after", *self.UNCHECKED)
         self.fault("replaced-line", 2, "needs texture.decode = before", *self.UNCHECKED)
+        self.fault("late-half", 2, "needs a texture of bc3, bc5 or etc2_rgba8", *self.UNCHECKED, *after,
+                   "--format", "bc1")
 
     def test_catches_fault_on_any_link(self):
         # The highest bit of the first texel's red.
