@@ -147,9 +147,13 @@ void TextureScene::add_blocks(const Texture& texture, const SamplerParameters& s
     std::vector<CompressedTexture::Level> levels = texture.compressed->levels;
     levels.resize(std::min(levels.size(), static_cast<std::size_t>(sampler.levels)));
     memory_.add(levels_of(levels), d);
-    scene_.mesh.notes.push_back(fmt::format("texture '{}': {} blocks and {} {} of the file",
-                                            texture.name, name, levels.size(),
-                                            levels.size() == 1 ? "level" : "levels"));
+    const bool differs = texture.compressed->srgb != sampler.srgb && may_be_srgb(d.format);
+    scene_.mesh.notes.push_back(
+        fmt::format("texture '{}': {} blocks and {} {} of the file{}", texture.name, name,
+                    levels.size(), levels.size() == 1 ? "level" : "levels",
+                    differs ? fmt::format("; the file says {}: set sampler.srgb = {} to read it so",
+                                          sampler.srgb ? "linear" : "sRGB", !sampler.srgb)
+                            : ""));
     return;
   }
   std::vector<CompressedTexture::Level> levels;

@@ -237,6 +237,11 @@ TEST(TextureScene, BlocksOfAFileAreTakenAsTheyAre) {
   EXPECT_THAT(same.scene().mesh.notes,
               ::testing::ElementsAre(::testing::HasSubstr("bc3 blocks and 3 levels of the file")));
   EXPECT_EQ(same.inputs().size(), 1u);
+  SamplerParameters coded = sampled(spec::texture::Format::kBc3);
+  coded.srgb = true;
+  EXPECT_THAT(TextureScene(textured(file), coded, 1).scene().mesh.notes,
+              ::testing::ElementsAre(::testing::EndsWith(
+                  "of the file; the file says linear: set sampler.srgb = false to read it so")));
 
   SamplerParameters fewer = sampled(spec::texture::Format::kBc3);
   fewer.levels = 2;
