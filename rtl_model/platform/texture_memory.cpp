@@ -104,14 +104,15 @@ inline std::uint32_t code_of(spec::texture::Format format, const Texel& texel) {
 template <spec::texture::Format kFormat>
 void put_texels(const TextureLevel& level, const TexelLayout& layout, std::uint8_t* memory) {
   constexpr std::size_t kBytes = spec::texture::kFormatBytes[static_cast<std::size_t>(kFormat)];
-  const TexelLayout places = layout;  // a copy that the bytes written do not alias
   const Texel* next = level.texels.data();
-  for (int y = 0; y < level.height; ++y)
-    for (int x = 0; x < level.width; ++x) {
+  for (int y = 0; y < level.height; ++y) {
+    std::uint8_t* const row = memory + layout.row(y);
+    for (const std::uint32_t column : layout.columns()) {
       const std::uint32_t texel = code_of(kFormat, *next++);
-      std::uint8_t* const to = memory + places.offset_of(x, y);
+      std::uint8_t* const to = row + column;
       for (std::size_t i = 0; i < kBytes; ++i) to[i] = static_cast<std::uint8_t>(texel >> (8 * i));
     }
+  }
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ class TexelLayout {
   std::uint32_t offset_of(int x, int y) const {
     return column_[static_cast<std::size_t>(x)] + row_[static_cast<std::size_t>(y)];
   }
+  // The two terms of offset_of: by x, and of one y.
+  std::span<const std::uint32_t> columns() const { return column_; }
+  std::uint32_t row(int y) const { return row_[static_cast<std::size_t>(y)]; }
   // Size of the level, including padding of rows and tiles.
   std::uint64_t bytes() const { return bytes_; }
 
