@@ -34,15 +34,15 @@ module address_unit #(
 );
   logic [3:0] handle_derivative, handle_level, handle_texel;
   logic valid_derivative;
-  logic [`DESCRIPTOR_SIZE] size_derivative, size_texel;
+  logic [`DESCRIPTOR_SIZE] size_derivative, size_level, size_texel;
   logic [`DESCRIPTOR_MODE] mode_level, mode_texel;
   logic [`DESCRIPTOR_LOD_BIAS] lod_bias_level;
   logic [`DESCRIPTOR_LOD_CLAMP] lod_clamp_level;
   logic [`DESCRIPTOR_BASE] bases_texel;
   descriptors store (
     .clk, .rst_n, .write, .write_handle, .write_word, .write_data, .handle_derivative, .valid_derivative,
-    .size_derivative, .handle_level, .mode_level, .lod_bias_level, .lod_clamp_level, .handle_texel, .size_texel,
-    .mode_texel, .bases_texel);
+    .size_derivative, .handle_level, .size_level, .mode_level, .lod_bias_level, .lod_clamp_level, .handle_texel,
+    .size_texel, .mode_texel, .bases_texel);
 
   logic derivative_push, derivative_ready, derivative_valid, derivative_pop;
   logic [`DERIVATIVE_TOKEN_BITS-1:0] derivative_in, derivative_out;
@@ -85,7 +85,8 @@ module address_unit #(
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) level_of_detail (
     .clk, .rst_n, .in_valid(log_valid), .in_pop(log_pop), .in_data(log_out),
     .out_push(level_push), .out_ready(level_ready), .out_data(level_in),
-    .handle(handle_level), .mode(mode_level), .lod_bias(lod_bias_level), .lod_clamp(lod_clamp_level));
+    .handle(handle_level), .size(size_level), .mode(mode_level), .lod_bias(lod_bias_level),
+    .lod_clamp(lod_clamp_level));
   link #(.BITS(`LEVEL_TOKEN_BITS)) levels (
     .clk, .rst_n, .push(level_push), .push_data(level_in), .can_push(level_ready),
     .pop(level_pop), .front(level_out), .can_pop(level_valid));

@@ -13,6 +13,7 @@ module descriptors (
   output logic                           valid_derivative,
   output logic [`DESCRIPTOR_SIZE]        size_derivative,
   input  logic [3:0]                     handle_level,
+  output logic [`DESCRIPTOR_SIZE]        size_level,
   output logic [`DESCRIPTOR_MODE]        mode_level,
   output logic [`DESCRIPTOR_LOD_BIAS]    lod_bias_level,
   output logic [`DESCRIPTOR_LOD_CLAMP]   lod_clamp_level,
@@ -51,6 +52,7 @@ module descriptors (
   wire unused = &{1'b0, of_level, of_texel};
   descriptor_check check (.words(of_derivative), .valid(valid_derivative));
   assign size_derivative = of_derivative[`DESCRIPTOR_SIZE];
+  assign size_level = of_level[`DESCRIPTOR_SIZE];
   assign mode_level = of_level[`DESCRIPTOR_MODE];
   assign lod_bias_level = of_level[`DESCRIPTOR_LOD_BIAS];
   assign lod_clamp_level = of_level[`DESCRIPTOR_LOD_CLAMP];

@@ -18,6 +18,7 @@ module level_unit #(
   input  logic                         out_ready,
   output logic [`LEVEL_TOKEN_BITS-1:0] out_data,
   output logic [3:0]                   handle,  // of the token at the link
+  input  logic [`DESCRIPTOR_SIZE]      size,
   input  logic [`DESCRIPTOR_MODE]      mode,
   input  logic [`DESCRIPTOR_LOD_BIAS]  lod_bias,
   input  logic [`DESCRIPTOR_LOD_CLAMP] lod_clamp
@@ -25,7 +26,7 @@ module level_unit #(
   logic move;
   logic [1:0] valid;
   pipe #(.STAGES(2)) stages (.clk, .rst_n, .in_valid, .in_pop, .out_ready, .out_push, .move, .valid);
-  wire unused = &{1'b0, valid, mode, lod_bias};
+  wire unused = &{1'b0, valid, size, mode, lod_bias};
 
   localparam integer WITH_BITS = `LOG2_TOKEN_LB_MAX_FIRST;  // the fields below the logarithms pass through
   wire [WITH_BITS-1:0] with_it = in_data[WITH_BITS-1:0];
@@ -51,7 +52,12 @@ module level_unit #(
   wire [19:0] sampled = !positive ? 20'd0 : limited < cap ? limited : cap;
   wire unused_bits = &{1'b0, length_up[11:0], l_up[11:0], sampled[19:15]};
 
+  // The coarsest level has 1 x 1 texels if no bit of a side is left one level further.
+  wire [12:0] sides = size[`DESCRIPTOR_SIZE_WIDTH_FIRST +: 13] | size[`DESCRIPTOR_SIZE_HEIGHT_FIRST +: 13];
+  wire [12:0] further = sides >> mode[`DESCRIPTOR_MODE_LEVELS];
+
   logic [WITH_BITS-1:0] with_1, with_2;
+  logic to_point_1, to_point_2;
   logic [14:0] e_1;  // E, U3.12
   logic signed [17:0] lb_1;
   logic signed [15:0] bias_1;
@@ -70,6 +76,7 @@ module level_unit #(
       filter_1 <= mode[`DESCRIPTOR_MODE_MIN_FILTER];
       mag_1 <= mode[`DESCRIPTOR_MODE_MAG_FILTER];
       levels_1 <= mode[`DESCRIPTOR_MODE_LEVELS];
+      to_point_1 <= further == 13'd0;
     end
 
   // 2: level of detail in its range, number of samples.
@@ -113,10 +120,11 @@ module level_unit #(
       filter_2 <= filter_1;
       mag_2 <= mag_1;
       levels_2 <= levels_1;
+      to_point_2 <= to_point_1;
     end
 
   // 3: level, fraction and filter by mode. Modes 2 to 5 use mip levels, 4 and 5 blend two of them; odd modes filter
-  // linearly within a level.
+  // linearly within a level. A level of one texel is sampled once.
   wire [3:0] coarsest = levels_2 - 4'd1;
   wire [20:0] nearest = l_2 + 21'd2047;
   wire [20:0] rounded = l_2 + 21'd8;
@@ -138,7 +146,7 @@ module level_unit #(
     end
   end
   assign out_data[WITH_BITS-1:0] = with_2;
-  assign out_data[`LEVEL_TOKEN_LAST_INDEX] = last_2;
+  assign out_data[`LEVEL_TOKEN_LAST_INDEX] = to_point_2 && level == coarsest ? 4'd0 : last_2;
   assign out_data[`LEVEL_TOKEN_LEVEL] = level;
   assign out_data[`LEVEL_TOKEN_FRACTION] = fraction;
   assign out_data[`LEVEL_TOKEN_LINEAR] = magnified_2 ? mag_2 : filter_2[0];

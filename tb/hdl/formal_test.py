@@ -98,6 +98,8 @@ def level_fault(axes, count, cap):
         return "limited < cap ? limited : cap", "limited > cap ? limited : cap"
     if axes == "four":
         return "(lb_max <<< 1) - lb_minor", "lb_max - lb_minor"
+    if count == "ceil":
+        return "further == 13'd0", "further == 13'd1"
     return "mixed_end = level_mixed >= ", "mixed_end = level_mixed > "
 
 

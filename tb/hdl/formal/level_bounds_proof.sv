@@ -22,8 +22,8 @@ module level_bounds_proof #(
   wire [3:0] handle;
   level_unit #(.AXES(AXES), .COUNT(COUNT), .CAP(CAP)) unit (
     .clk, .rst_n(1'b1), .in_valid(1'b1), .in_pop, .in_data(token), .out_push, .out_ready(1'b1),
-    .out_data(out), .handle, .mode(words[`DESCRIPTOR_MODE]), .lod_bias(words[`DESCRIPTOR_LOD_BIAS]),
-    .lod_clamp(words[`DESCRIPTOR_LOD_CLAMP]));
+    .out_data(out), .handle, .size(words[`DESCRIPTOR_SIZE]), .mode(words[`DESCRIPTOR_MODE]),
+    .lod_bias(words[`DESCRIPTOR_LOD_BIAS]), .lod_clamp(words[`DESCRIPTOR_LOD_CLAMP]));
   reg [1:0] cycles = 2'd0;
   always @(posedge clk) if (cycles != 2'd3) cycles <= cycles + 2'd1;
   wire [3:0] last = out[`LEVEL_TOKEN_LAST_INDEX];
@@ -53,6 +53,10 @@ module level_bounds_proof #(
   localparam logic [16*`LOG2_COUNT_BITS-1:0] STEPS = `LOG2_COUNT;
   integer n;
   reg [4:0] samples;
+  // A level of 1 x 1 texels is sampled once.
+  wire [15:0] level_width = words[`DESCRIPTOR_SIZE_WIDTH] >> level;
+  wire [15:0] level_height = words[`DESCRIPTOR_SIZE_HEIGHT] >> level;
+  wire point = level_width <= 16'd1 && level_height <= 16'd1;
   always @* begin
     samples = 5'd1 << e[14:12];
     if (COUNT == `COUNT_ANY) begin
@@ -60,6 +64,7 @@ module level_bounds_proof #(
       for (n = 1; n < 16; n = n + 1)
         if (e[15:0] > STEPS[n*`LOG2_COUNT_BITS +: `LOG2_COUNT_BITS]) samples = samples + 5'd1;
     end
+    if (point) samples = 5'd1;
   end
   wire signed [31:0] detail = lb_max - e + bias_wide * 16;
   wire signed [31:0] lowest = {12'd0, words[`DESCRIPTOR_LOD_CLAMP_MIN_LOD], 4'd0};
@@ -89,6 +94,7 @@ module level_bounds_proof #(
       a_level: assert (level <= coarsest);
       a_next_level: assert (fraction == 8'd0 || level < coarsest);
       a_count: assert ({1'b0, last} < most);
+      a_point: assert (!point || fraction == 8'd0);
       a_one_level: assert (mode >= 3'd4 || fraction == 8'd0);
       a_no_levels: assert (mode >= 3'd2 || level == 4'd0);
     end
