@@ -37,6 +37,7 @@ function(deburr_hdl_model class)
     cmake_path(GET file FILENAME name)
     set(faulty "${folder}_fault/${name}")
     add_custom_command(OUTPUT "${faulty}"
+      COMMAND "${CMAKE_COMMAND}" -E rm -rf "${folder}_fault"  # the faulty file may have had another name
       COMMAND "${PROJECT_SOURCE_DIR}/tb/hdl/inject_fault.py" "${DEBURR_HDL_ROOT}/${file}" "${faulty}" ${ARG_FAULT}
       DEPENDS "${PROJECT_SOURCE_DIR}/tb/hdl/inject_fault.py" "${DEBURR_HDL_ROOT}/${file}" VERBATIM)
     set(paths -y "${folder}_fault" ${paths})
