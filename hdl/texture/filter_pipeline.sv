@@ -24,6 +24,9 @@ module filter_pipeline #(
   assign in_pop = in_valid && move;
   assign out_push = out_ready && valid[LAST];
 
+  // With `kernel = axis`, the bit above N - 1 selects a tent.
+  localparam integer COUNT_BITS = `TEXEL_QUAD_TOKEN_CONTROL_LAST_INDEX_BITS;
+
   // 1: fields. Passed on: ticket, sample index, N - 1, format, ends, weights of a request.
   logic [`TICKET_BITS:0] ticket[1:LAST];  // the highest bit: sRGB format
   wire [2:0] format = in_data[`TEXEL_QUAD_TOKEN_CONTROL_FORMAT];
@@ -33,7 +36,8 @@ module filter_pipeline #(
   logic [127:0] codes_1;
   logic [7:0] u[1:2], v[1:4];
   logic [8:0] level_weight[1:5];
-  logic [3:0] index[1:6], last_index[1:6];
+  logic [3:0] index[1:6];
+  logic [COUNT_BITS-1:0] last_index[1:6];
   logic [6:1] end_of_sample, end_of_fragment;
   always_ff @(posedge clk)
     if (move) begin
@@ -92,12 +96,13 @@ module filter_pipeline #(
   // The weight of a sample: wiring for a box of 2^n samples, otherwise a ROM word.
   logic [8:0] weight_6;
   generate
-    if (COUNT == `COUNT_ANY || KERNEL == `KERNEL_TENT) begin : g_weights
-      rom #(.BITS(9), .WORDS(256), .ADDRESS_BITS(8), .CONTENTS(`KERNEL_WEIGHTS)) weights (
+    if (COUNT == `COUNT_ANY || KERNEL == `KERNEL_TENT || COUNT_BITS > 4) begin : g_weights
+      localparam integer ADDRESS_BITS = COUNT_BITS + 4;
+      rom #(.BITS(9), .WORDS(1 << ADDRESS_BITS), .ADDRESS_BITS(ADDRESS_BITS), .CONTENTS(`KERNEL_WEIGHTS)) weights (
         .clk, .read(move), .address({last_index[5], index[5]}), .word(weight_6));
     end else begin : g_power
       always_comb
-        case (last_index[6])
+        case (last_index[6][3:0])
           4'd0: weight_6 = 9'd256;
           4'd1: weight_6 = 9'd128;
           4'd3: weight_6 = 9'd64;

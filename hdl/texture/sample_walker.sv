@@ -20,6 +20,11 @@ module sample_walker #(
 );
   localparam logic [7:0] WIDE = SPREAD[7:0];
   localparam logic [7:0] NARROW = SPREAD > 64 ? 8'd64 : SPREAD[7:0];
+  // Of a diagonal with `kernel = axis`: sqrt(2) times as long.
+  localparam integer LONGER_SPREAD = (181 * SPREAD + 64) / 128;
+  localparam logic [7:0] LONGER = LONGER_SPREAD[7:0];
+  localparam integer SELECTS = `LEVEL_TOKEN_DIAGONAL_BITS;
+  localparam integer POSITION_BITS = `SAMPLE_TOKEN_S_BITS;
   localparam integer AXIS_BITS = `LEVEL_TOKEN_AXIS_S_BITS;
 
   // ---- 1: spread times axis
@@ -38,7 +43,8 @@ module sample_walker #(
     end
   end
   wire [3:0] last_index = with_in[`LEVEL_TOKEN_LAST_INDEX];
-  wire [7:0] spread = KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
+  wire tent_in;
+  wire [7:0] spread = tent_in ? LONGER : KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
   wire signed [40:0] wide_spread = $signed({33'd0, spread});
 
   logic full_1;
@@ -147,14 +153,24 @@ module sample_walker #(
 
   wire signed [56:0] rounded_s = offset_s + 57'sd4194304;  // 2^22: drops 23
   wire signed [56:0] rounded_t = offset_t + 57'sd4194304;
+  wire signed [56:0] moved_s = rounded_s >>> 23, moved_t = rounded_t >>> 23;
   wire [31:0] at_s = at[`LEVEL_TOKEN_S], at_t = at[`LEVEL_TOKEN_T];
   assign out_data[`SAMPLE_TOKEN_TICKET] = at[`LEVEL_TOKEN_TICKET];
-  assign out_data[`SAMPLE_TOKEN_S] = {{2{at_s[31]}}, at_s} + rounded_s[56:23];
-  assign out_data[`SAMPLE_TOKEN_T] = {{2{at_t[31]}}, at_t} + rounded_t[56:23];
+  assign out_data[`SAMPLE_TOKEN_S] = {{(POSITION_BITS - 32) {at_s[31]}}, at_s} + moved_s[POSITION_BITS-1:0];
+  assign out_data[`SAMPLE_TOKEN_T] = {{(POSITION_BITS - 32) {at_t[31]}}, at_t} + moved_t[POSITION_BITS-1:0];
   assign out_data[`SAMPLE_TOKEN_LEVEL_WEIGHT] =
       second ? {1'b0, at_fraction} : 9'd256 - {1'b0, at_fraction};
   assign out_data[`SAMPLE_TOKEN_INDEX] = index;
-  assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
+  // The bit above N - 1 selects a tent; the FilterPipeline addresses its weights with both.
+  generate
+    if (SELECTS != 0) begin : g_selects
+      assign tent_in = in_data[`LEVEL_TOKEN_DIAGONAL] && last_index >= 4'd4;
+      assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = {at[`LEVEL_TOKEN_DIAGONAL] && at_last >= 4'd4, at_last};
+    end else begin : g_one_kernel
+      assign tent_in = 1'b0;
+      assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
+    end
+  endgenerate
   assign out_data[`SAMPLE_TOKEN_LEVEL] = at[`LEVEL_TOKEN_LEVEL] + {3'd0, second};
   assign out_data[`SAMPLE_TOKEN_LINEAR] = at[`LEVEL_TOKEN_LINEAR];
   assign out_data[`SAMPLE_TOKEN_LAST_OF_SAMPLE] = last_of_sample;

@@ -52,13 +52,14 @@ module texel_addresser (
   wire [3:0] level = sample[1][`SAMPLE_TOKEN_LEVEL];
   wire [12:0] width_at = width_1 >> level;
   wire [12:0] height_at = height_1 >> level;
-  wire signed [33:0] wrapped_s, wrapped_t;
+  localparam integer POSITION_BITS = `SAMPLE_TOKEN_S_BITS;
+  wire signed [POSITION_BITS-1:0] wrapped_s, wrapped_t;
   wrap_coordinate of_s (
     .position(sample[1][`SAMPLE_TOKEN_S]), .wrap(mode_of[1][`DESCRIPTOR_MODE_WRAP_S]), .wrapped(wrapped_s));
   wrap_coordinate of_t (
     .position(sample[1][`SAMPLE_TOKEN_T]), .wrap(mode_of[1][`DESCRIPTOR_MODE_WRAP_T]), .wrapped(wrapped_t));
   logic [12:0] width_2, height_2, width_3, height_3;
-  logic signed [33:0] s_2, t_2;
+  logic signed [POSITION_BITS-1:0] s_2, t_2;
   logic [31:0] base_2, base_3, base_4;
   always_ff @(posedge clk)
     if (move) begin
@@ -70,11 +71,11 @@ module texel_addresser (
     end
 
   // 3: multiplication by the size of the level.
-  logic signed [46:0] product_s, product_t;
+  logic signed [POSITION_BITS+12:0] product_s, product_t;
   always_ff @(posedge clk)
     if (move) begin
-      product_s <= $signed({{13{s_2[33]}}, s_2}) * $signed({34'd0, width_2});
-      product_t <= $signed({{13{t_2[33]}}, t_2}) * $signed({34'd0, height_2});
+      product_s <= $signed({{13{s_2[POSITION_BITS-1]}}, s_2}) * $signed({{POSITION_BITS{1'b0}}, width_2});
+      product_t <= $signed({{13{t_2[POSITION_BITS-1]}}, t_2}) * $signed({{POSITION_BITS{1'b0}}, height_2});
       width_3 <= width_2;
       height_3 <= height_2;
       base_3 <= base_2;
