@@ -207,7 +207,7 @@ TEST(TextureRtlUnit, LevelOfOneTexelIsSampledOnce) {
     UnitBench b(preset_parameters(Preset::kDeburr, build));
     spec::texture::Descriptor d = linear_texture(b.memory, 64);
     d.max_anisotropy_log2 = 4;
-    for (const std::uint8_t level : {6, 5}) {
+    for (const std::uint8_t level : std::to_array<std::uint8_t>({6, 5})) {
       d.min_lod = d.max_lod = static_cast<std::uint16_t>(level << 8);
       write_descriptor(b.bus, level, d);
       spec::texture::Quad q = quad_at(kOne / 3, kOne / 3, kOne, kOne / 16);
