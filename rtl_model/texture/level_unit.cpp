@@ -86,6 +86,7 @@ void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in
   out.t = in.t;
   out.axis_s = in.axis_s;
   out.axis_t = in.axis_t;
+  out.diagonal = in.diagonal;
   out.last_index = out.level = out.fraction = 0;
   out.linear = false;
   if (!out.ticket.valid) return;
