@@ -29,8 +29,8 @@ enum class SrgbOutput : std::uint8_t { kLinear, kEncoded };
 inline constexpr std::array<std::string_view, 2> kSrgbOutputNames = {"linear", "encoded"};
 enum class CountCap : std::uint8_t { kNone, kTexel };
 inline constexpr std::array<std::string_view, 2> kCountCapNames = {"none", "texel"};
-enum class Kernel : std::uint8_t { kBox, kTent };
-inline constexpr std::array<std::string_view, 2> kKernelNames = {"box", "tent"};
+enum class Kernel : std::uint8_t { kBox, kTent, kAxis };
+inline constexpr std::array<std::string_view, 3> kKernelNames = {"box", "tent", "axis"};
 enum class Replacement : std::uint8_t { kLru, kFifo, kRandom };
 inline constexpr std::array<std::string_view, 3> kReplacementNames = {"lru", "fifo", "random"};
 
@@ -126,9 +126,12 @@ void describe(Configuration& p, Visitor& v) {
   v.choice("count_cap", p.count_cap, kCountCapNames,
            "texel: samples are at least a texel of level 0 apart.");
   v.choice("kernel", p.kernel, kKernelNames,
-           "Weights of the N samples: equal (box, the paper) or an integer tent.");
-  v.integer("spread", p.spread, 0, 128, "1/64 axis",
-            "Length over which the samples are spread, U2.6 of the major axis.");
+           "Weights of the N samples: equal (box, the paper), an integer tent, or axis: a tent for "
+           "fragments whose major axis is a diagonal of the pixel, a box for all others.");
+  v.integer(
+      "spread", p.spread, 0, 128, "1/64 axis",
+      "Length over which the samples are spread, U2.6 of the major axis; a tent of kernel = axis "
+      "is 1.41 times as long.");
   v.choice("srgb_output", p.srgb_output, kSrgbOutputNames,
            "Output format of sRGB textures: 8-bit linear light, or sRGB codes.");
   v.choice(

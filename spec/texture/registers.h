@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "spec/registers.h"
 #include "spec/texture/descriptor.h"
@@ -63,17 +64,20 @@ inline constexpr Field kLog2{"log2", 5, 4, Access::kConstant, {}, kLog2Names};
 inline constexpr Field kAxes{"axes", 7, 6, Access::kConstant, {}, kAxesNames};
 inline constexpr Field kCount{"count", 9, 8, Access::kConstant, {}, kCountNames};
 inline constexpr Field kCountCap{"count_cap", 10, 10, Access::kConstant, {}, kCountCapNames};
-inline constexpr Field kKernel{"kernel", 11, 11, Access::kConstant, {}, kKernelNames};
+inline constexpr Field kKernel{"kernel",          11, 11,
+                               Access::kConstant, {}, std::span(kKernelNames).first(2)};
 inline constexpr Field kSrgbOutput{"srgb_output", 12, 12, Access::kConstant, {}, kSrgbOutputNames};
 inline constexpr Field kBlend{"blend", 13, 13, Access::kConstant, {}, kBlendNames};
 inline constexpr Field kDerivatives{"derivatives",     14, 14,
                                     Access::kConstant, {}, kDerivativesNames};
+inline constexpr Field kKernelAxis{"kernel_axis", 15, 15, Access::kConstant,
+                                   "kernel = axis; the field kernel is then 0"};
 inline constexpr Field kSpread{"spread", 23, 16, Access::kConstant, "U2.6 of the major axis"};
 inline constexpr Field kDecode{"decode", 25, 24, Access::kConstant, {}, kDecodeNames};
 inline constexpr Field kBc{"bc", 26, 26, Access::kConstant, {}, kBlockRuleNames};
-inline constexpr std::array kFields = {kFootprint,   kLog2,   kAxes,       kCount,
-                                       kCountCap,    kKernel, kSrgbOutput, kBlend,
-                                       kDerivatives, kSpread, kDecode,     kBc};
+inline constexpr std::array kFields = {kFootprint, kLog2,       kAxes,  kCount,       kCountCap,
+                                       kKernel,    kSrgbOutput, kBlend, kDerivatives, kKernelAxis,
+                                       kSpread,    kDecode,     kBc};
 }  // namespace configuration
 namespace size {
 inline constexpr Field kWidth{"width", 15, 0, Access::kReadWrite, "texels"};
@@ -151,7 +155,8 @@ constexpr std::uint32_t configuration_word(const Parameters& p) {
   return configuration::kFootprint.in(code(p.footprint)) | configuration::kLog2.in(code(p.log2)) |
          configuration::kAxes.in(code(p.axes)) | configuration::kCount.in(code(p.count)) |
          configuration::kCountCap.in(code(p.count_cap)) |
-         configuration::kKernel.in(code(p.kernel)) |
+         configuration::kKernel.in(p.kernel == Kernel::kTent) |
+         configuration::kKernelAxis.in(p.kernel == Kernel::kAxis) |
          configuration::kSrgbOutput.in(code(p.srgb_output)) |
          configuration::kBlend.in(code(p.blend)) |
          configuration::kDerivatives.in(code(p.derivatives)) |

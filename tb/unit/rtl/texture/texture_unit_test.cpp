@@ -200,6 +200,33 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
   EXPECT_EQ(b.unit.cache.tag_stage.requests.value(), b.bus.read(reg::kBilinears));
 }
 
+// Footprints of 16 : 1 in level 6 of 64 x 64 texels: one lookup each, and the colour of its texel.
+TEST(TextureRtlUnit, LevelOfOneTexelIsSampledOnce) {
+  using spec::texture::NamedBuild, spec::texture::Preset;
+  for (const NamedBuild build : {NamedBuild::kNarrow, NamedBuild::kWide}) {
+    UnitBench b(preset_parameters(Preset::kDeburr, build));
+    spec::texture::Descriptor d = linear_texture(b.memory, 64);
+    d.max_anisotropy_log2 = 4;
+    for (const std::uint8_t level : std::to_array<std::uint8_t>({6, 5})) {
+      d.min_lod = d.max_lod = static_cast<std::uint16_t>(level << 8);
+      write_descriptor(b.bus, level, d);
+      spec::texture::Quad q = quad_at(kOne / 3, kOne / 3, kOne, kOne / 16);
+      q.texture = level;
+      const std::uint64_t before = b.bus.read(reg::kBilinears);
+      for (int i = 0; i < 10; ++i) b.source.add(q);
+      ASSERT_TRUE(b.finish());
+      EXPECT_EQ(b.bus.read(reg::kBilinears) - before, 40u * (level == 6 ? 1 : 16));
+      if (level == 5) continue;
+      const rtl::texture::TagUnit& tags = b.unit.cache.tag_stage;
+      EXPECT_EQ(tags.hits.value() + tags.merged.value() + tags.misses.value(), 40u);
+      for (const auto& taken : b.sink.taken)
+        for (const spec::texture::Colour& colour : taken.token)
+          EXPECT_THAT(colour.rgba, ElementsAre(0, 0, level, 255));
+    }
+    b.clock.run(5);
+  }
+}
+
 // Shows that the two tests above can fail: when the consumer stops, the distances differ from the
 // costs.
 TEST(TextureRtlUnit, StallDelaysByItsLengthAndLosesNothing) {

@@ -278,7 +278,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   wide.levels_out(bench.many.out);
   spec::texture::Descriptor d;
   d.width = d.height = 256;
-  d.levels = 6;
+  d.levels = 9;  // the last one has 1 x 1 texels
   d.min_filter = spec::texture::MinFilter::kLinearMipmapLinear;
   d.max_lod = 12 << 8;
   d.max_anisotropy_log2 = 4;
@@ -291,6 +291,11 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   bench.hold();
   clock.run(200);
   bench.expect(LevelUnit::datasheet(), 40, true);
+  std::array<int, 2> several{};  // fragments of more than one sample, in the last level and not
+  for (const auto& taken : bench.one.sink.taken)
+    if (taken.token.last_index != 0) ++several[taken.token.level == 8 ? 0 : 1];
+  EXPECT_EQ(several[0], 0);
+  EXPECT_GT(several[1], 10);
   EXPECT_EQ(wide.two_levels.value(), narrow.two_levels.value());
   EXPECT_EQ(wide.magnified.value(), narrow.magnified.value());
 }
