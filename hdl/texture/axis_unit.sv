@@ -247,16 +247,18 @@ module axis_unit #(
     end
   endgenerate
 
+`ifdef FOOTPRINT_TOKEN_DIAGONAL
+  // Directions 2 and 6 are the diagonals of the pixel.
+  wire diagonal_6 = direction_6[1:0] == 2'd2;
+  logic [REGISTERS:7] diagonal;
   generate
-    if (`FOOTPRINT_TOKEN_DIAGONAL_BITS != 0) begin : g_diagonal
-      // Directions 2 and 6 are the diagonals of the pixel.
-      logic [REGISTERS:6] diagonal;
-      always_comb diagonal[6] = direction_6[1:0] == 2'd2;
+    for (i = 7; i <= REGISTERS; i = i + 1) begin : g_diagonal
       always_ff @(posedge clk)
-        if (move) diagonal[REGISTERS:7] <= diagonal[REGISTERS-1:6];
-      assign out_data[`FOOTPRINT_TOKEN_DIAGONAL] = diagonal[REGISTERS];
+        if (move) diagonal[i] <= i == 7 ? diagonal_6 : diagonal[i > 7 ? i - 1 : 7];
     end
   endgenerate
+  assign out_data[`FOOTPRINT_TOKEN_DIAGONAL] = diagonal[REGISTERS];
+`endif
   wire unused_with = &{1'b0, with_it[REGISTERS]};
   assign out_data[`FOOTPRINT_TOKEN_TICKET] = with_it[REGISTERS][`DERIVATIVE_TOKEN_TICKET];
   assign out_data[`FOOTPRINT_TOKEN_S] = with_it[REGISTERS][`DERIVATIVE_TOKEN_S];

@@ -145,17 +145,15 @@ module level_unit #(
       level = near_end ? coarsest : level_nearest[3:0];
     end
   end
-  generate
-    if (`LEVEL_TOKEN_DIAGONAL_BITS != 0) begin : g_diagonal
-      logic diagonal_1, diagonal_2;
-      always_ff @(posedge clk)
-        if (move) begin
-          diagonal_1 <= in_data[`LOG2_TOKEN_DIAGONAL];
-          diagonal_2 <= diagonal_1;
-        end
-      assign out_data[`LEVEL_TOKEN_DIAGONAL] = diagonal_2;
+`ifdef LEVEL_TOKEN_DIAGONAL
+  logic diagonal_1, diagonal_2;
+  always_ff @(posedge clk)
+    if (move) begin
+      diagonal_1 <= in_data[`LOG2_TOKEN_DIAGONAL];
+      diagonal_2 <= diagonal_1;
     end
-  endgenerate
+  assign out_data[`LEVEL_TOKEN_DIAGONAL] = diagonal_2;
+`endif
   assign out_data[WITH_BITS-1:0] = with_2;
   assign out_data[`LEVEL_TOKEN_LAST_INDEX] = to_point_2 && level == coarsest ? 4'd0 : last_2;
   assign out_data[`LEVEL_TOKEN_LEVEL] = level;

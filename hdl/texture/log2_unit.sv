@@ -31,9 +31,9 @@ module log2_unit #(
       assign in_pop = in_valid && out_ready;
       assign out_push = in_pop;
       assign out_data[`LOG2_TOKEN_LB_MINOR_TOP:0] = {minor, major, with_it};
-      if (`LOG2_TOKEN_DIAGONAL_BITS != 0) begin : g_diagonal
-        assign out_data[`LOG2_TOKEN_DIAGONAL] = in_data[`FOOTPRINT_TOKEN_DIAGONAL];
-      end
+`ifdef LOG2_TOKEN_DIAGONAL
+      assign out_data[`LOG2_TOKEN_DIAGONAL] = in_data[`FOOTPRINT_TOKEN_DIAGONAL];
+`endif
     end else begin : g_table
       logic move;
       logic [1:0] valid;
@@ -69,15 +69,15 @@ module log2_unit #(
         assign lb_minor = minor_2 + $signed({8'd0, c_minor_2});
       end
       assign out_data[`LOG2_TOKEN_LB_MINOR_TOP:0] = {lb_minor, lb_major, with_2};
-      if (`LOG2_TOKEN_DIAGONAL_BITS != 0) begin : g_diagonal
-        logic diagonal_1, diagonal_2;
-        always_ff @(posedge clk)
-          if (move) begin
-            diagonal_1 <= in_data[`FOOTPRINT_TOKEN_DIAGONAL];
-            diagonal_2 <= diagonal_1;
-          end
-        assign out_data[`LOG2_TOKEN_DIAGONAL] = diagonal_2;
-      end
+`ifdef LOG2_TOKEN_DIAGONAL
+      logic diagonal_1, diagonal_2;
+      always_ff @(posedge clk)
+        if (move) begin
+          diagonal_1 <= in_data[`FOOTPRINT_TOKEN_DIAGONAL];
+          diagonal_2 <= diagonal_1;
+        end
+      assign out_data[`LOG2_TOKEN_DIAGONAL] = diagonal_2;
+`endif
     end
   endgenerate
 endmodule

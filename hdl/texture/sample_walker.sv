@@ -20,10 +20,9 @@ module sample_walker #(
 );
   localparam logic [7:0] WIDE = SPREAD[7:0];
   localparam logic [7:0] NARROW = SPREAD > 64 ? 8'd64 : SPREAD[7:0];
-  // Of a diagonal with `kernel = axis`: sqrt(2) times as long.
+  // With `kernel = axis` the tent of a diagonal is sqrt(2) times as long.
   localparam integer LONGER_SPREAD = (181 * SPREAD + 64) / 128;
   localparam logic [7:0] LONGER = LONGER_SPREAD[7:0];
-  localparam integer SELECTS = `LEVEL_TOKEN_DIAGONAL_BITS;
   localparam integer POSITION_BITS = `SAMPLE_TOKEN_S_BITS;
   localparam integer AXIS_BITS = `LEVEL_TOKEN_AXIS_S_BITS;
 
@@ -43,8 +42,12 @@ module sample_walker #(
     end
   end
   wire [3:0] last_index = with_in[`LEVEL_TOKEN_LAST_INDEX];
-  wire tent_in;
-  wire [7:0] spread = tent_in ? LONGER : KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
+`ifdef LEVEL_TOKEN_DIAGONAL
+  wire longer = in_data[`LEVEL_TOKEN_DIAGONAL] && last_index >= 4'd4;
+`else
+  wire longer = 1'b0;
+`endif
+  wire [7:0] spread = longer ? LONGER : KERNEL == `KERNEL_TENT && last_index < 4'd3 ? NARROW : WIDE;
   wire signed [40:0] wide_spread = $signed({33'd0, spread});
 
   logic full_1;
@@ -161,16 +164,12 @@ module sample_walker #(
   assign out_data[`SAMPLE_TOKEN_LEVEL_WEIGHT] =
       second ? {1'b0, at_fraction} : 9'd256 - {1'b0, at_fraction};
   assign out_data[`SAMPLE_TOKEN_INDEX] = index;
+`ifdef LEVEL_TOKEN_DIAGONAL
   // The bit above N - 1 selects a tent; the FilterPipeline addresses its weights with both.
-  generate
-    if (SELECTS != 0) begin : g_selects
-      assign tent_in = in_data[`LEVEL_TOKEN_DIAGONAL] && last_index >= 4'd4;
-      assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = {at[`LEVEL_TOKEN_DIAGONAL] && at_last >= 4'd4, at_last};
-    end else begin : g_one_kernel
-      assign tent_in = 1'b0;
-      assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
-    end
-  endgenerate
+  assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = {at[`LEVEL_TOKEN_DIAGONAL] && at_last >= 4'd4, at_last};
+`else
+  assign out_data[`SAMPLE_TOKEN_LAST_INDEX] = at_last;
+`endif
   assign out_data[`SAMPLE_TOKEN_LEVEL] = at[`LEVEL_TOKEN_LEVEL] + {3'd0, second};
   assign out_data[`SAMPLE_TOKEN_LINEAR] = at[`LEVEL_TOKEN_LINEAR];
   assign out_data[`SAMPLE_TOKEN_LAST_OF_SAMPLE] = last_of_sample;

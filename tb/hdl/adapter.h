@@ -118,9 +118,11 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
 
 // The fields that hdl/ has: no decoders.
 template <class Token>
-rtl::PayloadShape built() {
+rtl::PayloadShape built(const spec::texture::Parameters& p) {
   if constexpr (requires(Token token) { token.control.codec; })
-    return rtl::texture::texel_quad_shape();
+    return rtl::texture::texel_quad_shape(p);
+  else if constexpr (std::is_same_v<Token, spec::texture::ColourGroup>)
+    return rtl::texture::colours_shape(p);
   else
     return {};
 }
@@ -131,12 +133,12 @@ class VerilatedAt : public rtl::Unit {
  public:
   // `seed`: for all noise.
   VerilatedAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-              rtl::In<From>& in, rtl::Out<To>& out, const rtl::PayloadShape& to = built<To>())
+              rtl::In<From>& in, rtl::Out<To>& out, const spec::texture::Parameters& p)
       : Unit(name, clock),
         in_(in),
         out_(out),
-        from_(rtl::Payload::of<From>(built<From>())),
-        to_(rtl::Payload::of<To>(to)),
+        from_(rtl::Payload::of<From>(built<From>(p))),
+        to_(rtl::Payload::of<To>(built<To>(p))),
         noise_(seed, this->basename()),
         model_(made_with_noise<Model>(*context_, noise_)) {
     VerilatedAt::reset();
@@ -197,8 +199,8 @@ template <class Model, class From, class To>
 class VerilatedUnit final : public VerilatedAt<Model, From, To> {
  public:
   VerilatedUnit(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-                const rtl::PayloadShape& to = built<To>())
-      : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out, to) {}
+                const spec::texture::Parameters& p)
+      : VerilatedAt<Model, From, To>(name, clock, seed, beats_in, beats_out, p) {}
 
   rtl::In<From> beats_in{"beats_in"};
   rtl::Out<To> beats_out{"beats_out"};

@@ -2,6 +2,7 @@
 // Compares the address unit of hdl/texture: results with the golden model's functions, and every
 // cycle with the SystemC unit, under random stalls at both ends and after resets in mid-work, for
 // every option.
+#include <VAddressAxis.h>
 #include <VAddressCapped.h>
 #include <VAddressCeil.h>
 #include <VAddressDeburr.h>
@@ -87,8 +88,10 @@ void append_requests(const spec::texture::Parameters& configuration, const Descr
     const gold::LevelOfDetail lod = gold::select_level(configuration, d, logs.d_max, logs.d_min);
     const gold::Step axis =
         gold::candidate_in_coordinates(configuration.axes, footprint.major, d_x, d_y);
-    const std::int32_t spread =
-        gold::spread_of(configuration.kernel, lod.samples, configuration.spread);
+    const spec::texture::Kernel kernel =
+        gold::fragment_kernel(configuration, footprint.major, lod.samples);
+    const std::int32_t spread = gold::spread_of(kernel, lod.samples, configuration.spread);
+    const bool tent = kernel == spec::texture::Kernel::kAxis;
     const auto place = lod.linear ? gold::linear_position : gold::nearest_position;
     for (int i = 0; i < lod.samples; ++i)
       for (int of_two = 0; of_two < lod.requests_per_sample(); ++of_two) {
@@ -109,7 +112,7 @@ void append_requests(const spec::texture::Parameters& configuration, const Descr
             static_cast<std::uint8_t>(y.fraction),
             static_cast<std::uint16_t>(of_two == 1 ? lod.fraction : 256 - lod.fraction),
             static_cast<std::uint8_t>(i),
-            static_cast<std::uint8_t>(lod.samples - 1),
+            static_cast<std::uint8_t>(lod.samples - 1 + (tent ? hw::kTent : 0)),
             static_cast<std::uint8_t>(d.format),
             of_two + 1 == lod.requests_per_sample(),
             of_two + 1 == lod.requests_per_sample() && i + 1 == lod.samples};
@@ -145,7 +148,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   for (Driver<Quad>* const source : {&source_of_model, &source_of_counterpart})
     source->send(hdl::those_of(quads));
   hw::AddressUnit model("model", clock, parameters, store.control, store.descriptors, probe);
-  VerilatedUnit<Model, Quad, hw::TexelToken> counterpart("counterpart", clock, seed);
+  VerilatedUnit<Model, Quad, hw::TexelToken> counterpart("counterpart", clock, seed, configuration);
   Sink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
       sink_of_counterpart("sink_of_counterpart", clock, after);
   sink_of_model.keep(false);
@@ -279,6 +282,10 @@ TEST(CounterpartAddressUnit, MatchesMaxFootprint) {
 }
 TEST(CounterpartAddressUnit, MatchesTentKernel) {
   expect_equal_unit<VAddressTent>(hdl::kVAddressTent);
+}
+// Samples as far away as 35 bits reach.
+TEST(CounterpartAddressUnit, MatchesKernelByAxis) {
+  expect_equal_unit<VAddressAxis>(hdl::kVAddressAxis);
 }
 TEST(CounterpartAddressUnit, MatchesFourAxesInTwoCycles) {
   expect_equal_unit<VAddressFourInTwo>(hdl::kVAddressFourInTwo);

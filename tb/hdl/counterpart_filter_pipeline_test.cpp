@@ -2,6 +2,7 @@
 // Compares the filter pipeline of hdl/texture: colours with the golden model, cycles with the
 // SystemC unit, under random stalls at both ends and after resets in mid-work, for all kinds of
 // weights and both outputs.
+#include <VFilterAxis.h>
 #include <VFilterDeburr.h>
 #include <VFilterEncoded.h>
 #include <VFilterEncodedPaper.h>
@@ -62,8 +63,8 @@ Result compare(const char* settings, std::uint32_t permille, std::uint64_t seed 
   for (Driver<hw::TexelQuadToken>* const source : {&source_of_model, &source_of_counterpart})
     source->send(hdl::those_of(sent));
   hw::FilterPipeline model("model", clock, parameters, probe);
-  hdl::VerilatedUnit<Model, hw::TexelQuadToken, ColourGroup> counterpart(
-      "counterpart", clock, seed, hw::colours_shape(parameters));
+  hdl::VerilatedUnit<Model, hw::TexelQuadToken, ColourGroup> counterpart("counterpart", clock, seed,
+                                                                         parameters);
   Sink<ColourGroup> sink_of_model("sink_of_model", clock, after),
       sink_of_counterpart("sink_of_counterpart", clock, after);
   sink_of_model.keep(false);
@@ -140,6 +141,9 @@ TEST(CounterpartFilterPipeline, MatchesDeburrPreset) {
 }
 TEST(CounterpartFilterPipeline, MatchesTentKernel) {
   expect_equal_unit<VFilterTent>(hdl::kVFilterTent);
+}
+TEST(CounterpartFilterPipeline, MatchesKernelByAxis) {
+  expect_equal_unit<VFilterAxis>(hdl::kVFilterAxis);
 }
 TEST(CounterpartFilterPipeline, MatchesEncodedOutput) {
   expect_equal_unit<VFilterEncoded>(hdl::kVFilterEncoded);

@@ -27,7 +27,7 @@ class AddressInEngine final
  public:
   AddressInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
       : Base("address_hdl", unit.address.derivative.clock(), seed, unit.address.derivative.quads_in,
-             unit.narrow_address->texels_out),
+             unit.narrow_address->texels_out, unit.parameters()),
         unit_(unit),
         probe_(probe) {
     rtl::texture::AddressUnit& address = *unit.narrow_address;
@@ -132,7 +132,7 @@ class FilterInEngine final
   FilterInEngine(rtl::texture::TextureUnit& unit, rtl::LatencyProbe& probe, std::uint64_t seed)
       : VerilatedAt<Model, rtl::texture::TexelQuadToken, spec::texture::ColourGroup>(
             "filter_hdl", unit.filter.clock(), seed, unit.narrow_filter->texels_in,
-            unit.filter.colours_out, rtl::texture::colours_shape(unit.parameters())),
+            unit.filter.colours_out, unit.parameters()),
         filter_(unit.filter),
         probe_(probe) {
     this->clock().replace(filter_, {&filter_.fragments});

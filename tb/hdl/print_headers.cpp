@@ -240,11 +240,15 @@ void print_tables(const texture::Parameters& chosen, const std::filesystem::path
   table(header, "ETC_MODIFIERS", modifiers);
   table(header, "ETC_DISTANCES", texture::kEtcDistances);
   table(header, "EAC_POSITIVES", positives);
-  // Indexed by N - 1 and sample.
+  // Indexed by N - 1 and sample; where fragments select their kernel, the tent above the box.
   std::vector<std::uint32_t> weights;
-  const auto& kernel = texture::kKernelWeights[static_cast<std::size_t>(chosen.kernel)];
-  for (std::size_t n = 1; n < kernel.size(); ++n)
-    weights.insert(weights.end(), kernel[n].begin(), kernel[n].end());
+  for (std::size_t shape = 0; shape < texture::kKernelWeights.size(); ++shape) {
+    if (!hw::selects_kernel(chosen) && (shape == 1) != (chosen.kernel == texture::Kernel::kTent))
+      continue;
+    const auto& kernel = texture::kKernelWeights[shape];
+    for (std::size_t n = 1; n < kernel.size(); ++n)
+      weights.insert(weights.end(), kernel[n].begin(), kernel[n].end());
+  }
   table(header, "KERNEL_WEIGHTS", weights);
   header.write(folder / "tables.svh");
 }

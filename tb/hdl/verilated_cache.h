@@ -27,9 +27,12 @@ template <class Model>
 class VerilatedCacheAt : public rtl::Unit {
  public:
   VerilatedCacheAt(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-                   const CachePorts& ports, const spec::texture::Build& build)
+                   const CachePorts& ports, const spec::texture::Parameters& build)
       : Unit(name, clock),
         ports_(ports),
+        texel_(rtl::Payload::of<rtl::texture::TexelToken>(built<rtl::texture::TexelToken>(build))),
+        quad_(rtl::Payload::of<rtl::texture::TexelQuadToken>(
+            built<rtl::texture::TexelQuadToken>(build))),
         request_(rtl::Payload::of<rtl::MemoryRequest>(memory_request_shape(build))),
         response_(rtl::Payload::of<rtl::MemoryResponse>(memory_response_shape(build))),
         noise_(seed, this->basename()),
@@ -92,11 +95,7 @@ class VerilatedCacheAt : public rtl::Unit {
   }
   CachePorts ports_;
   std::unique_ptr<VerilatedContext> context_ = std::make_unique<VerilatedContext>();
-  rtl::Payload texel_ =
-      rtl::Payload::of<rtl::texture::TexelToken>(built<rtl::texture::TexelToken>());
-  rtl::Payload quad_ =
-      rtl::Payload::of<rtl::texture::TexelQuadToken>(built<rtl::texture::TexelQuadToken>());
-  rtl::Payload request_, response_;
+  rtl::Payload texel_, quad_, request_, response_;
   Random noise_;
   std::unique_ptr<Model> model_;
 };
@@ -106,7 +105,7 @@ template <class Model>
 class VerilatedCache final : public VerilatedCacheAt<Model> {
  public:
   VerilatedCache(const sc_core::sc_module_name& name, rtl::ClockDomain& clock, std::uint64_t seed,
-                 const spec::texture::Build& build)
+                 const spec::texture::Parameters& build)
       : VerilatedCacheAt<Model>(name, clock, seed,
                                 {texels_in, texels_out, requests_out, responses_in}, build) {}
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rtl_model/fabric/unit.h"
+#include "rtl_model/texture/tokens.h"
 #include "spec/check_build.h"
 #include "spec/error.h"
 
@@ -45,6 +46,9 @@ std::string configuration(const CounterpartUnit& unit,
   for (const std::string_view name : unit.parameters)
     text +=
         fmt::format("{}{}={}", text.empty() ? "" : " ", name, spec::value_text(parameters, name));
+  // Requests then have one bit more.
+  if (unit.name != "address" && rtl::texture::selects_kernel(parameters))
+    text += " with kernel=axis, axes=four or eight";
   return text;
 }
 
