@@ -110,7 +110,7 @@ long kept_contrast(int length, spec::morphological::Preset preset) {
   return std::lround(100.0 * (out.at(320, 12)[0] - beside) / 255);
 }
 
-TEST(MorphologicalHarm, ContrastOfThinLinesIsThatOnPage) {
+TEST(MorphologicalHarm, ThinLineContrastMatchesPage) {
   using spec::morphological::Preset;
   EXPECT_EQ(kept_contrast(640, Preset::kDeburr), 65);
   EXPECT_EQ(kept_contrast(200, Preset::kDeburr), 36);
@@ -120,7 +120,7 @@ TEST(MorphologicalHarm, ContrastOfThinLinesIsThatOnPage) {
 
 // The fraction of changed pixels that the guard misses, within five columns of an end of a line of
 // text and elsewhere.
-TEST(MorphologicalHarm, GuardMissesMoreAtEndsOfLinesAsPageSays) {
+TEST(MorphologicalHarm, GuardMissesAtLineEndsMatchPage) {
   const Image page = harm::text_page(Text::kAliased, 480, 360),
               out = smoothed(page, spec::morphological::Preset::kDeburr);
   const golden::morphological::TextGuard guard({page.pixels, page.width, page.height});
