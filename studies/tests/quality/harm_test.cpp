@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -12,6 +14,9 @@
 #include <string>
 #include <utility>
 
+#include "golden/morphological/configuration.h"
+#include "golden/morphological/morphological_golden.h"
+#include "golden/morphological/text_guard.h"
 #include "studies/quality/harm_frames.h"
 #include "tb/harness/test_paths.h"
 #include "tb/scene/quality.h"
@@ -85,6 +90,63 @@ TEST(MorphologicalHarm, GuardCutsChangedTextToAFifth) {
     else
       EXPECT_LE(page.with, page.without / 5) << kind;
   }
+}
+
+Image smoothed(const Image& frame, spec::morphological::Preset preset) {
+  golden::morphological::MorphologicalGolden golden(
+      golden::morphological::preset_parameters(preset));
+  Image out = frame;
+  out.pixels = golden.process({frame.pixels, frame.width, frame.height});
+  return out;
+}
+
+// Contrast that a white line on black keeps in its middle, in %; one pixel thick.
+long kept_contrast(int length, spec::morphological::Preset preset) {
+  Image frame(640, 24, {0, 0, 0, 255});
+  const int first = (640 - length) / 2;
+  for (int x = first; x < first + length; ++x) frame.at(x, 12) = {255, 255, 255, 255};
+  const Image out = smoothed(frame, preset);
+  const int beside = std::max(out.at(320, 11)[0], out.at(320, 13)[0]);
+  return std::lround(100.0 * (out.at(320, 12)[0] - beside) / 255);
+}
+
+TEST(MorphologicalHarm, ThinLineContrastMatchesPage) {
+  using spec::morphological::Preset;
+  EXPECT_EQ(kept_contrast(640, Preset::kDeburr), 65);
+  EXPECT_EQ(kept_contrast(200, Preset::kDeburr), 36);
+  for (const Preset preset : {Preset::kSmaa, Preset::kDeburrLine})
+    for (const int length : {640, 200}) EXPECT_EQ(kept_contrast(length, preset), 100) << length;
+}
+
+// The fraction of changed pixels that the guard misses, within five columns of an end of a line of
+// text and elsewhere.
+TEST(MorphologicalHarm, GuardMissesAtLineEndsMatchPage) {
+  const Image page = harm::text_page(Text::kAliased, 480, 360),
+              out = smoothed(page, spec::morphological::Preset::kDeburr);
+  const golden::morphological::TextGuard guard({page.pixels, page.width, page.height});
+  int changed[2] = {}, missed[2] = {};
+  for (int top = 0, bottom = 0; top < page.height; top = bottom + 1) {  // rows without ink between
+    int first = page.width, last = -1;
+    for (bottom = top; bottom < page.height; ++bottom) {
+      bool ink = false;
+      for (int x = 0; x < page.width; ++x)
+        if (page.at(x, bottom)[0] != 255) {
+          ink = true;
+          first = std::min(first, x);
+          last = std::max(last, x);
+        }
+      if (!ink) break;
+    }
+    for (int y = top; y < bottom; ++y)
+      for (int x = 0; x < page.width; ++x) {
+        if (std::abs(out.at(x, y)[0] - page.at(x, y)[0]) <= 2) continue;
+        const int at_end = x <= first + 5 || x >= last - 5;
+        ++changed[at_end];
+        missed[at_end] += !guard.at(x, y).guarded();
+      }
+  }
+  EXPECT_EQ(std::lround(100.0 * missed[1] / changed[1]), 31);
+  EXPECT_EQ(std::lround(100.0 * missed[0] / changed[0]), 13);
 }
 
 // The last line of a table, and the header line above its rows.

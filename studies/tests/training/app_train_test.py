@@ -87,6 +87,21 @@ class Trains(Base):
         self.assertLess(said["training"]["gain_db"], 0.05)
         self.nothing_written("x")
 
+    def test_lines_that_must_not_change_count_as_gain(self):
+        """Lines one pixel thick, equal in both pictures, and one edge that the reference smooths."""
+        def picture(name, beside_edge):
+            def code(y):
+                if y == 69:
+                    return beside_edge
+                return 255 * ((y > 69) != (y % 12 == 8))
+            return self.write(name, b"P6 192 144 255\n" + b"".join(bytes([code(y)]) * 3 * 192 for y in range(144)))
+        frame, reference = picture("frame.ppm", 0), picture("reference.ppm", 60)
+        self.train(0, frame, reference, "--batches", "100")
+        said = json.loads(self.run_command("train", "--in", frame, "--truth", reference, "--out", self.path("again"),
+                                           "--batches", "100", "--json").stdout)["training"]
+        self.assertLess(said["gain_db"], 0)  # on the edge
+        self.assertGreater(said["frame_gain_db"], 3)
+
     def test_interrupt_writes_no_file(self):
         frame, reference = self.rendered("tunnel", "--scene", "tunnel")
         process = subprocess.Popen([DEBURR, "train", "--in", frame, "--truth", reference, "--out", self.path("title.weights"),
