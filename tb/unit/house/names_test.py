@@ -50,7 +50,8 @@ def not_in_one_part(tests, parts):
     or another SystemC repeat unit tests and do not count."""
     for test in tests:
         name, labels = test["name"], labels_of(test)
-        found = [part for part, command in parts.items() if not part.startswith(("sanitizers", "systemc3")) and takes(command, name, labels)]
+        found = [part for part, command in parts.items()
+                 if not part.startswith(("sanitizers", "systemc3")) and takes(command, name, labels)]
         if len(found) != 1:
             yield f"{name} is in the parts {found} of scripts/everything"
 
