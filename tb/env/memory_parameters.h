@@ -41,8 +41,8 @@ void describe(MemoryTiming& p, Visitor& v) {
             "If above latency: each request has a uniformly random latency between latency and "
             "this; 0: fixed latency.");
   v.text("latency_file", p.latency_file, "file",
-         "Latency of each request, such as a DRAM simulator recorded "
-         "(docs/reference/traces.md#latencies); latency then only sizes FIFOs that are set to 0.");
+         "Latencies of the requests, for example recorded by a DRAM simulator "
+         "(docs/reference/traces.md); latency then only sizes FIFOs that are set to 0.");
   v.integer("bytes_per_cycle", p.bytes_per_cycle, 0, 4096, "byte/clk",
             "Width of the data bus; 0: no limit.");
   v.integer("banks", p.banks, 1, 1024, "bank", "Number of banks, with interleaved addresses.");
