@@ -5,7 +5,8 @@
 # compiled for another standard links only if SC_CPLUSPLUS is set to the library's value. The value differs between
 # packages, so it is probed by linking, and the definition is set on the target.
 #
-# SystemC 3.0 and later install their own CMake package (SystemCLanguage), which is preferred.
+# SystemC 3.0 and later install their own CMake package (SystemCLanguage), which is preferred. SystemC_ROOT, a variable
+# of CMake or of the environment, or SYSTEMC_HOME of the environment, is the prefix of the only SystemC that is accepted.
 #
 # This module is installed with Deburr's CMake package, whose users need the same SC_CPLUSPLUS. If nothing was found,
 # SystemC_NOT_FOUND_MESSAGE holds the reason.
@@ -16,10 +17,27 @@ cmake_policy(VERSION 3.16...3.25)
 
 unset(SystemC_NOT_FOUND_MESSAGE)
 set(_systemc_oldest 2.3.3)
-set(_systemc_help "Install Debian's package libsystemc-dev, or set SYSTEMC_HOME to an installation of SystemC ${_systemc_oldest} or later, or add the place of a CMake package of SystemC 3.0 to CMAKE_PREFIX_PATH.")
+set(_systemc_help "Install Debian's package libsystemc-dev, or set SystemC_ROOT or SYSTEMC_HOME to an installation of SystemC ${_systemc_oldest} or later, or add the place of a CMake package of SystemC 3.0 to CMAKE_PREFIX_PATH.")
+
+set(_systemc_root "")
+foreach(_systemc_given "${SystemC_ROOT}" "$ENV{SystemC_ROOT}" "$ENV{SYSTEMC_HOME}")
+  if(NOT _systemc_root)
+    set(_systemc_root "${_systemc_given}")
+  endif()
+endforeach()
+if(_systemc_root)
+  get_filename_component(_systemc_root "${_systemc_root}" ABSOLUTE)
+  # What an earlier configuration found elsewhere.
+  foreach(_systemc_found SystemCLanguage_DIR SystemC_INCLUDE_DIR SystemC_LIBRARY)
+    cmake_path(IS_PREFIX _systemc_root "${${_systemc_found}}" NORMALIZE _systemc_inside)
+    if(NOT _systemc_inside)
+      unset(${_systemc_found} CACHE)
+    endif()
+  endforeach()
+endif()
 
 unset(PC_SystemC_FOUND)
-find_package(SystemCLanguage CONFIG QUIET)
+find_package(SystemCLanguage CONFIG QUIET HINTS ${_systemc_root})
 if(SystemCLanguage_FOUND)
   set(SystemC_VERSION "${SystemCLanguage_VERSION}")
   set(_systemc_place "${SystemCLanguage_DIR}")
@@ -33,14 +51,20 @@ if(SystemCLanguage_FOUND)
   endif()
 else()
   find_package(PkgConfig QUIET)
-  if(PkgConfig_FOUND)
+  if(PkgConfig_FOUND AND NOT _systemc_root)
     pkg_check_modules(PC_SystemC QUIET systemc)
   endif()
   find_path(SystemC_INCLUDE_DIR NAMES systemc tlm
-            HINTS ${PC_SystemC_INCLUDEDIR} ENV SYSTEMC_HOME PATH_SUFFIXES include)
+            HINTS ${_systemc_root} ${PC_SystemC_INCLUDEDIR} PATH_SUFFIXES include)
   find_library(SystemC_LIBRARY NAMES systemc
-               HINTS ${PC_SystemC_LIBDIR} ENV SYSTEMC_HOME PATH_SUFFIXES lib lib64 lib-linux64)
-  set(SystemC_VERSION "${PC_SystemC_VERSION}")
+               HINTS ${_systemc_root} ${PC_SystemC_LIBDIR} PATH_SUFFIXES lib lib64 lib-linux64)
+  set(SystemC_VERSION "")
+  if(EXISTS "${SystemC_INCLUDE_DIR}/sysc/kernel/sc_ver.h")
+    file(STRINGS "${SystemC_INCLUDE_DIR}/sysc/kernel/sc_ver.h" _systemc_numbers
+         REGEX "^#define SC_VERSION_(MAJOR|MINOR|PATCH) +[0-9]+")
+    list(TRANSFORM _systemc_numbers REPLACE ".* ([0-9]+).*" "\\1")
+    string(JOIN "." SystemC_VERSION ${_systemc_numbers})
+  endif()
   set(_systemc_place "${SystemC_LIBRARY}")
   set(_systemc_required SystemC_LIBRARY SystemC_INCLUDE_DIR SystemC_BASELINE)
   set(_systemc_libraries "${SystemC_LIBRARY}")
@@ -50,6 +74,13 @@ else()
     set(SystemC_NOT_FOUND_MESSAGE "SystemC was not found. ${_systemc_help}")
   endif()
   mark_as_advanced(SystemC_INCLUDE_DIR SystemC_LIBRARY)
+endif()
+if(_systemc_libraries AND _systemc_root)
+  cmake_path(IS_PREFIX _systemc_root "${_systemc_place}" NORMALIZE _systemc_inside)
+  if(NOT _systemc_inside)
+    set(_systemc_libraries "")
+    set(SystemC_NOT_FOUND_MESSAGE "There is no SystemC in ${_systemc_root} (SystemC_ROOT or SYSTEMC_HOME): it needs lib/cmake/SystemCLanguage, or include/systemc and a library in lib, lib64 or lib-linux64.")
+  endif()
 endif()
 if(_systemc_libraries AND SystemC_VERSION AND SystemC_VERSION VERSION_LESS _systemc_oldest)
   set(_systemc_libraries "")

@@ -46,7 +46,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_pkg.sv
   "${PROJECT_SOURCE_DIR}/golden/c/systemverilog/deburr_golden_dpi.c"
   DESTINATION "${DEBURR_SYSTEMVERILOG_FOLDER}" COMPONENT development)
 # For copying: each folder is a project of its own.
-foreach(example c platform systemverilog)
+foreach(example c dramsys platform systemverilog)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/${example}" DESTINATION "${CMAKE_INSTALL_DATADIR}/deburr/examples"
     COMPONENT development PATTERN build EXCLUDE)
 endforeach()

@@ -12,7 +12,8 @@ if(TARGET deburr_python)
   endif()
 endif()
 
-set_target_properties(deburr deburr_papers deburr_train PROPERTIES INSTALL_RPATH "$ORIGIN")
+# The link path is that of a SystemC in a prefix of its own.
+set_target_properties(deburr deburr_papers deburr_train PROPERTIES INSTALL_RPATH "$ORIGIN" INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS deburr deburr_papers deburr_train RUNTIME DESTINATION "${DEBURR_PROGRAM_FOLDER}" COMPONENT program)
 foreach(module deburr_images deburr_evolution)
   if(TARGET ${module})

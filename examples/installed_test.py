@@ -178,7 +178,7 @@ class Files(Scratch):
         # Only the header of the C interface is installed.
         headers = {file for file in headers if file.parts[:2] != ("golden", "c")}
         installed = {file.relative_to(INCLUDE) for file in INCLUDE.rglob("*.h")}
-        folders = ("c", "platform", "systemverilog", *(["python"] if PYTHON_BUILT else []))
+        folders = ("c", "dramsys", "platform", "systemverilog", *(["python"] if PYTHON_BUILT else []))
         examples = {file.relative_to(SOURCE / "examples") for folder in folders
                     for file in (SOURCE / "examples" / folder).rglob("*")}
         examples = {file for file in examples if "build" not in file.parts}  # left by a reader who has tried it in the source

@@ -238,7 +238,7 @@ PortedMemory::Port& PortedMemory::claim(Side side, const std::string& user) {
   for (Port& port : ports_)
     if (port.side == side && port.user.empty()) {
       port.user = user.empty() ? "a unit" : user;
-      port.holder = sc_core::sc_get_curr_simcontext()->hierarchy_curr();
+      port.holder = sc_core::sc_get_current_object();
       return port;
     }
   throw spec::CheckFailed(fmt::format(

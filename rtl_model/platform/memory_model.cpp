@@ -50,7 +50,7 @@ MemoryModel::MemoryModel(const sc_core::sc_module_name& name, const sc_core::sc_
       period_(clock_period.value()),
       random_(parameters.seed),
       contents_(parameters.bytes),
-      ordered_(parameters.latency_min == parameters.latency_max &&
+      ordered_(parameters.latencies.empty() && parameters.latency_min == parameters.latency_max &&
                (parameters.bank_busy == 0 || parameters.banks == 1)) {
   if (parameters.latency_max < parameters.latency_min || parameters.banks == 0 ||
       parameters.interleave_bytes == 0 || parameters.outstanding == 0)
@@ -121,7 +121,9 @@ std::uint64_t MemoryModel::transfer_cycles(std::uint64_t bytes) const {
       1, (bytes + parameters_.bytes_per_cycle - 1) / parameters_.bytes_per_cycle);
 }
 
-std::uint32_t MemoryModel::draw_latency() {
+std::uint32_t MemoryModel::draw_latency(std::uint64_t number) {
+  if (!parameters_.latencies.empty())
+    return parameters_.latencies[number % parameters_.latencies.size()];
   const std::uint32_t span = parameters_.latency_max - parameters_.latency_min;
   return parameters_.latency_min + (span ? next_below(random_, span + 1) : 0);
 }
@@ -245,7 +247,7 @@ std::optional<std::uint64_t> MemoryModel::accept(Request request, std::uint64_t 
       bank_free_[payload.get_address() / parameters_.interleave_bytes % parameters_.banks];
   const std::uint64_t start = std::max(time, bank);
   bank = start + parameters_.bank_busy * period_;
-  const std::uint64_t ready = start + draw_latency() * period_;
+  const std::uint64_t ready = start + draw_latency(request.number) * period_;
   if (!ordered_) {
     schedule(ready, Step::kReady, request);
     return std::nullopt;
@@ -371,8 +373,10 @@ void MemoryModel::wake_for_held() {
 void MemoryModel::b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   land_answered();
   land((sc_core::sc_time_stamp() + delay).value() + 1);
-  if (admit(payload, requests_++, true)) transfer(payload, payload.get_address());
-  const std::uint64_t cycles = draw_latency() + transfer_cycles(payload.get_data_length()) - 1;
+  const std::uint64_t number = requests_++;
+  if (admit(payload, number, true)) transfer(payload, payload.get_address());
+  const std::uint64_t cycles =
+      draw_latency(number) + transfer_cycles(payload.get_data_length()) - 1;
   delay += sc_core::sc_time::from_value(cycles * period_);
 }
 

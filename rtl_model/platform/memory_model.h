@@ -5,10 +5,10 @@
 //
 // A transaction that begins at time t in a free bank transfers its last byte at
 //   t + latency + (bytes / bytes_per_cycle, rounded up, - 1) cycles,
-// later if its bank or the data bus is busy. With a random latency, responses can overtake each
-// other. A read samples its data when it begins; a write updates the memory when its last byte
-// arrives, so a read of a line before the response to its write returns the old data. b_transport()
-// does both at once.
+// later if its bank or the data bus is busy. With random or listed latencies, responses can
+// overtake each other. A read samples its data when it begins; a write updates the memory when its
+// last byte arrives, so a read of a line before the response to its write returns the old data.
+// b_transport() does both at once.
 //
 // With a fixed latency, transactions stay in order (unless banks are busy), so the response time is
 // known when a request begins. The response is then sent immediately with that time as its delay,
@@ -145,7 +145,7 @@ class MemoryModel final : public sc_core::sc_module, public HostMemory {
   // Reads or writes the contents.
   void transfer(tlm::tlm_generic_payload& payload, std::uint64_t address);
   std::uint64_t transfer_cycles(std::uint64_t bytes) const;
-  std::uint32_t draw_latency();
+  std::uint32_t draw_latency(std::uint64_t number);
 
   MemoryModelParameters parameters_;
   std::uint64_t period_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace deburr::platform {
 
@@ -21,6 +22,8 @@ struct MemoryModelParameters {
   // false: contents change in the order of requests, so a read never returns data that are too old.
   bool write_at_response = true;
   bool answer_ahead = true;  // false: every response is sent at its time
+  // clk; unless empty: request n has latency n modulo their number, not a fixed or random one.
+  std::vector<std::uint32_t> latencies{};
 };
 
 }  // namespace deburr::platform

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "rtl_model/fabric/memory_cycles.h"
 #include "rtl_model/platform/memory_model_parameters.h"
@@ -13,8 +16,11 @@
 
 namespace deburr::tb {
 
+inline constexpr std::int32_t kMostLatency = 100000;
+
 struct MemoryTiming {
   std::int32_t latency = 100, latency_max = 0;
+  std::string latency_file;
   std::int32_t bytes_per_cycle = 64;
   std::int32_t banks = 1, interleave_bytes = 64, bank_busy = 0;
   std::int32_t outstanding = 256;
@@ -29,10 +35,14 @@ struct MemoryParameters : MemoryTiming, MemoryErrors {};
 
 template <class Visitor>
 void describe(MemoryTiming& p, Visitor& v) {
-  v.integer("latency", p.latency, 1, 100000, "clk", "Latency from a request to its first byte.");
-  v.integer("latency_max", p.latency_max, 0, 100000, "clk",
+  v.integer("latency", p.latency, 1, kMostLatency, "clk",
+            "Latency from a request to its first byte.");
+  v.integer("latency_max", p.latency_max, 0, kMostLatency, "clk",
             "If above latency: each request has a uniformly random latency between latency and "
             "this; 0: fixed latency.");
+  v.text("latency_file", p.latency_file, "file",
+         "Latencies of the requests, for example recorded by a DRAM simulator "
+         "(docs/reference/traces.md); latency then only sizes FIFOs that are set to 0.");
   v.integer("bytes_per_cycle", p.bytes_per_cycle, 0, 4096, "byte/clk",
             "Width of the data bus; 0: no limit.");
   v.integer("banks", p.banks, 1, 1024, "bank", "Number of banks, with interleaved addresses.");
@@ -56,6 +66,11 @@ inline void add_memory(ParameterSet& set, std::string_view prefix, MemoryParamet
   set.add(prefix, ParameterKind::kInput, static_cast<MemoryErrors&>(p));
 }
 
+// The latencies of a latency_file. FileError if there is none, or for a line that is not a latency.
+std::vector<std::uint32_t> read_latencies(const std::filesystem::path& file);
+// "100 clk", or the file, for titles.
+std::string latency_text(const MemoryTiming& p);
+
 inline platform::MemoryModelParameters memory_model_parameters(const MemoryParameters& p,
                                                                std::uint64_t bytes,
                                                                std::uint64_t seed) {
@@ -64,6 +79,7 @@ inline platform::MemoryModelParameters memory_model_parameters(const MemoryParam
   m.bytes = std::max(bytes, kSmallest);
   m.latency_min = static_cast<std::uint32_t>(p.latency);
   m.latency_max = static_cast<std::uint32_t>(std::max(p.latency, p.latency_max));
+  if (!p.latency_file.empty()) m.latencies = read_latencies(p.latency_file);
   m.seed = seed;
   m.bytes_per_cycle = static_cast<std::uint32_t>(p.bytes_per_cycle);
   m.banks = static_cast<std::uint32_t>(p.banks);

@@ -50,6 +50,14 @@ std::string only_in(const std::vector<std::pair<std::string, std::string>>& some
 
 }  // namespace
 
+std::vector<fs::path> surroundings_files(const tb::ParameterSet& set) {
+  std::vector<fs::path> files;
+  for (const tb::Parameter& p : set.all())
+    if (p.kind == tb::ParameterKind::kSurroundings && p.range == "file" && !p.text().empty())
+      files.emplace_back(p.text());
+  return files;
+}
+
 std::string content_of(const fs::path& file) {
   std::error_code error;
   if (fs::status(file, error).type() == fs::file_type::not_found) return std::string(kMissingFile);

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tb/run/parameter_set.h"
 #include "tb/scene/mesh.h"
 
 namespace deburr::tool {
@@ -22,8 +23,12 @@ inline constexpr std::string_view kUnreadableFile = "unreadable";
 // The SHA-256 of the file's content, or one of the two names above.
 std::string content_of(const std::filesystem::path& file);
 
-// An entry of "inputs" in a manifest or a collection. A file that only defines the run has a role
-// ("configuration", "definition"), since the parameters describe the run too.
+// The files that parameters of the surroundings name (memory.latency_file), which no engine lists.
+std::vector<std::filesystem::path> surroundings_files(const tb::ParameterSet& set);
+
+// An entry of "inputs" in a manifest or a collection. A file that is not data of the engine has a
+// role: "surroundings", or one that defines the run, whose parameters describe it too
+// ("configuration", "definition").
 nlohmann::ordered_json input_entry(const std::filesystem::path& file, std::string_view content,
                                    std::string_view role = "");
 // The content_of() that the entry records.

@@ -129,6 +129,7 @@ void RunContext::add_note(const std::string& note) {
 void RunContext::share(std::shared_ptr<SharedInputs> shared, std::vector<fs::path> files) {
   shared_ = std::move(shared);
   shared_files_ = std::move(files);
+  for (fs::path& file : surroundings_files(parameters_)) shared_files_.push_back(std::move(file));
 }
 
 std::string RunContext::shared_bytes(std::string_view what,
@@ -143,13 +144,17 @@ std::string RunContext::shared_bytes(std::string_view what,
 }
 
 void RunContext::add_inputs(const std::vector<fs::path>& files) {
-  for (const fs::path& file : files) {
-    DEBURR_CHECK(!shared_ || std::find(shared_files_.begin(), shared_files_.end(), file) !=
-                                 shared_files_.end(),
-                 fmt::format("'{}' was read but is in no key", file.string()));
-    list(file, shared_ ? shared_->files().content(file) : content_of(file), "");
-  }
-  if (shared_) shared_->files().reject_changed(files);
+  const auto add = [this](const std::vector<fs::path>& some, std::string_view role) {
+    for (const fs::path& file : some) {
+      DEBURR_CHECK(!shared_ || std::find(shared_files_.begin(), shared_files_.end(), file) !=
+                                   shared_files_.end(),
+                   fmt::format("'{}' was read but is in no key", file.string()));
+      list(file, shared_ ? shared_->files().content(file) : content_of(file), role);
+    }
+    if (shared_) shared_->files().reject_changed(some);
+  };
+  add(files, "");
+  add(surroundings_files(parameters_), "surroundings");
 }
 
 // Records the text that was read: a pipe can be read only once.

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "spec/error.h"
 
@@ -50,13 +51,21 @@ void reject_slow_memory(const tb::ParameterSet& set, std::string_view prefix,
   std::int64_t cycles = 0;
   std::from_chars(patience.data(), patience.data() + patience.size(), cycles);
   const bool drawn = memory.latency_max > memory.latency;
-  const std::int64_t slowest = std::max(memory.latency, memory.latency_max);
+  std::int64_t slowest = std::max(memory.latency, memory.latency_max);
+  if (!memory.latency_file.empty()) {
+    const std::vector<std::uint32_t> listed = tb::read_latencies(memory.latency_file);
+    slowest = *std::max_element(listed.begin(), listed.end());
+  }
   if (slowest + memory.bank_busy >= cycles)
     throw spec::ConfigError(fmt::format(
         "{0}.{1} = {2}{3} is not below run.watchdog_cycles = {4}, after which a run without "
         "progress counts as a deadlock: raise it (--set run.watchdog_cycles={5}), or make the "
         "memory faster",
-        prefix, drawn ? "latency_max" : "latency", slowest,
+        prefix,
+        !memory.latency_file.empty() ? "latency_file"
+        : drawn                      ? "latency_max"
+                                     : "latency",
+        slowest,
         memory.bank_busy > 0 ? fmt::format(" and {}.bank_busy = {}", prefix, memory.bank_busy) : "",
         cycles, 2 * (slowest + memory.bank_busy)));
 }
@@ -66,7 +75,9 @@ void reject_unused_memory(const tb::ParameterSet& set, std::string_view prefix,
   const auto reject = [&](std::string_view name, std::string_view why) {
     set.reject(fmt::format("{}.{}", prefix, name), why);
   };
-  if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
+  if (!memory.latency_file.empty())
+    reject("latency_max", fmt::format("{}.latency_file gives the latencies", prefix));
+  else if (memory.latency_max > 0 && memory.latency_max <= memory.latency)
     reject("latency_max", fmt::format("it is not above {}.latency = {}", prefix, memory.latency));
   if (memory.banks == 1) reject("interleave_bytes", fmt::format("{}.banks = 1", prefix));
   if (memory.error_address < 0)

@@ -25,7 +25,7 @@ namespace {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 // For every engine.
-constexpr std::array<std::string_view, 16> kFixed = {
+constexpr std::array<std::string_view, 17> kFixed = {
     // Runs that are not compared, that end early by design, or that write pictures and waveforms.
     "run.check", "run.max_cycles", "run.fault", "run.reference", "run.images", "run.pixel",
     "run.trace", "run.trace_from", "run.trace_to", "run.timeline_from",
@@ -35,6 +35,8 @@ constexpr std::array<std::string_view, 16> kFixed = {
     "scene.reference_samples",
     // Runs with memory errors never pass.
     "memory.error_address", "memory.error_bytes",
+    // A file of the user.
+    "memory.latency_file",
     // With a short watchdog, slow memory and stalls would count as a deadlock.
     "run.watchdog_cycles"};
 

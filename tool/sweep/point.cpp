@@ -58,8 +58,9 @@ PointEngine::PointEngine(const std::string& name, const std::vector<Setting>& se
 std::string point_name(const BoundEngine& bound, InputFiles& files) {
   std::string key = fmt::format("{}\n{}\n", bound.engine.name(), build_info().model);
   for (const tb::Parameter& p : bound.set.all()) key += fmt::format("{}={}\n", p.name, p.text());
-  for (const std::string& content : files.contents(bound.engine.input_files(files.meshes())))
-    key += fmt::format("  {}\n", content);
+  std::vector<fs::path> inputs = bound.engine.input_files(files.meshes());
+  for (fs::path& file : surroundings_files(bound.set)) inputs.push_back(std::move(file));
+  for (const std::string& content : files.contents(inputs)) key += fmt::format("  {}\n", content);
   return tb::sha256(key).substr(0, kDigits);
 }
 

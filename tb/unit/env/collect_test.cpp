@@ -2,21 +2,26 @@
 // Results collected from units, memories, latencies and parameters: each number by hand.
 #include "tb/env/collect.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "rtl_model/fabric/unit.h"
+#include "spec/error.h"
 #include "tb/env/memory_parameters.h"
 
 namespace deburr::tb::collect_test {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using Bins = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
 Latency latency(const std::vector<std::uint64_t>& values) {
@@ -146,6 +151,31 @@ TEST(MemoryParameters, EveryParameterReachesItsModelField) {
   m = memory_model_parameters(p, 63, 1);
   EXPECT_EQ(m.latency_max, 11u);
   EXPECT_EQ(m.bytes, 64u) << "at least one line";
+}
+
+TEST(MemoryParameters, LatencyFileGivesLatencyOfEachRequest) {
+  MemoryParameters p;
+  p.latency_file = testing::TempDir() + "latencies.txt";
+  const auto read = [&](std::string_view text) -> std::string {
+    std::ofstream(p.latency_file) << text;
+    try {
+      return fmt::format("{}", fmt::join(memory_model_parameters(p, 64, 1).latencies, " "));
+    } catch (const spec::FileError& error) {
+      return std::string(error.what()).substr(p.latency_file.size());
+    }
+  };
+  EXPECT_EQ(read("# comment\n1\n100000\r\n 7 "), "1 100000 7");
+  for (const std::string row : {"0", "-3", "100001", "4294967297", "1.5", "12 13", "12x", ""})
+    EXPECT_EQ(read("7\n" + row + "\n8\n"),
+              ":2: '" + row +
+                  "' is not a latency: write a whole number of cycles, 1 to 100000, in each line");
+  for (const std::string text : {"", "# comment\n"})
+    EXPECT_THAT(read(text), HasSubstr("has no latency: write the cycles of one request"));
+  std::filesystem::remove(p.latency_file);
+  EXPECT_THROW(memory_model_parameters(p, 64, 1), spec::FileError);
+  EXPECT_EQ(memory_cycles(p, 64).latency, 100) << "sizes do not depend on the file";
+  p.latency_file.clear();
+  EXPECT_TRUE(memory_model_parameters(p, 64, 1).latencies.empty());
 }
 
 TEST(MemoryParameters, LineTakesLatencyAndItsTransfer) {

@@ -104,6 +104,21 @@ TEST(MemoryPort, RandomLatenciesCoverTheWholeRange) {
   EXPECT_GT(s.port.latency.percentile(60), s.port.latency.percentile(40));
 }
 
+// Request n has latency n of the list, which begins again at its end. A later response that is
+// faster overtakes; of two that are ready in one cycle the first one requested gets the bus.
+TEST(MemoryPort, ListedLatenciesAreExactAndRepeat) {
+  platform::MemoryModelParameters parameters;
+  parameters.latencies = {20, 3, 9, 8};
+  System s({}, parameters);
+  for (std::uint32_t i = 0; i < 6; ++i) s.driver.send(read_of(i));
+  s.clock.run(60);
+  std::string arrived;  // in the sink 3 + latency cycles after the push
+  for (std::size_t i = 0; i < s.sink.received(); ++i)
+    arrived += fmt::format("{}@{}{} ", s.sink.beats()[i].tag, s.sink.cycles()[i],
+                           right(s.sink.beats()[i]) ? "" : "!");
+  EXPECT_EQ(arrived, "1@7 5@11 2@14 3@15 0@23 4@27 ");
+}
+
 TEST(MemoryPort, AcceptsOneRequestPerCycle) {
   MemoryPortParameters parameters;
   parameters.outstanding = 32;

@@ -161,7 +161,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
       crease = fmt::format(", creases {}", name_of(p.crease, spec::geometric::kCreaseNames));
     return fmt::format(
         "{} x {} pixels, {} faces, {} edges{}, {}: select {}{}, depth test {}, combine {}, {} "
-        "light; {} of 8 x 8 pixels, {} edges, {} pixels per cycle{}; memory latency {} clk",
+        "light; {} of 8 x 8 pixels, {} edges, {} pixels per cycle{}; memory latency {}",
         frame.image.width, frame.image.height, tb::grouped(frame.screen.faces),
         tb::grouped(frame.screen.edges.size()), clipped, preset_label_,
         name_of(p.select, spec::geometric::kSelectNames), crease,
@@ -170,7 +170,7 @@ class GeometricCommand final : public Engine, public tb::GeometricTestbench {
         p.layout == spec::geometric::Layout::kTiled ? "tiles" : "rows instead",
         name_of(p.edge_lanes, spec::geometric::kLanesNames),
         name_of(p.walkers, spec::geometric::kLanesNames),
-        p.frame_copy ? ", the frame copied first" : "", memory_.latency);
+        p.frame_copy ? ", the frame copied first" : "", latency_text(memory_));
   }
 
   void add_pictures(const RunParameters& run, RunContext& context,

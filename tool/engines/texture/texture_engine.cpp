@@ -229,7 +229,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     };
     return fmt::format(
         "{}{} fragments, {}, N_max {}, {}{} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
-        "kernel {}, blend {}; width {}, cache {} bytes, {} ways; memory latency {} clk{}{}",
+        "kernel {}, blend {}; width {}, cache {} bytes, {} ways; memory latency {}{}{}",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
             : "",
@@ -244,7 +244,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
         name(texture_.count, spec::texture::kCountNames),
         name(texture_.kernel, spec::texture::kKernelNames),
         name(texture_.blend, spec::texture::kBlendNames), texture_.width, texture_.cache_bytes,
-        texture_.cache_ways, memory_.latency,
+        texture_.cache_ways, latency_text(memory_),
         counterpart_units_.empty() ? "" : "; in SystemVerilog: ",
         fmt::join(counterpart_units_, ", "));
   }

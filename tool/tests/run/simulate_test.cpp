@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -229,6 +230,10 @@ TEST(InputRules, RejectsMemorySlowerThanWatchdog) {
             "memory.latency_max = 1001" + rest + "2002), or make the memory faster");
   EXPECT_EQ(said(900, 20, 100), "memory.latency = 900 and memory.bank_busy = 100" + rest +
                                     "2000), or make the memory faster");
+  memory.latency_file = testing::TempDir() + "latencies.txt";
+  std::ofstream(memory.latency_file) << "5\n1500\n8\n";
+  EXPECT_EQ(said(1, 0, 0),
+            "memory.latency_file = 1500" + rest + "3000), or make the memory faster");
 }
 
 TEST(InputRules, RejectsUnusedMemoryParameters) {
@@ -248,6 +253,8 @@ TEST(InputRules, RejectsUnusedMemoryParameters) {
             "");
   EXPECT_THAT(said({{"latency_max", "100"}}),
               HasSubstr("has no effect: it is not above memory.latency = 100"));
+  EXPECT_THAT(said({{"latency_max", "101"}, {"latency_file", "any"}}),
+              HasSubstr("has no effect: memory.latency_file gives the latencies"));
   EXPECT_THAT(said({{"interleave_bytes", "128"}}), HasSubstr("has no effect: memory.banks = 1"));
   EXPECT_THAT(said({{"error_bytes", "1"}}),
               HasSubstr("has no effect: memory.error_address is not set"));

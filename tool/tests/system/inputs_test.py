@@ -465,6 +465,14 @@ class Traced(InputsTest):
         shutil.copy(self.path("out/traced/fragments.trace"), self.path("f.trace"))
         self.check_run("texture", "--in", "meshes/m.obj", "--fragments", "f.trace", least=4)
 
+    def test_lists_latencies(self):
+        self.write("l.txt", "40\n90\n")
+        for engine, memory in (("texture", "memory"), ("geometric", "memory"), ("morphological", "memory"),
+                               ("frame", "memory"), ("frame", "frame_memory")):
+            with self.subTest(f"{engine} {memory}"):
+                storage = ["--storage", "memory"] if engine in ("morphological", "frame") else []
+                self.check_run(engine, "--size", "32x32", *storage, "--set", f"{memory}.latency_file=l.txt", least=1)
+
     def test_lists_frames(self):
         for name, shade in (("f", 90), ("t", 100), ("d", 30), ("m", 200)):
             self.write(f"frames/{name}.png", png(shade))

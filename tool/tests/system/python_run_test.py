@@ -278,6 +278,18 @@ class Sweeps(Scratch):
     def rows(self, table):
         return table if isinstance(table, list) else table.to_dict("records")
 
+    def test_latency_file(self):
+        """A file of one latency acts as that latency, exactly; the name is relative to the working directory."""
+        fifo = {"texture_cache_fifo_depth": 64, "no_images": True}  # not sized by memory.latency
+        fixed = [deburr.run("texture", **TINY, **fifo, memory_latency=latency).cycles for latency in (99, 100, 101)]
+        self.assertEqual(len(set(fixed)), 3)
+        for latency, cycles in zip((99, 100, 101), fixed):
+            (self.folder / "latencies.txt").write_text(f"# clk\n{latency}\n", encoding="utf-8")
+            self.assertEqual(deburr.run("texture", **TINY, **fifo, memory_latency_file="latencies.txt").cycles, cycles)
+            table = deburr.sweep("texture", {"memory_latency_file": [pathlib.Path("latencies.txt")]}, **TINY, **fifo,
+                                 out="out", metrics=["cycles"])
+            self.assertEqual([row["cycles"] for row in self.rows(table)], [cycles])
+
     def test_sweep_is_a_table_of_points(self):
         table = deburr.sweep("texture", self.AXES, **TINY, run_images=False, out="out", jobs=2,
                              metrics={"cycles": "cycles", "bits": "memory_bits.total.physical"},
