@@ -128,7 +128,7 @@ TEST_P(TextureDirection, EveryDirectionMatchesTheEllipse) {
   }
 }
 
-// Levels whose halves are rounded up lose 5 dB here (docs/reference/scenes.md).
+// Levels whose halves are rounded up lose 7.5 dB here (docs/reference/scenes.md).
 TEST(TextureDirection, OneTexelWideTextureMatchesTheEllipse) {
   tb::Image image(1, 1024);
   for (int y = 0; y < image.height; ++y) {
