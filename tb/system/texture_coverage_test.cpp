@@ -49,7 +49,7 @@ TEST(TextureCoverage, EveryBinIsHit) {
         options.texture.cache_bytes = 2048;
         options.texture.cache_outstanding = 4;  // so that the miss queue becomes full
         options.texture.axes = static_cast<spec::texture::Axes>(number % 3);
-        options.texture.kernel = static_cast<spec::texture::Kernel>(number / 3 % 2);
+        options.texture.kernel = static_cast<spec::texture::Kernel>(number / 3 % 3);
         options.texture.srgb_output = static_cast<spec::texture::SrgbOutput>(number / 5 % 2);
         // The long axis is horizontal on two of the tunnel's walls and vertical on the others.
         run(coverage, picture(number % 4 ? "tunnel" : "plane", 48), sampler, options);

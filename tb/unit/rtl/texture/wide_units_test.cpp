@@ -254,7 +254,8 @@ TEST(TextureRtlWide, Log2UnitHandlesAGroupPerCycle) {
               3,
               4,
               r.word() >> r.below(32),
-              std::uint64_t{r.word()} << r.below(15)};
+              std::uint64_t{r.word()} << r.below(15),
+              r.chance(500)};
     });
     bench->hold();
     units.push_back(std::move(narrow));
@@ -286,7 +287,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   bench.add(40, [](std::uint32_t number) -> Log2Token {
     Random& r = fragments_random;
     const auto lb = [&] { return static_cast<std::int32_t>(r.below(1 << 16)) - (1 << 14); };
-    return {ticket(number), 1, 2, 3, 4, lb(), lb()};
+    return {ticket(number), 1, 2, 3, 4, lb(), lb(), r.chance(500)};
   });
   bench.hold();
   clock.run(200);
@@ -308,11 +309,11 @@ spec::texture::Build four_by_four() {
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name,
               const spec::texture::Build& build = four_by_four(),
-              spec::texture::Blend blend = spec::texture::Blend::kSample)
-      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny,
-             spec::texture::Kernel::kBox, 64, blend, build),
-        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny,
-               spec::texture::Kernel::kBox, 64, blend),
+              spec::texture::Blend blend = spec::texture::Blend::kSample,
+              spec::texture::Kernel kernel = spec::texture::Kernel::kBox)
+      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend,
+             build),
+        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend),
         ends(clock, name),
         narrow_ends(clock, name + "narrow_") {
     unit.levels_in(ends.in);
@@ -325,7 +326,7 @@ struct WalkerBench {
     std::vector<LevelToken> tokens;
     for (const int n : samples) {
       tokens.push_back({ticket(number++), 100, 200, 3000, -5000, static_cast<std::uint8_t>(n - 1),
-                        4, fraction, true});
+                        4, fraction, true, number % 2 == 0});
       narrow_ends.source.add(tokens.back());
     }
     ends.source.add(group_of<FragmentGroup<LevelToken>>(tokens));
