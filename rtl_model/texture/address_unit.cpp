@@ -24,7 +24,7 @@ AddressUnitOf<Width>::AddressUnitOf(const sc_core::sc_module_name& name, ClockDo
       footprints_("footprints", 2, fragment_links<Width>(p, footprint_shape(p))),
       logs_("logs", 2, fragment_links<Width>(p, axis_shape(p))),
       levels_("levels", 2, fragment_links<Width>(p, axis_shape(p))),
-      samples_("samples", 2, request_links<Width>(p)) {
+      samples_("samples", 2, request_links<Width>(p, sample_shape(p))) {
   const auto between = [&](auto& unit) {
     unit->derivatives_in(derivatives_);
     unit->footprints_out(footprints_);

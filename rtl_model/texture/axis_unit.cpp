@@ -91,6 +91,7 @@ void AxisUnitOf<Width>::turn(const DerivativeToken& in, FootprintToken& out) con
   // Stages 7 and 8.
   out.axis_s = coordinate(rotated(in.s_x, in.s_y, major.direction));
   out.axis_t = coordinate(rotated(in.t_x, in.t_y, major.direction));
+  out.diagonal = major.direction % (kDirections / 2) == kDirections / 4;
 }
 
 // Stages 1 to 6. On ties the first candidate wins, within a cycle and across cycles.
@@ -228,7 +229,8 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
   // Stages 7 and 8 compute the axis, with `exact` in parallel with the first bits of the root.
   const Operator digits = op::root_stage(RootPipeline::kMeanRest);
   const std::uint32_t root = exact ? RootPipeline::kMeanRegisters : length;
-  const std::uint32_t without_differences = kToken + kArea - kDifferences;
+  const std::uint32_t diagonal = selects_kernel(p) ? 1 : 0;
+  const std::uint32_t without_differences = kToken + kArea - kDifferences + diagonal;
   stages.push_back({.clock = "7",
                     .work = "the same multiples of the coordinate differences, for the direction "
                             "found",
@@ -236,7 +238,7 @@ Datasheet AxisUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
                     .longest = {op::multiply_constant(33, 3), op::mux(40, multiples + 2)},
                     .registers = without_differences + 4 * 41 + root});
   stages.back().operators.push_back(4 * op::mux(40, multiples + 2));
-  stages.back().operators.push_back(op::logic(2 * 41));
+  stages.back().operators.push_back(op::logic(2 * 41 + 2 * diagonal));
   stages.push_back({.clock = "8",
                     .work = "sum, rounded",
                     .operators = {4 * op::add(41)},

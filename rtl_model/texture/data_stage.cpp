@@ -231,7 +231,7 @@ Datasheet DataStage::datasheet(const spec::texture::Parameters& p) {
             .longest = {op::equal(place - 2), 3 * op::maximum(2), op::mux(z.slot, 4)},
             // Ticket and control; texels that missed, and of the others bank and byte; passes and
             // fills done.
-            .registers = (words == 1 ? Payload::of<TexelQuadToken>(texel_quad_shape())
+            .registers = (words == 1 ? Payload::of<TexelQuadToken>(texel_quad_shape(p))
                                      : Payload::of<BlockGroup>(block_shape(p)))
                              .bits() +
                          4 * (z.offset + 1) + 2 * 3 + 2},

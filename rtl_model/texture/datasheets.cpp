@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rtl_model/texture/datasheets.h"
 
+#include <algorithm>
 #include <bit>
 #include <string>
 
@@ -53,8 +54,11 @@ Sizes::Sizes(const spec::texture::Parameters& p) {
   candidates = (two ? 2U : p.axes == spec::texture::Axes::kFour ? 4U : 8U) / axis_cycles;
   axis = two ? 33 : 34;
   minor = two ? 32 : 47;
-  const std::uint32_t spread = u(p.spread) >> std::countr_zero(u(p.spread) | 0x100);
+  const std::uint32_t tent = selects_kernel(p) ? u(tent_spread(p.spread)) : 0,
+                      spread = std::max(u(p.spread), tent) >>
+                               std::countr_zero(u(p.spread) | tent | 0x100);
   step = axis + (spread > 1 ? static_cast<std::uint32_t>(std::bit_width(spread)) : 0);
+  position = position_bits(p);
   walking = width > 1 ? 2 : 1;
   texels = 4 * width;
   offset = log2_of(p.cache_line_bytes);
@@ -154,6 +158,9 @@ std::vector<Datasheet> datasheets() {
     }
     builds.push_back(units(p));
   }
+  Parameters by_axis = preset_parameters(Preset::kDeburr);
+  by_axis.kernel = Kernel::kAxis;
+  builds.push_back({SampleWalker::datasheet(by_axis)});
   Parameters narrow = preset_parameters(Preset::kDeburr),
              wide = preset_parameters(Preset::kDeburr, NamedBuild::kWide);
   for (const Decode decode : {Decode::kNone, Decode::kAfter, Decode::kBefore})

@@ -20,6 +20,7 @@ struct Sizes {
   std::uint32_t candidates;    // directions of the major axis that are measured per cycle
   std::uint32_t axis, minor;   // component of the axis; d_min, or the area
   std::uint32_t step;          // axis x spread, without the zeros below it
+  std::uint32_t position;      // of a sample
   std::uint32_t walking;       // groups of fragments in the walking registers
   std::uint32_t texels;        // of a group
   std::uint32_t line, offset;  // number of a line; byte in it

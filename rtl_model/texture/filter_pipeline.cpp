@@ -29,12 +29,22 @@ constexpr std::size_t kMostSamples = 16;
 std::size_t weight_address(std::size_t last_index, std::size_t index) {
   return kMostSamples * last_index + index;
 }
-std::vector<std::uint16_t> weight_words(spec::texture::Kernel kernel) {
-  const auto& by_count = spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)];
-  std::vector<std::uint16_t> words(kMostSamples * kMostSamples);
-  for (std::size_t last = 0; last < kMostSamples; ++last)
-    for (std::size_t i = 0; i <= last; ++i) words[weight_address(last, i)] = by_count[last + 1][i];
+// `kernel = axis`: the tents follow the boxes.
+std::vector<std::uint16_t> weight_words(const spec::texture::Configuration& p) {
+  using spec::texture::Kernel;
+  std::vector<std::uint16_t> words;
+  const auto add = [&](Kernel kernel) {
+    const auto& by_count = spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)];
+    for (std::size_t n = 1; n <= kMostSamples; ++n)
+      words.insert(words.end(), by_count[n].begin(), by_count[n].end());
+  };
+  add(p.kernel == Kernel::kTent ? Kernel::kTent : Kernel::kBox);
+  if (selects_kernel(p)) add(Kernel::kTent);
   return words;
+}
+bool has_weights(const spec::texture::Configuration& p) {
+  return p.count == spec::texture::CountRule::kAny || p.kernel == spec::texture::Kernel::kTent ||
+         selects_kernel(p);
 }
 
 // Bits dropped from the U8.20 sum: for an output channel, and for U8.4 light to be encoded.
@@ -63,12 +73,11 @@ FilterPipelineOf<Width>::FilterPipelineOf(const sc_core::sc_module_name& name, C
     for (std::uint32_t i = 0; i < kCodedChannels; ++i)
       linear_.emplace_back(
           srgb_, numbered(("texel_" + std::to_string(i / 3) + "_" + "rgb"[i % 3]).c_str(), lane));
-  if (configuration.kernel != spec::texture::Kernel::kBox ||
-      configuration.count == spec::texture::CountRule::kAny) {
-    weight_words_ = weight_words(configuration.kernel);
+  if (has_weights(configuration)) {
+    weight_words_ = weight_words(configuration);
     weights_ =
         std::make_unique<Memory<std::uint16_t>>("weights",
-                                                MemoryShape{.words = kMostSamples * kMostSamples,
+                                                MemoryShape{.words = weight_words_.size(),
                                                             .word_bits = 9,
                                                             .kind = MemoryKind::kRom,
                                                             .read_ports = lanes,
@@ -371,8 +380,7 @@ Datasheet FilterPipelineOf<Width>::datasheet(const spec::texture::Parameters& p)
   using spec::texture::Blend, spec::texture::SrgbOutput;
   const std::uint32_t w = Sizes(p).width;
   const bool by_level = p.blend == Blend::kLevel, encoded = p.srgb_output == SrgbOutput::kEncoded;
-  const bool rom =
-      p.count == spec::texture::CountRule::kAny || p.kernel != spec::texture::Kernel::kBox;
+  const bool rom = has_weights(p);
   // Tag, lane, last and valid; for the codes also the descriptor's valid bit and the format.
   const std::uint32_t ticket = 32 + 2 + 1 + 1 + (encoded ? 1 + 3 : 0);
   constexpr std::uint32_t kFraction = 8, kWeight = 9, kFlags = 2;

@@ -8,10 +8,11 @@
 //           fragment: their colours leave in one beat.
 // Stalls    downstream  The whole pipeline stalls.
 // Method    Stage 1 splits a texel into fields, the addresses of ROM `srgb`. Stage 2 reads it, and
-//           the weight of the sample from ROM `weights` by N and i (`box` with N a power of two:
-//           256 >> lb N, no ROM). Weights sum to 256, so no division is needed. With `blend =
-//           level` stages 6 and 7 swap their factors: 6 sums the samples of a level, 7 the levels.
-//           The model computes stages 2 to 5 in stage 2, then delays.
+//           the weight of the sample from ROM `weights` by N and i, with `kernel = axis` also by
+//           kernel (`box` with N a power of two: 256 >> lb N, no ROM). Weights sum to 256, so no
+//           division is needed. With `blend = level` stages 6 and 7 swap their factors: 6 sums the
+//           samples of a level, 7 the levels. The model computes stages 2 to 5 in stage 2, then
+//           delays.
 // Source    Paper 2.3; weights and codes are ours.
 #pragma once
 

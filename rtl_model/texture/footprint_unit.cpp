@@ -38,6 +38,7 @@ inline void FootprintUnitOf<Width>::order(const DerivativeToken& in, FootprintTo
   out.axis_t = x_is_major ? in.t_x : in.t_y;
   out.d_max = x_is_major ? d_x : d_y;
   out.minor = x_is_major ? d_y : d_x;
+  out.diagonal = false;
 }
 
 // Shifts by constants cost only wires.

@@ -86,6 +86,7 @@ void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in
   out.t = in.t;
   out.axis_s = in.axis_s;
   out.axis_t = in.axis_t;
+  out.diagonal = in.diagonal;
   out.last_index = out.level = out.fraction = 0;
   out.linear = false;
   if (!out.ticket.valid) return;
@@ -95,11 +96,19 @@ void LevelUnitOf<Width>::choose(const TextureState& texture, const Log2Token& in
   std::int32_t l = in.lb_max - taken + texture.bias;  // S8.12
   l = std::min(std::max(l, texture.min_lod), texture.max_lod);
   // Stage 3.
-  if (l <= 0) {
+  if (l > 0) {
+    minify(texture, l, out);
+  } else {
     ++magnified;
     out.linear = texture.mag_filter == spec::texture::MagFilter::kLinear;
-    return;
   }
+  // All samples would be the only texel of the level.
+  if ((texture.width | texture.height) >> out.level <= 1) out.last_index = 0;
+}
+
+template <class Width>
+inline void LevelUnitOf<Width>::minify(const TextureState& texture, std::int32_t l,
+                                       LevelToken& out) {
   out.linear = is_linear(texture.min_filter);
   const std::int32_t coarsest = texture.levels - 1;
   switch (texture.min_filter) {
@@ -138,7 +147,8 @@ Datasheet LevelUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
        .stages =
            {{.clock = "1",
              .work = "difference of the logarithms (area: twice that of the axis minus that of the "
-                     "area), the part taken as samples (E); descriptor selected",
+                     "area), the part taken as samples (E); descriptor selected: is its last level "
+                     "1 x 1?",
              .operators = {op::subtract(19), op::maximum(taken + 3)},
              .longest = {op::subtract(19), op::maximum(taken + 3)},
              .registers = kept + 18 + taken},
@@ -150,15 +160,17 @@ Datasheet LevelUnitOf<Width>::datasheet(const spec::texture::Parameters& p) {
              .longest = {op::subtract(19), op::add(20), 2 * op::maximum(20), op::compare(20)},
              .registers = kept + 20 + 4 + 1},
             {.clock = "3",
-             .work = "level and fraction by mode, filter, magnification",
+             .work = "level and fraction by mode, filter, magnification; one sample if the level "
+                     "is 1 x 1",
              .operators = {op::add(20), op::add(17), 2 * op::compare(8), op::mux(4, 4),
-                           op::logic(80)},
-             .longest = {op::add(17), op::compare(8), op::mux(4, 4)}}},
+                           op::equal(4), op::logic(84)},
+             .longest = {op::add(17), op::compare(8), op::mux(4, 4), op::equal(4)}}},
        .formats = "S5.12 in; L in U6.12, E in U3.12; l in S8.12, rounded to S8.8.",
        .copies = Sizes(p).fragments,
        .per = "fragment",
-       // Bias, limits, filters and levels of the descriptor; the last two once more.
-       .shared_registers = 3 * 16 + 2 * (4 + 4)};
+       .shared = {op::leading_one(13), op::equal(4), op::logic(13)},
+       // Bias, limits, filters, levels and size of the last one; the last three once more.
+       .shared_registers = 3 * 16 + 2 * (4 + 4 + 1)};
   auto& first = sheet.stages[0];
   const bool rounded = p.count == CountRule::kCeil, capped = p.count_cap == CountCap::kTexel;
   if (rounded) {

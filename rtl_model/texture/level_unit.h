@@ -50,6 +50,7 @@ class LevelUnitOf : public LevelUnitBase {
  private:
   static constexpr int kStages = 3;
   void choose(const TextureState& texture, const Log2Token& in, LevelToken& out);
+  void minify(const TextureState& texture, std::int32_t l, LevelToken& out);
   std::int32_t as_samples(std::int32_t lb_max, std::int32_t lb_minor, int limit) const;
   int last_index(std::int32_t as_samples) const;
 

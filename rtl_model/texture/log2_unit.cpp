@@ -135,7 +135,8 @@ inline Activity Log2UnitOf<Width>::tick_mitchell(Cycle cycle) {
                 in.axis_s,
                 in.axis_t,
                 log2(rule_, in.d_max),
-                log2(rule_, in.minor)};
+                log2(rule_, in.minor),
+                in.diagonal};
        });
   return kBusy;
 }
@@ -168,7 +169,8 @@ Log2Token Log2UnitOf<Width>::correct_both(const Entry& entry) const {
           token.axis_s,
           token.axis_t,
           correct(rule_, entry.longer, entry.longer_chord),
-          correct(rule_, entry.shorter, entry.shorter_chord)};
+          correct(rule_, entry.shorter, entry.shorter_chord),
+          token.diagonal};
 }
 
 template <class Width>

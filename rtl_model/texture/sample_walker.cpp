@@ -14,8 +14,14 @@ namespace {
 constexpr int kReciprocalBits = 16;  // fraction bits
 constexpr int kRoundedBits = 23;     // from half an axis, S10.46, to a coordinate, S9.24
 constexpr std::int64_t kHalf = std::int64_t{1} << (kRoundedBits - 1);
-constexpr std::uint8_t kLastOfFour = 3;
 constexpr std::int32_t kWholeAxis = 64;  // U2.6
+constexpr std::uint8_t kNoTent = 16;     // above every N - 1
+
+using spec::texture::Kernel;
+
+std::uint8_t first_tent(Kernel kernel) {
+  return kernel == Kernel::kTent ? 3 : kernel == Kernel::kAxis ? 4 : kNoTent;
+}
 
 }  // namespace
 
@@ -25,9 +31,10 @@ SampleWalkerOf<Width>::SampleWalkerOf(const sc_core::sc_module_name& name, Clock
                                       std::int32_t spread, spec::texture::Blend blend,
                                       const spec::texture::Build& build)
     : SampleWalkerBase(name, clock),
-      spread_(spread),
-      narrow_spread_(kernel == spec::texture::Kernel::kTent ? std::min(spread, kWholeAxis)
-                                                            : spread),
+      box_spread_(kernel == Kernel::kTent ? std::min(spread, kWholeAxis) : spread),
+      tent_spread_(kernel == Kernel::kAxis ? tent_spread(spread) : spread),
+      first_tent_(first_tent(kernel)),
+      by_axis_(kernel == Kernel::kAxis),
       by_level_(blend == spec::texture::Blend::kLevel),
       width_(static_cast<std::size_t>(build.width)),
       fragments_(static_cast<std::size_t>(build.fragments)) {
@@ -67,8 +74,11 @@ void SampleWalkerOf<Width>::scale(Cycle cycle,
                                   const typename Width::template Fragments<LevelToken>& group) {
   scaled_.occupied = true;
   each(group, scaled_.group, [&](const LevelToken& fragment, Prepared& scaled) {
-    const std::int32_t spread = fragment.last_index < kLastOfFour ? narrow_spread_ : spread_;
+    const bool tent = fragment.last_index >= first_tent_ && (!by_axis_ || fragment.diagonal);
+    const std::int32_t spread = tent ? tent_spread_ : box_spread_;
     scaled.fragment = fragment;
+    scaled.weights =
+        static_cast<std::uint8_t>(fragment.last_index + (tent && by_axis_ ? kTent : 0));
     scaled.step_s = fragment.axis_s * spread;
     scaled.step_t = fragment.axis_t * spread;
   });
@@ -86,7 +96,7 @@ void SampleWalkerOf<Width>::divide(Cycle cycle) {
     const std::size_t last = scaled.fragment.last_index;
     const std::int64_t reciprocal =
         i == 0 ? reads_[0].at(cycle, last) : spec::texture::kReciprocal[last + 1];
-    nth(divided_.group, i) = {scaled.fragment, scaled.step_s * reciprocal,
+    nth(divided_.group, i) = {scaled.fragment, scaled.weights, scaled.step_s * reciprocal,
                               scaled.step_t * reciprocal};
   }
   scaled_.occupied = false;
@@ -106,6 +116,7 @@ inline void SampleWalkerOf<Width>::begin(const Prepared& prepared, Walk& walk) c
   walk.fragment = prepared.fragment;
   walk.second_level = false;
   walk.index = 0;
+  walk.weights = prepared.weights;
   // If N is a power of two, N - 1 has lb N ones.
   const std::uint8_t last = prepared.fragment.last_index;
   const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{last});
@@ -153,7 +164,7 @@ inline bool SampleWalkerOf<Width>::step(Walk& walk, SampleToken& out) {
   out.level_weight =
       static_cast<std::uint16_t>(walk.second_level ? fragment.fraction : 256 - fragment.fraction);
   out.index = walk.index;
-  out.last_index = fragment.last_index;
+  out.last_index = walk.weights;
   out.level = static_cast<std::uint8_t>(fragment.level + (walk.second_level ? 1 : 0));
   out.linear = fragment.linear;
   out.last_of_sample = last_level;
@@ -191,21 +202,25 @@ template <class Width>
 Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   const Sizes z(p);
   const bool any = p.count == spec::texture::CountRule::kAny, wide = z.width > 1;
-  const bool by_level = p.blend == spec::texture::Blend::kLevel;
+  const bool by_level = p.blend == spec::texture::Blend::kLevel, by_axis = selects_kernel(p);
   const std::uint32_t f = z.fragments, w = z.width, walks = z.walking * f;
-  // Ticket, position, count, level and filter of a fragment, and valid.
-  constexpr std::uint32_t kFragment = kPayloadBits<LevelToken> - 2 * 34 + 1;
+  // Ticket, position, count, kernel, level and filter of a fragment, and valid.
+  const std::uint32_t fragment = Payload::of<LevelToken>(axis_shape(p)).bits() - 2 * z.axis + 1;
   // Significant bits of spread x axis, of a step and of a position on the axis: with N a power of
   // two, the 12 lowest of 16 fraction bits are zero.
   const std::uint32_t step = z.step + (any ? 16 : 4), walk = step + 4;
-  const std::uint32_t digits = signed_digits(static_cast<std::uint32_t>(p.spread));
+  const auto additions = [&](std::int32_t spread) {  // of a multiplication by it
+    return std::max(signed_digits(static_cast<std::uint32_t>(spread)), 1U) - 1;
+  };
+  const std::uint32_t box = additions(p.spread),
+                      tent = by_axis ? additions(tent_spread(p.spread)) : 0;
   // With `spread = 0` there is no step: every sample is in the middle.
   const std::uint32_t moves = p.spread != 0 ? 1 : 0;
-  const std::uint32_t walking = kFragment + moves * (2 * step + 2 * walk) + 4 + 1;
+  const std::uint32_t walking = fragment + moves * (2 * step + 2 * walk) + 4 + 1;
   Datasheet sheet = {
       .unit = "SampleWalker",
       .variant = chosen("count", spec::texture::kCountNames, p.count) + ", " + chosen_axes(p) +
-                 (wide ? ", " + chosen("width", w) : ""),
+                 (by_axis ? ", `kernel = axis`" : "") + (wide ? ", " + chosen("width", w) : ""),
       .does = "Walks N samples along the major axis and emits the bilinear requests of each.",
       .latency = any ? Cycles{4, "4 to the first request"} : Cycles{3, "3 to the first request"},
       .interval = {1,
@@ -213,15 +228,22 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                    "descriptor); `width` = W: W requests, of at most two groups of fragments"},
       .stages = {{.clock = "1",
                   .work = any ? "spread times axis, 1/N from ROM" : "spread times axis",
-                  .registers = f * (kFragment + moves * 2 * z.step)}},
+                  .registers = f * (fragment + moves * 2 * z.step)}},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
           "exact in S9.24.",
       .cost = "`spread` is a constant."};
   auto& stages = sheet.stages;
-  if (digits > 1) {
-    stages[0].operators = {2 * f * op::multiply_constant(z.axis, digits - 1)};
-    stages[0].longest = {op::multiply_constant(z.axis, digits - 1)};
+  for (const std::uint32_t constant : {box, tent})
+    if (constant != 0)
+      stages[0].operators.push_back(2 * f * op::multiply_constant(z.axis, constant));
+  if (std::max(box, tent) != 0)
+    stages[0].longest = {op::multiply_constant(z.axis, std::max(box, tent))};
+  if (by_axis) {
+    stages[0].work += ", kernel";
+    stages[0].operators.insert(stages[0].operators.end(),
+                               {moves * 2 * f * op::mux(z.step, 2), f * op::compare(4)});
+    stages[0].longest.push_back(moves * op::mux(z.step, 2));
   }
   if (any) {
     stages[0].longest.push_back(op::rom_read(17, 16));
@@ -229,7 +251,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                       .work = "times 1/N",
                       .operators = {moves * 2 * f * op::multiply(z.step, 17)},
                       .longest = {moves * op::multiply(z.step, 17)},
-                      .registers = f * (kFragment + moves * 2 * step)});
+                      .registers = f * (fragment + moves * 2 * step)});
     stages.push_back({.clock = "3",
                       .work = "offset of the first sample",
                       .operators = {moves * 2 * f * op::multiply(step, 4)},
@@ -247,9 +269,9 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
   Stage request = {.clock = any ? "4" : "3",
                    .work = wide ? std::to_string(w) + " bilinear requests per cycle"
                                 : "one bilinear request per cycle",
-                   .operators = {moves * 4 * w * op::add(34), 2 * w * op::add(4), w * op::equal(4),
-                                 w * op::subtract(9), w * op::mux(9, 2)},
-                   .longest = {moves != 0 ? 2 * op::add(34) : op::add(4)}};
+                   .operators = {moves * 4 * w * op::add(z.position), 2 * w * op::add(4),
+                                 w * op::equal(4), w * op::subtract(9), w * op::mux(9, 2)},
+                   .longest = {moves != 0 ? 2 * op::add(z.position) : op::add(4)}};
   auto& operators = request.operators;
   if (wide) {
     // The requests left of each fragment, and before it; the fragment of each request.
@@ -257,11 +279,11 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
     operators.insert(
         operators.end(),
         {walks * op::add(6), walks / 2 * levels * op::add(3), w * walks * op::compare(3),
-         w * op::mux(kFragment + 4 + 1, walks), 2 * w * op::mux(step, walks),
+         w * op::mux(fragment + 4 + 1, walks), 2 * w * op::mux(step, walks),
          2 * (w + 1) * op::mux(walk, walks), 2 * (w - 1) * op::add(step), 2 * w * op::mux(step, w),
          2 * w * op::add(walk), 2 * walks * op::mux(walk, 2)});
     request.longest = {op::add(6),           levels * op::add(3), op::compare(3),
-                       op::mux(walk, walks), op::add(walk),       2 * op::add(34)};
+                       op::mux(walk, walks), op::add(walk),       2 * op::add(z.position)};
   } else {
     operators.insert(operators.end(), {moves * 2 * op::add(walk), moves * 2 * op::mux(walk, 2)});
   }

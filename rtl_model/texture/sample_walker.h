@@ -6,9 +6,11 @@
 // Interval  No gap between fragments: the next ones are prepared meanwhile. Above width 1 up to
 //           `width` requests per cycle, of the older of two fragment groups first.
 // Stalls    downstream  Each stage stalls independently.
-// Method    If N is a power of two, the division by N is a shift. The accumulators step by twice
-//           the product. Sample N - 1 lies opposite sample 0, so with `blend = level` the second
-//           level starts at the negated accumulators.
+// Method    `kernel = axis`: if N is 5 or more and the major axis a diagonal, the fragment is a
+// tent;
+//           its requests say so to the FilterPipeline. If N is a power of two, the division by N is
+//           a shift. The accumulators step by twice the product. Sample N - 1 lies opposite sample
+//           0, so with `blend = level` the second level starts at the negated accumulators.
 // Source    Paper 2.2 (4); kernels, spread and `any` are ours.
 #pragma once
 
@@ -59,6 +61,7 @@ class SampleWalkerOf : public SampleWalkerBase {
   // A fragment being prepared.
   struct Prepared {
     LevelToken fragment;
+    std::uint8_t weights;         // U5, `last_index` of its requests
     std::int64_t step_s, step_t;  // S10.30, spread x axis; after divide() S10.46
   };
   struct Preparing {
@@ -70,6 +73,7 @@ class SampleWalkerOf : public SampleWalkerBase {
     LevelToken fragment;
     bool second_level;            // the next request is of the coarser level
     std::uint8_t index;           // U4, current sample
+    std::uint8_t weights;         // U5
     std::int64_t step_s, step_t;  // S10.46, spread x axis / N
     std::int64_t walk_s, walk_t;  // S14.46, (2i + 1 - N) x spread x axis / N
   };
@@ -84,8 +88,10 @@ class SampleWalkerOf : public SampleWalkerBase {
   [[gnu::always_inline]] bool step(Walk& walk, SampleToken& out);
   [[gnu::noinline]] static void advance_by_level(Walk& walk, bool last_sample);
 
-  std::int32_t spread_, narrow_spread_;  // U2.6; narrow: for a tent with fewer than four samples
-  bool by_level_;                        // `blend = level`
+  std::int32_t box_spread_, tent_spread_;  // U2.6
+  std::uint8_t first_tent_;                // N - 1 from which on a fragment may be a tent
+  bool by_axis_;                           // `kernel = axis`: if its axis is a diagonal
+  bool by_level_;                          // `blend = level`
   // `any` only: entry N - 1 is 1 / N, U1.16.
   std::unique_ptr<Memory<std::uint32_t>> reciprocal_;
   std::vector<ReadPort<std::uint32_t>> reads_;  // one per fragment of a group

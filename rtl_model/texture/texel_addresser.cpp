@@ -131,7 +131,8 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
   const bool wide = p.width > 1;
   // Ticket, weight, index and count, flags and format of a request, and valid.
   const bool blocks = p.decode != spec::texture::Decode::kNone;
-  const std::uint32_t kept = 40 + 9 + 2 * 4 + 2 + (blocks ? 5 : 3) + 1;
+  const std::uint32_t kept = 40 + 9 + 2 * 4 + selects_kernel(p) + 2 + (blocks ? 5 : 3) + 1;
+  const std::uint32_t position = Sizes(p).position;
   // Size, layout, wrap modes and bases of the levels of a descriptor.
   constexpr std::uint32_t kDescriptor = 26 + 1 + 4 + spec::texture::kMaxLevels * 26;
   const std::uint32_t descriptors = wide ? 2 : 1, bases = descriptors * spec::texture::kMaxLevels;
@@ -143,16 +144,16 @@ Datasheet TexelAddresserOf<Width>::datasheet(const spec::texture::Parameters& p)
       .stages = {{.clock = "1",
                   .work = "descriptor selected",
                   .longest = {op::mux(26, spec::texture::kMaxTextures)},
-                  .registers = kept + 2 * 34 + 4 + 1},
+                  .registers = kept + 2 * position + 4 + 1},
                  {.clock = "2",
                   .work = "level selected, both coordinates wrapped",
                   .operators = {op::mux(26, bases), 2 * op::shift(13, 13), op::logic(200)},
                   .longest = {op::mux(26, bases)},
-                  .registers = kept + 2 * 34 + 2 * 13 + 26 + 4 + 1 + 1},
+                  .registers = kept + 2 * position + 2 * 13 + 26 + 4 + 1 + 1},
                  {.clock = "3",
                   .work = "products with the level's width and height",
-                  .operators = {2 * op::multiply(34, 13)},
-                  .longest = {op::multiply(34, 13)},
+                  .operators = {2 * op::multiply(position, 13)},
+                  .longest = {op::multiply(position, 13)},
                   .registers = kept + 2 * 32 + 2 * 13 + 26 + 4 + 1 + 1},
                  {.clock = "4",
                   .work = "subtract half a texel, round, split into texel and fraction, bring both "

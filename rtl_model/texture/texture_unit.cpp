@@ -48,7 +48,8 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
   filter.colours_out(colours_out);
   if (narrow_address) {
     texels_ = std::make_unique<Link<TexelToken>>("texels", 2, texel_shape(parameters_));
-    texel_quads_ = std::make_unique<Link<TexelQuadToken>>("texel_quads", 2, texel_quad_shape());
+    texel_quads_ =
+        std::make_unique<Link<TexelQuadToken>>("texel_quads", 2, texel_quad_shape(parameters_));
     narrow_address->quads_in(quads_in);
     narrow_address->texels_out(*texels_);
     cache.texels_in(*texels_);
@@ -58,7 +59,7 @@ TextureUnit::TextureUnit(const sc_core::sc_module_name& name, ClockDomain& clock
     texel_groups_ = std::make_unique<Link<TexelGroup>>(
         "texels", 2, request_links<Wide>(parameters_, texel_shape(parameters_)));
     texel_quad_groups_ = std::make_unique<Link<TexelQuadGroup>>(
-        "texel_quads", 2, links_of_groups(parameters_.width, texel_quad_shape()));
+        "texel_quads", 2, links_of_groups(parameters_.width, texel_quad_shape(parameters_)));
     wide_address->quads_in(quads_in);
     wide_address->texels_out(*texel_groups_);
     cache.groups_in(*texel_groups_);

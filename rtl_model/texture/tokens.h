@@ -64,7 +64,8 @@ struct FootprintToken {
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
   std::uint32_t d_max;
-  std::uint64_t minor;  // d_min; from the AxisUnit: area of the footprint
+  std::uint64_t minor;    // d_min; from the AxisUnit: area of the footprint
+  bool diagonal = false;  // the major axis is a diagonal of the pixel; only with selects_kernel()
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -74,6 +75,7 @@ struct FootprintToken {
     visit("axis_t", self.axis_t, 34, "S9.24");
     visit("d_max", self.d_max, 32, "U16.16");
     visit("minor", self.minor, 47, "U31.16");
+    visit("diagonal", self.diagonal);
   }
 };
 
@@ -83,6 +85,7 @@ struct Log2Token {
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
   std::int32_t lb_max, lb_minor;
+  bool diagonal = false;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -92,6 +95,7 @@ struct Log2Token {
     visit("axis_t", self.axis_t, 34, "S9.24");
     visit("lb_max", self.lb_max, 18, "S5.12");
     visit("lb_minor", self.lb_minor, 18, "S5.12");
+    visit("diagonal", self.diagonal);
   }
 };
 
@@ -104,6 +108,7 @@ struct LevelToken {
   std::uint8_t level;       // the finer level used
   std::uint8_t fraction;    // not 0: level + 1 is used as well
   bool linear;              // filter within a level: linear or nearest
+  bool diagonal = false;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
@@ -115,15 +120,19 @@ struct LevelToken {
     visit("level", self.level, 4);
     visit("fraction", self.fraction, 8, "U0.8");
     visit("linear", self.linear);
+    visit("diagonal", self.diagonal);
   }
 };
+
+// In `last_index` of a request: its fragment has the weights of a tent.
+inline constexpr std::uint8_t kTent = 16;
 
 // Filter settings of a bilinear request.
 struct FilterControl {
   std::uint8_t fraction_u, fraction_v;
   std::uint16_t level_weight;  // 1..256
   std::uint8_t index;          // index of the sample
-  std::uint8_t last_index;     // N - 1 of the fragment
+  std::uint8_t last_index;     // N - 1 of the fragment; with selects_kernel() and a tent + kTent
   std::uint8_t format;         // spec::texture::Format
   bool last_of_sample;         // completes a sample (second level, or the only one); with
                                // `blend = level`: completes a level (last sample)
@@ -138,7 +147,7 @@ struct FilterControl {
     visit("fraction_v", self.fraction_v, 8, "U0.8");
     visit("level_weight", self.level_weight, 9, "U1.8");
     visit("index", self.index, 4);
-    visit("last_index", self.last_index, 4);
+    visit("last_index", self.last_index, 5);
     visit("format", self.format, 3);
     visit("last_of_sample", self.last_of_sample);
     visit("last_of_fragment", self.last_of_fragment);
@@ -184,18 +193,18 @@ struct SampleToken {
   Ticket ticket;
   std::int64_t s, t;
   std::uint16_t level_weight;
-  std::uint8_t index, last_index;  // of N samples: i and N - 1
+  std::uint8_t index, last_index;  // of N samples: i, and as in FilterControl
   std::uint8_t level;
   bool linear;
   bool last_of_sample, last_of_fragment;
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);
-    visit("s", self.s, 34, "S9.24");
-    visit("t", self.t, 34, "S9.24");
+    visit("s", self.s, 35, "S10.24");
+    visit("t", self.t, 35, "S10.24");
     visit("level_weight", self.level_weight, 9, "U1.8");
     visit("index", self.index, 4);
-    visit("last_index", self.last_index, 4);
+    visit("last_index", self.last_index, 5);
     visit("level", self.level, 4);
     visit("linear", self.linear);
     visit("last_of_sample", self.last_of_sample);
@@ -413,11 +422,30 @@ inline std::uint32_t turn_bytes(std::uint32_t line_bytes) {
   return std::min(line_bytes / 2, std::uint32_t{spec::texture::kTileBytes} / 2);
 }
 
+// Fragments select their kernel, of a build with `kernel = axis`. Of two axes none is a diagonal.
+inline bool selects_kernel(const spec::texture::Configuration& p) {
+  return p.kernel == spec::texture::Kernel::kAxis && p.axes != spec::texture::Axes::kTwo;
+}
+// Of a tent of `kernel = axis`, U2.6.
+constexpr std::int32_t tent_spread(std::int32_t spread) { return (181 * spread + 64) >> 7; }
+
 // Field widths from footprint to walker. Without a rotated axis, the axis is a coordinate
 // difference S8.24 and the minor side a length U16.16.
 inline PayloadShape axis_shape(const spec::texture::Configuration& p) {
-  if (p.axes != spec::texture::Axes::kTwo) return {};
-  return {.widths = {{"axis_s", 33}, {"axis_t", 33}}};
+  PayloadShape shape;
+  if (p.axes == spec::texture::Axes::kTwo) shape.widths = {{"axis_s", 33}, {"axis_t", 33}};
+  if (!selects_kernel(p)) shape.widths.emplace_back("diagonal", 0);
+  return shape;
+}
+// Bits of a sample's position. The diagonals of the largest quads reach beyond S9.24 with tents
+// that are longer than 144/64.
+inline std::uint32_t position_bits(const spec::texture::Configuration& p) {
+  return selects_kernel(p) && tent_spread(p.spread) > 144 ? 35 : 34;
+}
+inline PayloadShape sample_shape(const spec::texture::Configuration& p) {
+  PayloadShape shape = {.widths = {{"s", position_bits(p)}, {"t", position_bits(p)}}};
+  if (!selects_kernel(p)) shape.widths.emplace_back("last_index", 4);
+  return shape;
 }
 inline PayloadShape footprint_shape(const spec::texture::Configuration& p) {
   PayloadShape shape = axis_shape(p);
@@ -446,20 +474,37 @@ inline PayloadShape without_blocks(PayloadShape shape = {}, const std::string& p
   shape.widths.emplace_back(path + "control.within", 0);
   return shape;
 }
-// TexelToken of a build, and TexelQuadToken of every build.
-inline PayloadShape texel_shape(const spec::texture::Build& p) {
-  return p.decode != spec::texture::Decode::kNone ? PayloadShape{} : without_blocks();
+// Bits of the control of the token `path`.
+inline PayloadShape control_shape(const spec::texture::Parameters& p, bool blocks,
+                                  PayloadShape shape = {}, const std::string& path = "") {
+  if (!blocks) shape = without_blocks(std::move(shape), path);
+  if (!selects_kernel(p)) shape.widths.emplace_back(path + "control.last_index", 4);
+  return shape;
 }
-inline std::uint32_t texel_bits(const spec::texture::Build& p) {
+inline PayloadShape texel_shape(const spec::texture::Parameters& p) {
+  return control_shape(p, p.decode != spec::texture::Decode::kNone);
+}
+inline std::uint32_t texel_bits(const spec::texture::Parameters& p) {
   return Payload::of<TexelToken>(texel_shape(p)).bits();
 }
-inline PayloadShape texel_quad_shape() { return without_blocks(); }
-inline PayloadShape block_shape(const spec::texture::Build& p) {
+inline PayloadShape texel_quad_shape(const spec::texture::Parameters& p = {}) {
+  return control_shape(p, false);
+}
+// The controls of the requests of a group.
+inline PayloadShape controls_shape(const spec::texture::Parameters& p, bool blocks,
+                                   PayloadShape shape) {
+  for (std::int32_t i = 0; i < p.width; ++i)
+    shape = control_shape(p, blocks, std::move(shape), "at." + std::to_string(i) + ".");
+  return shape;
+}
+inline PayloadShape block_shape(const spec::texture::Parameters& p) {
   if (p.width == 1)
-    return {.widths = {{"count", 0}, {"index", 2}},
-            .counts = {{"block", spec::texture::kBlocksPerRequest}},
-            .single = "at"};
-  return {.counts = {{"at", static_cast<std::uint32_t>(p.width)}, {"block", decoders(p)}}};
+    return control_shape(p, true,
+                         {.widths = {{"count", 0}, {"index", 2}},
+                          .counts = {{"block", spec::texture::kBlocksPerRequest}},
+                          .single = "at"});
+  return controls_shape(
+      p, true, {.counts = {{"at", static_cast<std::uint32_t>(p.width)}, {"block", decoders(p)}}});
 }
 
 // Field widths of the cache's tokens.
@@ -476,32 +521,29 @@ inline PayloadShape miss_shape(const spec::texture::Build& p) {
                      {"count", static_cast<std::uint32_t>(std::bit_width(lines))}},
           .counts = {{"line", lines}}};
 }
-inline PayloadShape cache_shape(const spec::texture::Build& p) {
+inline PayloadShape cache_shape(const spec::texture::Parameters& p) {
   const std::uint32_t place = log2_of(p.cache_bytes), line = log2_of(p.cache_line_bytes);
-  PayloadShape shape = {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}};
-  return has_decoders(p) ? shape : without_blocks(shape);
+  return control_shape(p, has_decoders(p),
+                       {.widths = {{"place", place}, {"victim", std::max(place - line, 1U)}}});
 }
 // Groups of a wide build.
 inline PayloadShape requests_shape(const spec::texture::Build& p) {
   return {.counts = {{"at", static_cast<std::uint32_t>(p.width)}}};
 }
-inline PayloadShape group_shape(const spec::texture::Build& p) {
-  PayloadShape shape = requests_shape(p);
-  for (std::int32_t i = 0; i < p.width; ++i) {
-    const std::string path = "at." + std::to_string(i) + ".";
-    shape.widths.emplace_back(path + "offset", log2_of(p.cache_line_bytes));
-    if (!has_decoders(p)) shape = without_blocks(std::move(shape), path);
-  }
+inline PayloadShape group_shape(const spec::texture::Parameters& p) {
+  PayloadShape shape = controls_shape(p, has_decoders(p), requests_shape(p));
+  for (std::int32_t i = 0; i < p.width; ++i)
+    shape.widths.emplace_back("at." + std::to_string(i) + ".offset", log2_of(p.cache_line_bytes));
   shape.counts.emplace_back("turned", p.cache_lookups);
   return shape;
 }
-inline PayloadShape line_group_shape(const spec::texture::Build& p) {
+inline PayloadShape line_group_shape(const spec::texture::Parameters& p) {
   PayloadShape shape = group_shape(p);
   shape.widths.emplace_back("line", line_bits(p));
   shape.counts.emplace_back("line", p.cache_lookups);
   return shape;
 }
-inline PayloadShape cache_group_shape(const spec::texture::Build& p) {
+inline PayloadShape cache_group_shape(const spec::texture::Parameters& p) {
   PayloadShape shape = group_shape(p);
   shape.widths.emplace_back("slot",
                             std::max(log2_of(p.cache_bytes) - log2_of(p.cache_line_bytes), 1U));

@@ -337,7 +337,7 @@ Datasheet WideDataStage::datasheet(const spec::texture::Parameters& p) {
             // As in the DataStage; lines to write.
             .registers = (has_decoders(p) ? Payload::of<BlockGroup>(block_shape(p))
                                           : Payload::of<TexelQuadGroup>(
-                                                links_of_groups(p.width, texel_quad_shape())))
+                                                links_of_groups(p.width, texel_quad_shape(p))))
                              .bits() +
                          words * (log2(ports) + 2 + 1) + z.lookups + 4 + 2},
            {.clock = "2",

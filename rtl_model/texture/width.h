@@ -113,7 +113,7 @@ PayloadShape fragment_links(const spec::texture::Build& p, const PayloadShape& s
   return std::is_same_v<Width, Narrow> ? shape : links_of_groups(p.fragments, shape);
 }
 template <class Width>
-PayloadShape request_links(const spec::texture::Build& p, const PayloadShape& of_request = {}) {
+PayloadShape request_links(const spec::texture::Build& p, const PayloadShape& of_request) {
   if (std::is_same_v<Width, Narrow>) return of_request;
   PayloadShape shape = links_of_groups(p.width, of_request);
   shape.widths.emplace_back("partial", p.fragments == 1 ? 0 : static_cast<std::uint32_t>(p.width));

@@ -120,7 +120,7 @@ T push(rtl::Out<T>& beats, const rtl::Payload& payload, rtl::Cycle cycle, const 
 template <class Token>
 rtl::PayloadShape built() {
   if constexpr (requires(Token token) { token.control.codec; })
-    return rtl::texture::without_blocks();
+    return rtl::texture::texel_quad_shape();
   else
     return {};
 }

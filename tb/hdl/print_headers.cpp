@@ -109,9 +109,9 @@ void print_tokens(const texture::Parameters& configuration, const std::filesyste
   token<hw::FootprintToken>(header, "FOOTPRINT_TOKEN", hw::footprint_shape(configuration));
   token<hw::Log2Token>(header, "LOG2_TOKEN", hw::axis_shape(configuration));
   token<hw::LevelToken>(header, "LEVEL_TOKEN", hw::axis_shape(configuration));
-  token<hw::SampleToken>(header, "SAMPLE_TOKEN");
+  token<hw::SampleToken>(header, "SAMPLE_TOKEN", hw::sample_shape(configuration));
   token<hw::TexelToken>(header, "TEXEL_TOKEN", hw::texel_shape(configuration));
-  token<hw::TexelQuadToken>(header, "TEXEL_QUAD_TOKEN", hw::texel_quad_shape());
+  token<hw::TexelQuadToken>(header, "TEXEL_QUAD_TOKEN", hw::texel_quad_shape(configuration));
   token<texture::Colour>(header, "COLOUR");
   token<hw::MissToken>(header, "MISS_TOKEN", hw::miss_shape(configuration));
   token<hw::CacheToken>(header, "CACHE_TOKEN", hw::cache_shape(configuration));

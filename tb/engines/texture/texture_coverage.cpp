@@ -23,6 +23,9 @@ constexpr std::array kGroups = {
     CoverageGroup{"texture/tent",
                   "Fragments with the kernel tent: narrow with fewer than four samples, which it "
                   "does not change, and wide."},
+    CoverageGroup{"texture/diagonal",
+                  "Fragments with the kernel axis whose major axis is a diagonal of the pixel: box "
+                  "with fewer than five samples, and tent."},
     CoverageGroup{"texture/blend", "Fragments by the order of sums over samples and levels."},
     CoverageGroup{"texture/derivatives", "Fragments by the rule for differences."},
     CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."},
@@ -78,6 +81,8 @@ Coverage TextureCoverage::declared() {
     for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("texture/major/{}/{}", axes, k));
   coverage.declare("texture/tent/narrow");
   coverage.declare("texture/tent/wide");
+  for (const char* kernel : {"box", "tent"})
+    coverage.declare(fmt::format("texture/diagonal/{}", kernel));
   for (const auto blend : spec::texture::kBlendNames)
     coverage.declare(fmt::format("texture/blend/{}", blend));
   for (const auto rule : spec::texture::kDerivativesNames)
@@ -104,6 +109,9 @@ void TextureCoverage::see(const golden::texture::TextureGolden& golden,
     compressed_ += is_compressed(texture.format);
     ++samples_[index(a.lod.samples)];
     ++major_[index(a.footprint.major)];
+    const int directions = golden::texture::candidates(configuration_.axes);
+    if (directions > 2 && a.footprint.major % (directions / 2) == directions / 4)
+      ++diagonals_[a.lod.samples >= 5 ? 1 : 0];
     if (a.lod.magnified) {
       ++magnified_[index(texture.mag_filter)];
       continue;
@@ -136,6 +144,10 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
     coverage.hit(fmt::format("texture/samples/{}", n), samples_[n]);
     if (configuration_.kernel == Kernel::kTent)
       coverage.hit(n < 4 ? "texture/tent/narrow" : "texture/tent/wide", samples_[n]);
+  }
+  if (configuration_.kernel == Kernel::kAxis) {
+    coverage.hit("texture/diagonal/box", diagonals_[0]);
+    coverage.hit("texture/diagonal/tent", diagonals_[1]);
   }
   const int axes = golden::texture::candidates(configuration_.axes);
   for (int k = 0; k < axes; ++k)

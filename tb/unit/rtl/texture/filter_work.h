@@ -36,9 +36,12 @@ struct FilterWork {
     colour.lane = static_cast<std::uint8_t>(colour.tag & 3);
     colour.last = (colour.tag & 5) != 0;
     std::array<std::uint32_t, 4> sum{};
+    using spec::texture::Kernel;
+    const bool by_axis = configuration.kernel == Kernel::kAxis,
+               tent = by_axis && samples >= 5 && colour.tag % 3 != 0;
+    const Kernel kernel = !by_axis ? configuration.kernel : tent ? Kernel::kTent : Kernel::kBox;
     for (int sample = 0; sample < samples; ++sample) {
-      const std::uint32_t weight =
-          golden::texture::sample_weight(configuration.kernel, sample, samples);
+      const std::uint32_t weight = golden::texture::sample_weight(kernel, sample, samples);
       std::array<std::array<std::uint32_t, 4>, 2> level{};
       for (std::uint32_t k = 0; k < (fraction ? 2u : 1u); ++k) {
         hw::TexelQuadToken token = request();
@@ -46,7 +49,7 @@ struct FilterWork {
         token.ticket = {colour.tag, colour.lane, colour.last, true, 0};
         token.control.level_weight = static_cast<std::uint16_t>(k ? fraction : 256 - fraction);
         token.control.index = static_cast<std::uint8_t>(sample);
-        token.control.last_index = static_cast<std::uint8_t>(samples - 1);
+        token.control.last_index = static_cast<std::uint8_t>(samples - 1 + (tent ? hw::kTent : 0));
         token.control.format = static_cast<std::uint8_t>(format);
         token.control.last_of_sample = last_of_sample;
         token.control.last_of_fragment = last_of_sample && sample == samples - 1;

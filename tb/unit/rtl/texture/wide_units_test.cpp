@@ -254,7 +254,8 @@ TEST(TextureRtlWide, Log2UnitHandlesAGroupPerCycle) {
               3,
               4,
               r.word() >> r.below(32),
-              std::uint64_t{r.word()} << r.below(15)};
+              std::uint64_t{r.word()} << r.below(15),
+              r.chance(500)};
     });
     bench->hold();
     units.push_back(std::move(narrow));
@@ -278,7 +279,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   wide.levels_out(bench.many.out);
   spec::texture::Descriptor d;
   d.width = d.height = 256;
-  d.levels = 6;
+  d.levels = 9;  // the last one has 1 x 1 texels
   d.min_filter = spec::texture::MinFilter::kLinearMipmapLinear;
   d.max_lod = 12 << 8;
   d.max_anisotropy_log2 = 4;
@@ -286,11 +287,16 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   bench.add(40, [](std::uint32_t number) -> Log2Token {
     Random& r = fragments_random;
     const auto lb = [&] { return static_cast<std::int32_t>(r.below(1 << 16)) - (1 << 14); };
-    return {ticket(number), 1, 2, 3, 4, lb(), lb()};
+    return {ticket(number), 1, 2, 3, 4, lb(), lb(), r.chance(500)};
   });
   bench.hold();
   clock.run(200);
   bench.expect(LevelUnit::datasheet(), 40, true);
+  std::array<int, 2> several{};  // fragments of more than one sample, in the last level and not
+  for (const auto& taken : bench.one.sink.taken)
+    if (taken.token.last_index != 0) ++several[taken.token.level == 8 ? 0 : 1];
+  EXPECT_EQ(several[0], 0);
+  EXPECT_GT(several[1], 10);
   EXPECT_EQ(wide.two_levels.value(), narrow.two_levels.value());
   EXPECT_EQ(wide.magnified.value(), narrow.magnified.value());
 }
@@ -303,11 +309,11 @@ spec::texture::Build four_by_four() {
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name,
               const spec::texture::Build& build = four_by_four(),
-              spec::texture::Blend blend = spec::texture::Blend::kSample)
-      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny,
-             spec::texture::Kernel::kBox, 64, blend, build),
-        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny,
-               spec::texture::Kernel::kBox, 64, blend),
+              spec::texture::Blend blend = spec::texture::Blend::kSample,
+              spec::texture::Kernel kernel = spec::texture::Kernel::kBox)
+      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend,
+             build),
+        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend),
         ends(clock, name),
         narrow_ends(clock, name + "narrow_") {
     unit.levels_in(ends.in);
@@ -320,7 +326,7 @@ struct WalkerBench {
     std::vector<LevelToken> tokens;
     for (const int n : samples) {
       tokens.push_back({ticket(number++), 100, 200, 3000, -5000, static_cast<std::uint8_t>(n - 1),
-                        4, fraction, true});
+                        4, fraction, true, number % 2 == 0});
       narrow_ends.source.add(tokens.back());
     }
     ends.source.add(group_of<FragmentGroup<LevelToken>>(tokens));
