@@ -49,26 +49,12 @@ bool filters_linearly(spec::texture::MinFilter filter) {
          filter == spec::texture::MinFilter::kLinearMipmapLinear;
 }
 
-}  // namespace
-
-LevelOfDetail select_level(const spec::texture::Parameters& parameters,
-                           const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
-                           std::int32_t lb_d_min) {
-  LevelOfDetail result;
-  result.lb_d_max = lb_d_max;
-  result.lb_d_min = lb_d_min;
-  result.anisotropy = std::max(lb_d_max - lb_d_min, 0);
-  result.sampled = sampled_part(parameters, descriptor, lb_d_max, result.anisotropy);
-  result.samples = samples_for(result.sampled);
-
-  const std::int32_t low = descriptor.min_lod * 16, high = descriptor.max_lod * 16;
-  result.l = lb_d_max - result.sampled + descriptor.lod_bias * 16;
-  result.l = std::min(std::max(result.l, low), high);
-
+// The level and filter of a fragment with the level of detail l.
+void choose_level(const spec::texture::Descriptor& descriptor, LevelOfDetail& result) {
   result.magnified = result.l <= 0;
   if (result.magnified) {
     result.linear = descriptor.mag_filter == spec::texture::MagFilter::kLinear;
-    return result;
+    return;
   }
   result.linear = filters_linearly(descriptor.min_filter);
   const int last = descriptor.levels - 1;
@@ -92,6 +78,27 @@ LevelOfDetail select_level(const spec::texture::Parameters& parameters,
       break;
     }
   }
+}
+
+}  // namespace
+
+LevelOfDetail select_level(const spec::texture::Parameters& parameters,
+                           const spec::texture::Descriptor& descriptor, std::int32_t lb_d_max,
+                           std::int32_t lb_d_min) {
+  LevelOfDetail result;
+  result.lb_d_max = lb_d_max;
+  result.lb_d_min = lb_d_min;
+  result.anisotropy = std::max(lb_d_max - lb_d_min, 0);
+  result.sampled = sampled_part(parameters, descriptor, lb_d_max, result.anisotropy);
+  result.samples = samples_for(result.sampled);
+
+  const std::int32_t low = descriptor.min_lod * 16, high = descriptor.max_lod * 16;
+  result.l = lb_d_max - result.sampled + descriptor.lod_bias * 16;
+  result.l = std::min(std::max(result.l, low), high);
+
+  choose_level(descriptor, result);
+  // Every sample of a level of 1 x 1 texels would be the same texel.
+  if (std::max(descriptor.width, descriptor.height) >> result.level <= 1) result.samples = 1;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "golden/texture/footprint.h"
 #include "spec/texture/descriptor.h"
 #include "spec/texture/packets.h"
 #include "spec/texture/parameters.h"
@@ -22,9 +23,19 @@ inline std::int64_t round_shift(std::int64_t x, int drop) {
   return (x + (std::int64_t{1} << (drop - 1))) >> drop;
 }
 
+// Kernel of a fragment with N samples along candidate `major`. kAxis: the tent of a diagonal.
+inline spec::texture::Kernel fragment_kernel(const spec::texture::Configuration& configuration,
+                                             int major, int n) {
+  if (configuration.kernel != spec::texture::Kernel::kAxis) return configuration.kernel;
+  const int quarter = candidates(configuration.axes) / 2;  // candidates in a quarter turn
+  const bool diagonal = n >= 5 && 2 * (major % quarter) == quarter;
+  return diagonal ? spec::texture::Kernel::kAxis : spec::texture::Kernel::kBox;
+}
+
 // Length over which N samples are spread, U2.6 of the major axis. A tent of fewer than 4 samples
-// has the weights of a box, so its length is limited to 64.
+// has the weights of a box, so its length is limited to 64. kernel: from fragment_kernel().
 inline std::int32_t spread_of(spec::texture::Kernel kernel, int n, std::int32_t spread) {
+  if (kernel == spec::texture::Kernel::kAxis) return (181 * spread + 64) >> 7;
   const bool shapeless = kernel == spec::texture::Kernel::kTent && n < 4;
   return shapeless ? std::min(spread, 64) : spread;
 }
@@ -43,10 +54,11 @@ inline std::int64_t sample_offset(int i, int n, std::int32_t spread, std::int64_
   return offset_at(i, n, half_distance(n, spread, axis));
 }
 
-// Weight of sample i of N, U1.8; the weights sum to 256.
+// Weight of sample i of N, U1.8; the weights sum to 256. kernel: from fragment_kernel().
 inline std::uint32_t sample_weight(spec::texture::Kernel kernel, int i, int n) {
-  return spec::texture::kKernelWeights[static_cast<std::size_t>(kernel)]
-                                      [static_cast<std::size_t>(n)][static_cast<std::size_t>(i)];
+  const std::size_t shape = kernel == spec::texture::Kernel::kBox ? 0 : 1;
+  return spec::texture::kKernelWeights[shape][static_cast<std::size_t>(n)]
+                                      [static_cast<std::size_t>(i)];
 }
 
 // Side of mip level k: max(1, size >> k), where size is that of level 0.

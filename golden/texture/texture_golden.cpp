@@ -253,7 +253,8 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
                                                            Tap& tap) {
   const LevelOfDetail& lod = fragment.lod;
   const int n = lod.samples;
-  const std::int32_t spread = spread_of(parameters_.kernel, n, parameters_.spread);
+  const spec::texture::Kernel kernel = fragment_kernel(parameters_, fragment.footprint.major, n);
+  const std::int32_t spread = spread_of(kernel, n, parameters_.spread);
   const std::int64_t distance_s = half_distance(n, spread, fragment.axis.s);
   const std::int64_t distance_t = half_distance(n, spread, fragment.axis.t);
   const bool srgb =
@@ -270,7 +271,7 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
       const Channels value = bilinear(texture, lod.level + next, lod.linear,
                                       wrap_coordinate(texture.descriptor.wrap_s, at_s),
                                       wrap_coordinate(texture.descriptor.wrap_t, at_t), tap);
-      const Lanes weight = sample_weight(parameters_.kernel, i, n);
+      const Lanes weight = sample_weight(kernel, i, n);
       Channels& sum = sums[static_cast<std::size_t>(next)];
       sum.rb += weight * value.rb;
       sum.ga += weight * value.ga;
@@ -296,7 +297,7 @@ std::array<std::uint8_t, 4> TextureGolden::filter_fragment(const Texture& textur
       value.rb = level_lerp(value.rb, next.rb, lod.fraction);
       value.ga = level_lerp(value.ga, next.ga, lod.fraction);
     }
-    const Lanes weight = sample_weight(parameters_.kernel, i, n);
+    const Lanes weight = sample_weight(kernel, i, n);
     accumulator.rb += weight * value.rb;
     accumulator.ga += weight * value.ga;
   }

@@ -170,19 +170,21 @@ def texture(quads: Array, levels: Array | list[Array], *, fields: dict[str, typi
 
 
 def mip_levels(texels: Array) -> list[Array]:
-    """Returns the mip chain of a picture whose sides are powers of two: rounded means of 2 x 2 texels."""
+    """Returns the mip chain of a picture whose sides are powers of two: rounded means of 2 x 2 texels, or of two
+    texels if one side is 1. Halves are rounded up; means of two are halves so often that they are rounded to even."""
     level = rgba(texels)
     if not isinstance(level, numpy.ndarray) or level.dtype != numpy.uint8 or level.ndim != 3:
         raise ValueError(f"texels: expected uint8 of (height, width, 4), got {described(texels)}")
     if any(side < 1 or side & (side - 1) for side in level.shape[:2]):
         raise ValueError(f"texels: expected sides that are powers of two, got {level.shape[1]} x {level.shape[0]}")
     levels = [level]
+    to_even = min(level.shape[:2]) == 1
     while max(level.shape[:2]) > 1:
         wide = level.astype(numpy.uint16)
         # A side of one texel stays: it averages the texel with itself.
         rows = wide[0::2] + wide[1::2] if wide.shape[0] > 1 else 2 * wide
         both = rows[:, 0::2] + rows[:, 1::2] if rows.shape[1] > 1 else 2 * rows
-        level = ((both + 2) // 4).astype(numpy.uint8)
+        level = ((both + (1 + both // 4 % 2 if to_even else 2)) // 4).astype(numpy.uint8)
         levels.append(level)
     return levels
 

@@ -121,7 +121,7 @@ class TransferTables {
       first_{};  // byte at the start of the step
 };
 
-Image half_size(const Image& source, MipSpace space) {
+Image half_size(const Image& source, MipSpace space, bool to_even) {
   static const TransferTables tables;
   const int width = std::max(1, source.width / 2), height = std::max(1, source.height / 2);
   const std::vector<Taps> across = box_taps(source.width, width);
@@ -131,8 +131,10 @@ Image half_size(const Image& source, MipSpace space) {
   // channel.
   const auto bits = static_cast<std::uint64_t>(2 * total);
   const int shift = std::has_single_bit(bits) ? std::countr_zero(bits) : 0;
-  auto rounded_mean = [total, shift](std::int64_t sum) {
-    return shift != 0 ? (2 * sum + total) >> shift : (2 * sum + total) / (2 * total);
+  auto rounded_mean = [total, shift, to_even](std::int64_t sum) {
+    const std::int64_t doubled = 2 * sum + total;
+    const std::int64_t mean = shift != 0 ? doubled >> shift : doubled / (2 * total);
+    return to_even && doubled == 2 * total * mean ? mean & ~std::int64_t{1} : mean;
   };
 
   // If both sides are even, the four weights are equal and can be omitted.
@@ -306,7 +308,7 @@ std::vector<Image> mip_chain(const Image& base, MipSpace space) {
   std::vector<Image> levels;
   levels.push_back(base);  // not an initialiser list, which would copy the image again
   while (levels.back().width > 1 || levels.back().height > 1)
-    levels.push_back(half_size(levels.back(), space));
+    levels.push_back(half_size(levels.back(), space, base.width == 1 || base.height == 1));
   return levels;
 }
 

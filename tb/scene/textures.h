@@ -39,8 +39,9 @@ Image make_texture(std::string_view name, int width, int height, std::uint32_t s
 enum class MipSpace { kStored, kSrgb };
 
 // Levels of size max(1, w >> k), max(1, h >> k), down to 1 x 1. A texel is the exact area average
-// (box) of the level above, rounded half up; an odd size averages three source texels. Alpha is
-// always averaged as stored.
+// (box) of the level above, rounded half up; an odd size averages three source texels. Every second
+// mean of two is a half, so those of a texture one texel wide or high are rounded half to even.
+// Alpha is always averaged as stored.
 std::vector<Image> mip_chain(const Image& base, MipSpace space = MipSpace::kStored);
 
 // sRGB transfer curve (IEC 61966-2-1) between stored [0, 1] and linear light [0, 1].

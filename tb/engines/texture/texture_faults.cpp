@@ -14,7 +14,7 @@ namespace deburr::tb {
 namespace {
 
 using Fault = rtl::texture::BlockDecoderBase::Fault;
-using spec::texture::Decode, spec::texture::Format;
+using spec::texture::Decode, spec::texture::Format, spec::texture::Kernel;
 
 // A fault in blocks, and the formats in which it shows.
 struct BlockFault {
@@ -74,6 +74,8 @@ std::vector<InjectedFault> TextureFaults::list(const platform::TextureMemory& te
        "flip:texture.address_unit.levels:100:last_index.0"},
       {"wrong-sample", "Gives request 401 the weight of another number of samples.",
        "flip:texture.texel_quads:401:control.last_index.2"},
+      {"wrong-kernel", "Fragments on a diagonal have the box of all others instead of a tent.", "",
+       setup_.texture.kernel == Kernel::kAxis ? "" : "texture.kernel = axis"},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
   for (const BlockFault& fault : kBlockFaults) {
     const auto& all = textures.descriptors();
@@ -92,6 +94,7 @@ std::vector<InjectedFault> TextureFaults::list(const platform::TextureMemory& te
 
 spec::texture::Parameters TextureFaults::as_built() const {
   spec::texture::Parameters p = setup_.texture;
+  if (injected("wrong-kernel")) p.kernel = Kernel::kBox;
   if (injected("wrong-replacement")) p.cache_replacement = spec::texture::Replacement::kFifo;
   return p;
 }

@@ -115,6 +115,24 @@ TEST(MipChain, LevelsAreAreaAveragesForOddSizes) {
   }
 }
 
+// Rounded up, the last level would be brighter by a quarter per level.
+TEST(MipChain, OneTexelWideRoundsHalvesToEven) {
+  const auto next_level = [](int width, int height, const std::vector<std::uint8_t>& greys) {
+    Image image(width, height);
+    for (std::size_t i = 0; i < greys.size(); ++i)
+      image.pixels[i] = {greys[i], greys[i], greys[i], greys[i]};
+    const Image level = mip_chain(image)[1];
+    std::vector<int> result;
+    for (const Rgba8& texel : level.pixels) result.push_back(texel[0]);
+    return result;
+  };
+  for (const auto& [w, h] : {std::pair(1, 8), {8, 1}})
+    EXPECT_EQ(next_level(w, h, {1, 2, 2, 3, 4, 4, 1, 0}), (std::vector{2, 2, 4, 0}));
+  EXPECT_EQ(next_level(2, 2, {2, 3, 2, 3}), std::vector{3});
+  const Image ramp = gradient(1, 1024);
+  EXPECT_NEAR(mip_chain(ramp).back().at(0, 0)[1], area_mean(ramp, Image(1, 1), 0, 0, 1), 0.75);
+}
+
 TEST(MipChain, SrgbAveragesLight) {
   const std::vector<Image> stored = mip_chain(checkerboard(4, 4, 4));
   EXPECT_EQ(stored[1].at(0, 0), (Rgba8{128, 128, 128, 255}));  // 127.5, half up

@@ -71,8 +71,11 @@ void reject_unsupported_format(const tb::SamplerParameters& sampler,
         spec::texture::is_compressed(sampler.format) ? "bc1, bc3 or etc2_rgb" : "srgb8_a8"));
 }
 
-void reject_unused_decoders(const tb::ParameterSet& set, const spec::texture::Parameters& texture) {
-  using spec::texture::Decode;
+void reject_unused_parameters(const tb::ParameterSet& set,
+                              const spec::texture::Parameters& texture) {
+  using spec::texture::Axes, spec::texture::Decode, spec::texture::Kernel;
+  if (texture.kernel == Kernel::kAxis && texture.axes == Axes::kTwo)
+    set.reject("texture.kernel", "texture.axes = two has no diagonals, so that axis is box");
   if (texture.decode != Decode::kAfter)
     set.reject("texture.cache.decoders", "it needs texture.decode = after");
   if (texture.decode != Decode::kBefore)

@@ -25,8 +25,9 @@ void reject_empty_lod_range(const tb::SamplerParameters& sampler);
 // ConfigError for blocks without a decoder, and for sRGB codes in a format that has none.
 void reject_unsupported_format(const tb::SamplerParameters& sampler,
                                const spec::texture::Parameters& texture);
-// ConfigError for parameters of decoders that are not built.
-void reject_unused_decoders(const tb::ParameterSet& set, const spec::texture::Parameters& texture);
+// ConfigError for a kernel by axis without diagonals and parameters of decoders that are not built.
+void reject_unused_parameters(const tb::ParameterSet& set,
+                              const spec::texture::Parameters& texture);
 // ConfigError if lookups are requested without a trace that could contain them, or of lines without
 // an address.
 void reject_unused_lookups(const tb::ParameterSet& set, const spec::texture::Parameters& texture);

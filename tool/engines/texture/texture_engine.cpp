@@ -82,7 +82,7 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
     reject_empty_lod_range(sampler_);
     reject_unsupported_format(sampler_, texture_);
     reject_unused_lookups(set, texture_);
-    reject_unused_decoders(set, texture_);
+    reject_unused_parameters(set, texture_);
     counterpart_units_ = tb::counterpart_units(counterparts_.units);
     if (!counterpart_units_.empty()) {
       reject_views_inside(set);

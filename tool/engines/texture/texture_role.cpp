@@ -123,7 +123,7 @@ class TextureRole final : public PictureDrawer {
     lists_ = lists_of(scene_);
     frames_ = frames_of(set, sequence_, lists_);
     reject_unused_lookups(set, texture_);
-    reject_unused_decoders(set, texture_);
+    reject_unused_parameters(set, texture_);
     reject_unused_memory(set, "memory", memory_);
     reject_slow_memory(set, "memory", memory_);
     reject_empty_lod_range(sampler_);

@@ -139,6 +139,12 @@ class MeshFiles(CommandTest):
         self.run_texture(2, "--scene", "plain", says="plane")
 
 
+class Kernel(CommandTest):
+    def test_rejects_kernel_by_axis_without_diagonals(self):
+        self.run_texture(2, "--preset", "paper", "--set", "texture.kernel=axis",
+                         says="texture.axes = two has no diagonals")
+
+
 class CompressedFormats(CommandTest):
     """Formats of blocks."""
 

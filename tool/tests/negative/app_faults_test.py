@@ -131,6 +131,11 @@ class Faults(CommandTest):
             with self.subTest(name):
                 self.fault(name, 1, "mismatch", *self.UNCHECKED)
 
+    def test_catches_wrong_kernel(self):
+        tilted = ("--scene", "tunnel", "--set", "texture.kernel=axis")
+        self.fault("wrong-kernel", 1, "mismatch", *self.UNCHECKED, *tilted)
+        self.run_texture(2, "--fault", "wrong-kernel", says="texture.kernel = axis")
+
     def test_catches_wrong_replacement(self):
         _, result = self.fault("wrong-replacement", 1, "line fills", *self.CHECKED, "--set",
                                "texture.cache.bytes=1024")

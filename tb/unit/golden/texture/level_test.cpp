@@ -62,7 +62,9 @@ LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture
   const double l =
       std::min(std::max(lb_d_max - e + d.lod_bias / 256.0, d.min_lod / 256.0), d.max_lod / 256.0);
   r.l = static_cast<std::int32_t>(4096 * l);
+  const auto has_one_texel = [&](int level) { return std::max(d.width, d.height) < 2 << level; };
   if (l <= 0) {
+    if (has_one_texel(0)) r.samples = 1;
     r.magnified = true;
     r.linear = d.mag_filter == spec::texture::MagFilter::kLinear;
     return r;
@@ -86,6 +88,7 @@ LevelOfDetail by_formula(const spec::texture::Parameters& p, const spec::texture
     r.level = static_cast<int>(std::min(std::floor(rounded), q));
     r.fraction = rounded >= q ? 0 : static_cast<std::uint32_t>(256 * (rounded - r.level));
   }
+  if (has_one_texel(r.level)) r.samples = 1;
   return r;
 }
 

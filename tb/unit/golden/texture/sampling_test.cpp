@@ -83,6 +83,31 @@ TEST(Walker, TentOfFewSamplesIsABox) {
   EXPECT_EQ(spread_of(Kernel::kBox, 2, 102), 102);
 }
 
+// Candidates of the major axis whose fragments have a tent under `axis`.
+TEST(Walker, KernelByAxisIsATentOnDiagonals) {
+  using spec::texture::Axes, spec::texture::Kernel;
+  spec::texture::Configuration p;
+  for (const auto kernel : {Kernel::kBox, Kernel::kTent}) {
+    p.kernel = kernel;
+    EXPECT_EQ(fragment_kernel(p, 1, 16), kernel);
+  }
+  p.kernel = Kernel::kAxis;
+  for (const auto& [axes, diagonals] :
+       {std::pair{Axes::kTwo, 0b00}, {Axes::kFour, 0b1010}, {Axes::kEight, 0b01000100}}) {
+    p.axes = axes;
+    for (int k = 0; k < 2 << static_cast<int>(axes); ++k)
+      for (int n = 1; n <= 16; ++n) {
+        const bool tent = n >= 5 && (diagonals >> k & 1) != 0;
+        EXPECT_EQ(fragment_kernel(p, k, n), tent ? Kernel::kAxis : Kernel::kBox) << k << " " << n;
+      }
+  }
+  for (int n = 5; n <= 16; ++n)
+    for (int i = 0; i < n; ++i)
+      EXPECT_EQ(sample_weight(Kernel::kAxis, i, n), sample_weight(Kernel::kTent, i, n));
+  for (int spread = 0; spread <= 128; ++spread)
+    EXPECT_EQ(spread_of(Kernel::kAxis, 5, spread), std::lround(spread * std::sqrt(2.0))) << spread;
+}
+
 // ---- wrapping -----------------------------------------------------------------------------------
 
 // GL 4.6, table 8.20, on integer texel coordinates.

@@ -52,7 +52,8 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
   const Step axis = candidate_in_coordinates(p.axes, f.major, {s_x, t_x}, {s_y, t_y});
   const AxisLogarithms lb = axis_logarithms(p.axes, p.log2, f);
   const LevelOfDetail lod = select_level(p, d, lb.d_max, lb.d_min);
-  const std::int32_t spread = spread_of(p.kernel, lod.samples, p.spread);
+  const spec::texture::Kernel kernel = fragment_kernel(p, f.major, lod.samples);
+  const std::int32_t spread = spread_of(kernel, lod.samples, p.spread);
   PlainResult result;
   // Filters sample i at one level; U8.12.
   const auto filtered = [&](int i, int level) {
@@ -89,7 +90,7 @@ PlainResult plain(const spec::texture::Parameters& p, const spec::texture::Descr
     }
     return colour;
   };
-  const auto weight = [&](int i) { return sample_weight(p.kernel, i, lod.samples); };
+  const auto weight = [&](int i) { return sample_weight(kernel, i, lod.samples); };
   const bool encoded = (d.srgb || d.format == spec::texture::Format::kSrgb8A8) &&
                        p.srgb_output == spec::texture::SrgbOutput::kEncoded;
   if (p.blend == spec::texture::Blend::kLevel) {
@@ -161,7 +162,7 @@ class RandomWork {
     p.count = static_cast<spec::texture::CountRule>(pick(0, 2));
     p.srgb_output = static_cast<spec::texture::SrgbOutput>(pick(0, 1));
     p.count_cap = static_cast<spec::texture::CountCap>(pick(0, 1));
-    p.kernel = static_cast<spec::texture::Kernel>(pick(0, 1));
+    p.kernel = static_cast<spec::texture::Kernel>(pick(0, 2));
     p.spread = pick(0, 2) == 0 ? pick(0, 128) : 64;
     p.blend = static_cast<spec::texture::Blend>(pick(0, 1));
     p.derivatives = static_cast<spec::texture::Derivatives>(pick(0, 1));
@@ -472,7 +473,43 @@ TEST(TextureGolden, CountsClampedSaturatedAndMagnifiedFragments) {
   EXPECT_EQ(fragment.p_y.s, 0);
   EXPECT_EQ(fragment.footprint.major, 0);
   EXPECT_EQ(fragment.axis, fragment.d_x);
-  EXPECT_EQ(fragment.lod.samples, 16);
+  EXPECT_EQ(fragment.lod.samples, 1);  // of the level of 1 x 1 texels
+}
+
+// Only a level of 1 x 1 texels is sampled once, in every mode; its colour is that of the texel.
+TEST(TextureGolden, LevelOfOneTexelIsSampledOnce) {
+  using spec::texture::MinFilter;
+  const auto samples = [](int width, int height, MinFilter filter, int level) {
+    spec::texture::Descriptor sampler;
+    sampler.max_anisotropy_log2 = 4;
+    sampler.min_filter = filter;
+    sampler.min_lod = sampler.max_lod = static_cast<std::uint16_t>(level << 8);
+    const auto picture = tb::texture::noise(width, height, 1);
+    const EncodedTexture texture(picture, sampler);
+    TextureGolden golden({}, texture.memory);
+    golden.set_texture(0, texture.descriptor);
+    const spec::texture::Quad quad = flat_quad(0.3, 0.4, 16.0 / width, 2.0 / height);
+    std::vector<BilinearRequest> requests;
+    const QuadColours colours = golden.process(quad, 0, requests);
+    const auto n = static_cast<std::size_t>(golden.analyse(quad, 0).lod.samples);
+    EXPECT_EQ(requests.size(), n);
+    EXPECT_EQ(golden.work().samples, 4 * n);
+    if (n == 1) {
+      EXPECT_EQ(colours.begin()->rgba, picture.levels.back().at(0, 0));
+    }
+    return n;
+  };
+  for (const MinFilter filter :
+       {MinFilter::kLinearMipmapLinear, MinFilter::kNearestMipmapNearest}) {
+    EXPECT_EQ(samples(8, 8, filter, 3), 1u);
+    EXPECT_EQ(samples(8, 8, filter, 2), 8u);
+    EXPECT_EQ(samples(8, 1, filter, 2), 8u);  // 2 x 1 texels
+    EXPECT_EQ(samples(8, 1, filter, 3), 1u);
+    EXPECT_EQ(samples(1, 8, filter, 2), 8u);
+    EXPECT_EQ(samples(1, 1, filter, 0), 1u);  // magnified
+  }
+  EXPECT_EQ(samples(1, 1, MinFilter::kLinear, 1), 1u);
+  EXPECT_EQ(samples(8, 8, MinFilter::kLinear, 3), 8u);
 }
 
 // ---- blend and derivatives ----------------------------------------------------------------------
