@@ -158,6 +158,9 @@ std::vector<Datasheet> datasheets() {
     }
     builds.push_back(units(p));
   }
+  Parameters by_axis = preset_parameters(Preset::kDeburr);
+  by_axis.kernel = Kernel::kAxis;
+  builds.push_back({SampleWalker::datasheet(by_axis)});
   Parameters narrow = preset_parameters(Preset::kDeburr),
              wide = preset_parameters(Preset::kDeburr, NamedBuild::kWide);
   for (const Decode decode : {Decode::kNone, Decode::kAfter, Decode::kBefore})

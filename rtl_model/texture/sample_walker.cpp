@@ -15,12 +15,12 @@ constexpr int kReciprocalBits = 16;  // fraction bits
 constexpr int kRoundedBits = 23;     // from half an axis, S10.46, to a coordinate, S9.24
 constexpr std::int64_t kHalf = std::int64_t{1} << (kRoundedBits - 1);
 constexpr std::int32_t kWholeAxis = 64;  // U2.6
-constexpr std::uint8_t kNever = 16;      // above every N - 1
+constexpr std::uint8_t kNoTent = 16;     // above every N - 1
 
 using spec::texture::Kernel;
 
 std::uint8_t first_tent(Kernel kernel) {
-  return kernel == Kernel::kTent ? 3 : kernel == Kernel::kAxis ? 4 : kNever;
+  return kernel == Kernel::kTent ? 3 : kernel == Kernel::kAxis ? 4 : kNoTent;
 }
 
 }  // namespace
@@ -239,10 +239,11 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
       stages[0].operators.push_back(2 * f * op::multiply_constant(z.axis, constant));
   if (std::max(box, tent) != 0)
     stages[0].longest = {op::multiply_constant(z.axis, std::max(box, tent))};
-  if (by_axis && moves != 0) {
+  if (by_axis) {
+    stages[0].work += ", kernel";
     stages[0].operators.insert(stages[0].operators.end(),
-                               {2 * f * op::mux(z.step, 2), f * op::compare(4)});
-    stages[0].longest.push_back(op::mux(z.step, 2));
+                               {moves * 2 * f * op::mux(z.step, 2), f * op::compare(4)});
+    stages[0].longest.push_back(moves * op::mux(z.step, 2));
   }
   if (any) {
     stages[0].longest.push_back(op::rom_read(17, 16));

@@ -139,6 +139,7 @@ constexpr std::array kWrongBuilds = {
     WrongBuild{"measure", [](auto& p) { p.footprint = spec::texture::FootprintRule::kTwoSegment; }},
     WrongBuild{"count", [](auto& p) { p.count = spec::texture::CountRule::kCeil; }},
     WrongBuild{"kernel", [](auto& p) { p.kernel = spec::texture::Kernel::kTent; }},
+    WrongBuild{"diagonals", [](auto& p) { p.kernel = spec::texture::Kernel::kAxis; }},
     WrongBuild{"output", [](auto& p) { p.srgb_output = spec::texture::SrgbOutput::kEncoded; }}};
 
 class RandomQuadsNoticeBuild : public testing::TestWithParam<int> {};
@@ -156,7 +157,7 @@ TEST_P(RandomQuadsNoticeBuild, WrongBuildIsDetected) {
   bench.order({});
   EXPECT_NE(bench.check(input, outcome), "");
 }
-INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeBuild, testing::Range(0, 5), [](const auto& p) {
+INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeBuild, testing::Range(0, 6), [](const auto& p) {
   return std::string(kWrongBuilds[static_cast<std::size_t>(p.param)].name);
 });
 
@@ -173,6 +174,7 @@ TEST_P(RandomQuadsNoticeTable, WrongWordIsDetected) {
   const QuadInput input = random_input(random);
   spec::texture::Parameters p;
   p.srgb_output = spec::texture::SrgbOutput::kEncoded;
+  p.kernel = spec::texture::Kernel::kAxis;
   QuadBench bench(input, p);
   int changed = 0;
   const auto spoil_words = [&](auto& memory) {
@@ -189,9 +191,12 @@ TEST_P(RandomQuadsNoticeTable, WrongWordIsDetected) {
 }
 INSTANTIATE_TEST_SUITE_P(Texture, RandomQuadsNoticeTable,
                          testing::Values(WrongWord{"weights", 16 * 2 + 1},
+                                         WrongWord{"weights", 16 * (16 + 15) + 8},  // of a tent
                                          WrongWord{"reciprocal", 2}, WrongWord{"codes", 881},
                                          WrongWord{"srgb", 128}),
-                         [](const auto& p) { return std::string(p.param.table); });
+                         [](const auto& p) {
+                           return p.param.table + ("_" + std::to_string(p.param.address));
+                         });
 
 // A wrong weight of the first of N samples.
 class RandomQuadsNoticeWeights : public testing::TestWithParam<int> {};

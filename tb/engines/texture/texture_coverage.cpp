@@ -23,9 +23,9 @@ constexpr std::array kGroups = {
     CoverageGroup{"texture/tent",
                   "Fragments with the kernel tent: narrow with fewer than four samples, which it "
                   "does not change, and wide."},
-    CoverageGroup{"texture/axis",
-                  "Fragments with the kernel axis: on a diagonal of the pixel, which have a tent; "
-                  "on a diagonal with few samples, and straight, which have a box."},
+    CoverageGroup{"texture/diagonal",
+                  "Fragments with the kernel axis whose major axis is a diagonal of the pixel: box "
+                  "with fewer than five samples, and tent."},
     CoverageGroup{"texture/blend", "Fragments by the order of sums over samples and levels."},
     CoverageGroup{"texture/derivatives", "Fragments by the rule for differences."},
     CoverageGroup{"texture/cache", "Lookups by outcome, and cycles with a full miss queue."},
@@ -36,7 +36,6 @@ constexpr std::array kGroups = {
     CoverageGroup{"texture/slots", "Slots of widths above 1 without a request, by cause."}};
 
 constexpr std::array<std::string_view, 4> kCache = {"hit", "miss", "merged", "queue_full"};
-constexpr std::array<std::string_view, 3> kAxisBins = {"diagonal", "few", "straight"};
 constexpr int kMaxSamples = 16;
 
 using rtl::texture::GroupFormer;
@@ -82,7 +81,8 @@ Coverage TextureCoverage::declared() {
     for (int k = 0; k < axes; ++k) coverage.declare(fmt::format("texture/major/{}/{}", axes, k));
   coverage.declare("texture/tent/narrow");
   coverage.declare("texture/tent/wide");
-  for (const auto bin : kAxisBins) coverage.declare(fmt::format("texture/axis/{}", bin));
+  for (const char* kernel : {"box", "tent"})
+    coverage.declare(fmt::format("texture/diagonal/{}", kernel));
   for (const auto blend : spec::texture::kBlendNames)
     coverage.declare(fmt::format("texture/blend/{}", blend));
   for (const auto rule : spec::texture::kDerivativesNames)
@@ -109,11 +109,9 @@ void TextureCoverage::see(const golden::texture::TextureGolden& golden,
     compressed_ += is_compressed(texture.format);
     ++samples_[index(a.lod.samples)];
     ++major_[index(a.footprint.major)];
-    const auto has_tent = [&](int n) {
-      return golden::texture::fragment_kernel(configuration_, a.footprint.major, n) ==
-             Kernel::kAxis;
-    };
-    ++axis_[has_tent(a.lod.samples) ? 0 : has_tent(kMaxSamples) ? 1 : 2];
+    const int directions = golden::texture::candidates(configuration_.axes);
+    if (directions > 2 && a.footprint.major % (directions / 2) == directions / 4)
+      ++diagonals_[a.lod.samples >= 5 ? 1 : 0];
     if (a.lod.magnified) {
       ++magnified_[index(texture.mag_filter)];
       continue;
@@ -147,9 +145,10 @@ Coverage TextureCoverage::bins(const rtl::texture::TextureUnit& unit) const {
     if (configuration_.kernel == Kernel::kTent)
       coverage.hit(n < 4 ? "texture/tent/narrow" : "texture/tent/wide", samples_[n]);
   }
-  if (configuration_.kernel == Kernel::kAxis)
-    for (std::size_t i = 0; i < kAxisBins.size(); ++i)
-      coverage.hit(fmt::format("texture/axis/{}", kAxisBins[i]), axis_[i]);
+  if (configuration_.kernel == Kernel::kAxis) {
+    coverage.hit("texture/diagonal/box", diagonals_[0]);
+    coverage.hit("texture/diagonal/tent", diagonals_[1]);
+  }
   const int axes = golden::texture::candidates(configuration_.axes);
   for (int k = 0; k < axes; ++k)
     coverage.hit(fmt::format("texture/major/{}/{}", axes, k), major_[index(k)]);

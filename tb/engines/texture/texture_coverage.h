@@ -44,7 +44,7 @@ class TextureCoverage {
   std::uint64_t srgb_ = 0, compressed_ = 0;
   std::array<std::uint64_t, 17> samples_{};
   std::array<std::uint64_t, 8> major_{};
-  std::array<std::uint64_t, 3> axis_{};  // diagonals with a tent and with few samples, others
+  std::array<std::uint64_t, 2> diagonals_{};  // by kernel: box, tent
 };
 
 }  // namespace deburr::tb

@@ -350,6 +350,7 @@ TEST(TextureFigures, BinsCoverEveryFragment) {
   nearest.format = Format::kSrgb8A8;
   for (const Case& c : {Case{"object", plain, Axes::kTwo, Kernel::kBox, SrgbOutput::kEncoded},
                         {"road", nearest, Axes::kEight, Kernel::kTent, SrgbOutput::kLinear},
+                        {"tunnel", plain, Axes::kEight, Kernel::kAxis, SrgbOutput::kLinear},
                         {"quad", nearest, Axes::kTwo, Kernel::kTent, SrgbOutput::kEncoded}}) {
     SceneParameters p;
     p.source = c.source;
@@ -391,6 +392,9 @@ TEST(TextureFigures, BinsCoverEveryFragment) {
     const bool tent = c.kernel == Kernel::kTent;
     EXPECT_EQ(bin("tent/narrow"), tent ? narrow : 0);
     EXPECT_EQ(bin("tent/wide"), tent ? wide : 0);
+    const bool by_axis = c.kernel == Kernel::kAxis;
+    EXPECT_EQ(bin("diagonal/"), by_axis ? bin("major/8/2") + bin("major/8/6") : 0);
+    EXPECT_EQ(bin("diagonal/tent") > 0, by_axis);
     EXPECT_EQ(bin(c.axes == Axes::kTwo ? "major/2/" : "major/8/"), fragments);
     EXPECT_EQ(bin("major/"), fragments);
     EXPECT_EQ(bin("cache/hit"), work(r, "tag_stage_hits"));

@@ -62,6 +62,32 @@ TEST(TextureRtlAxis, MatchesValuesByHand) {
   EXPECT_EQ(taken[4].token.axis_t, 2560);
 }
 
+// The long side of a footprint turns by 22.5 degrees from row to row. Only 45 and 135 degrees are
+// diagonals of the pixel, with four as with eight directions.
+TEST(TextureRtlAxis, DiagonalsAreMarked) {
+  ClockDomain clock("clock", period());
+  AxisBench four(clock, "four_", Axes::kFour, FootprintRule::kExact),
+      eight(clock, "eight_", Axes::kEight, FootprintRule::kHalf, 4);
+  constexpr std::array kCosine = {1280, 1180, 900, 490, 0, -490, -900, -1180},
+                       kSine = {0, 490, 900, 1180, 1280, 1180, 900, 490};
+  for (AxisBench* b : {&four, &eight}) {
+    for (std::size_t i = 0; i < 8; ++i) b->ends.source.add(token(kCosine[i], 0, kSine[i], 0));
+    b->ends.sink.hold_from = 20;
+    b->ends.sink.hold_to = 45;
+  }
+  clock.run(100);
+  const auto diagonals = [](const AxisBench& b) {
+    std::vector<int> all;
+    for (const auto& taken : b.ends.sink.taken) all.push_back(taken.token.diagonal ? 1 : 0);
+    return all;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(diagonals(eight), ElementsAre(0, 0, 1, 0, 0, 0, 1, 0));
+  // A long side between two of four directions belongs to the row or the column here.
+  EXPECT_THAT(diagonals(four),
+              ElementsAre(0, testing::_, 1, testing::_, 0, testing::_, 1, testing::_));
+}
+
 struct Timed {
   const char* name;
   Axes axes;

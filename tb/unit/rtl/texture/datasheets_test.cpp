@@ -42,6 +42,7 @@ TEST(TextureRtlDatasheets, MatchTheContract) {
        {"SampleWalker, `count = floor`, `axes = two`", 3, 1},
        {"SampleWalker, `count = any`, " + four, 4, 1},
        {"SampleWalker, `count = any`, " + four + ", `width = 4`", 4, 1},
+       {"SampleWalker, `count = any`, " + four + ", `kernel = axis`", 4, 1},
        {"TexelAddresser, `width = 1`", 5, 1},
        {"TexelAddresser, `width` above 1", 5, 1},
        {"TexelAddresser, `width = 1`, " + blocks, 5, 1},
@@ -130,6 +131,10 @@ TEST(TextureRtlDatasheets, OperatorsFollowTheBuild) {
   EXPECT_EQ(operators({}, "SampleWalker", Kind::kMultiplyConstant), 0u);
   p.spread = 96;
   EXPECT_EQ(operators(p, "SampleWalker", Kind::kMultiplyConstant), 2 * 2u);
+  // With `kernel = axis` a tent's spread is 91 = 128 - 32 - 4 - 1.
+  p = {};
+  p.kernel = spec::texture::Kernel::kAxis;
+  EXPECT_EQ(operators(p, "SampleWalker", Kind::kMultiplyConstant), 2u);
   p = {};
   p.axis_cycles = 2;
   EXPECT_EQ(operators(p, "AxisUnit", Kind::kSquare), operators({}, "AxisUnit", Kind::kSquare) / 2);

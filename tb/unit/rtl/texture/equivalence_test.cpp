@@ -258,8 +258,11 @@ Verdict compare_axis(const Parameters& p, bool fault) {
                             {signed_size(in.size_s_y, in.s_y), signed_size(in.size_t_y, in.t_y)});
         const gold::Step axis =
             gold::candidate_in_coordinates(p.axes, f.major, {in.s_x, in.t_x}, {in.s_y, in.t_y});
+        const int directions = p.axes == spec::texture::Axes::kFour ? 4 : 8;
+        const bool diagonal = f.major == directions / 4 || f.major == directions - directions / 4;
         return got.d_max == f.d_max && got.minor == f.area && got.axis_s == axis.s &&
-               got.axis_t == axis.t && got.s == in.s && got.t == in.t && got.ticket.tag == i;
+               got.axis_t == axis.t && got.diagonal == diagonal && got.s == in.s && got.t == in.t &&
+               got.ticket.tag == i;
       });
   return bench.verdict;
 }
@@ -280,7 +283,8 @@ Verdict compare_log2(const Parameters& p, bool fault) {
     if (hw::Log2Unit::log2(p.log2, d) != gold::log2_fixed(p.log2, d) && v.mismatches++ == 0)
       v.first = d;
     if (v.compared % 64 == 0)
-      tokens.push_back({kTicket, 1, 2, 3, 4, static_cast<std::uint32_t>(random.next()), d});
+      tokens.push_back(
+          {kTicket, 1, 2, 3, 4, static_cast<std::uint32_t>(random.next()), d, (d & 1) != 0});
   };
   for (std::uint32_t d = 0; d < 1u << 21; ++d) compare(d);             // every smaller value
   for (int bit = 12; bit < 47; ++bit) {                                // an area has 47 bits
@@ -307,7 +311,7 @@ Verdict compare_log2(const Parameters& p, bool fault) {
         return got.lb_max == gold::log2_fixed(p.log2, in.d_max) &&
                got.lb_minor == gold::log2_fixed(p.log2, in.minor) && got.s == in.s &&
                got.t == in.t && got.axis_s == in.axis_s && got.axis_t == in.axis_t &&
-               got.ticket.tag == i;
+               got.diagonal == in.diagonal && got.ticket.tag == i;
       });
   return v;
 }
@@ -371,7 +375,8 @@ Verdict compare_level(const Parameters& p, bool fault) {
         for (const std::int32_t lb_min :
              {lb_max, near, any_of(random, std::array{-65536, 0, 4096}),
               lb_max - 4096 * static_cast<std::int32_t>(random.below(6))})
-          tokens.push_back({ticket, 1, 2, 3, 4, lb_max, with_area ? lb_max + lb_min : lb_min});
+          tokens.push_back(
+              {ticket, 1, 2, 3, 4, lb_max, with_area ? lb_max + lb_min : lb_min, (near & 1) != 0});
       }
     }
     std::uint64_t magnified = 0, two_levels = 0;
@@ -393,7 +398,8 @@ Verdict compare_level(const Parameters& p, bool fault) {
           return got.last_index + 1 == want.samples && got.level == want.level &&
                  got.fraction == want.fraction && got.linear == want.linear && got.s == in.s &&
                  got.t == in.t && got.axis_s == in.axis_s && got.axis_t == in.axis_t &&
-                 got.ticket.tag == in.ticket.tag && got.ticket.texture == in.ticket.texture;
+                 got.diagonal == in.diagonal && got.ticket.tag == in.ticket.tag &&
+                 got.ticket.texture == in.ticket.texture;
         });
     EXPECT_EQ(unit.magnified.value(), magnified);
     EXPECT_EQ(unit.two_levels.value(), two_levels);
@@ -436,6 +442,7 @@ Verdict compare_walker(const Parameters& p, bool fault) {
         static_cast<std::uint8_t>(any ? random.below(16) : (1u << random.below(5)) - 1),
         static_cast<std::uint8_t>(random.below(12)),
         static_cast<std::uint8_t>(random.chance(300) ? 0 : random.below(256)),
+        random.chance(500),
         random.chance(500)};
     t.ticket.tag = static_cast<std::uint32_t>(i);
     for (int sample = 0; sample <= t.last_index; ++sample) {
@@ -456,11 +463,15 @@ Verdict compare_walker(const Parameters& p, bool fault) {
         const Request& r = requests[i];
         const hw::LevelToken& t = tokens[r.token];
         const int n = t.last_index + 1;
-        const std::int32_t length = gold::spread_of(p.kernel, n, p.spread);
+        const bool by_axis = p.kernel == spec::texture::Kernel::kAxis,
+                   tent = by_axis && t.diagonal && n >= 5;
+        const std::int32_t length = tent      ? (181 * p.spread + 64) >> 7
+                                    : by_axis ? p.spread
+                                              : gold::spread_of(p.kernel, n, p.spread);
         const bool last_of_sample = r.second || t.fraction == 0;
         return got.s == t.s + gold::sample_offset(r.sample, n, length, t.axis_s) &&
                got.t == t.t + gold::sample_offset(r.sample, n, length, t.axis_t) &&
-               got.index == r.sample && got.last_index == n - 1 &&
+               got.index == r.sample && got.last_index == n - 1 + (tent ? 16 : 0) &&
                got.level_weight == (r.second ? t.fraction : 256 - t.fraction) &&
                got.level == t.level + (r.second ? 1 : 0) && got.linear == t.linear &&
                got.last_of_sample == last_of_sample &&
@@ -510,7 +521,7 @@ Verdict compare_addresser(const Parameters&, bool fault) {
         ticket.texture = static_cast<std::uint8_t>(h);
         tokens.push_back({ticket, s, t, static_cast<std::uint16_t>(random.below(257)),
                           static_cast<std::uint8_t>(random.below(32)),
-                          static_cast<std::uint8_t>(random.below(8)), level, random.chance(700),
+                          static_cast<std::uint8_t>(random.below(32)), level, random.chance(700),
                           random.chance(500), random.chance(200)});
       }
     }
@@ -600,7 +611,7 @@ const std::vector<Row>& rows() {
                                                "footprint=exact"},
                                  counts = {"count=floor", "count=ceil", "count=any"},
                                  powers_or_any = {"count=floor", "count=any"},
-                                 kernels = {"kernel=box", "kernel=tent"};
+                                 kernels = {"kernel=box", "kernel=tent", "kernel=axis"};
   static const std::vector<Row> all = [&] {
     std::vector<std::string> axes = every({{"axes=four", "axes=eight"}, footprints});
     for (const char* const slow :

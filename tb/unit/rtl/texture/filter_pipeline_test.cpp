@@ -3,6 +3,7 @@
 // Other colours are compared in equivalence_test.cpp.
 #include "rtl_model/texture/filter_pipeline.h"
 
+#include "spec/texture/tables.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -72,6 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
     TextureRtl, FilterBuild,
     testing::Values(configuration(),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny),
+                    configuration(spec::texture::Kernel::kAxis),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
                                   spec::texture::SrgbOutput::kEncoded),
                     configuration(spec::texture::Kernel::kTent, spec::texture::CountRule::kAny,
@@ -273,6 +275,32 @@ TEST(TextureRtlFilterWeights, RejectsExtraPort) {
               Rejects("weights", "one port more than 1R"));
   EXPECT_THAT((of_one_port_more<rtl::ReadPort<std::uint8_t>, std::uint8_t>(b.unit, "codes")),
               Rejects("codes", "one port more than 3R"));
+}
+
+// Of N samples one is white. `kernel = axis`: the weight is that of a box or, with bit 4 of
+// `last_index`, of a tent.
+TEST(TextureRtlFilterWeights, KernelAxisSelectsPerFragment) {
+  FilterBench b(configuration(spec::texture::Kernel::kAxis));
+  std::vector<int> expected;
+  for (std::uint8_t n = 5; n <= 16; ++n)
+    for (const std::size_t kernel : {1, 0})
+      for (std::size_t white = 0; white < n; ++white) {
+        for (std::uint8_t i = 0; i < n; ++i) {
+          TexelQuadToken t = request(Format::kL8, {});
+          if (i == white) t.texel = {255, 255, 255, 255};
+          t.control.index = i;
+          t.control.last_index = static_cast<std::uint8_t>(n - 1 + (kernel == 1 ? kTent : 0));
+          t.control.last_of_fragment = i == n - 1;
+          b.add(t);
+        }
+        expected.push_back((255 * spec::texture::kKernelWeights[kernel][n][white] + 128) / 256);
+      }
+  b.ends.sink.hold_from = 100;
+  b.ends.sink.hold_to = 131;
+  b.clock.run(4000);
+  std::vector<int> reds;
+  for (const auto& taken : b.ends.sink.taken) reds.push_back(taken.token.colour[0].rgba[0]);
+  EXPECT_EQ(reds, expected);
 }
 
 TEST(TextureRtlFilterSrgb, RejectsExtraPort) {

@@ -42,6 +42,10 @@ struct FilterWork {
                           : configuration.kernel == Kernel::kTent ? Kernel::kTent
                                                                   : Kernel::kBox;
     std::array<std::uint32_t, 4> sum{};
+    using spec::texture::Kernel;
+    const bool by_axis = configuration.kernel == Kernel::kAxis,
+               tent = by_axis && samples >= 5 && colour.tag % 3 != 0;
+    const Kernel kernel = !by_axis ? configuration.kernel : tent ? Kernel::kTent : Kernel::kBox;
     for (int sample = 0; sample < samples; ++sample) {
       const std::uint32_t weight = golden::texture::sample_weight(kernel, sample, samples);
       std::array<std::array<std::uint32_t, 4>, 2> level{};

@@ -218,7 +218,7 @@ inline constexpr std::array<Kit::Build, 10> Kit::kBuilds = {{
     {spec::texture::Preset::kPaper,
      "footprint=two_segment log2=corrected cache.line_bytes=32 cache.ways=8"},
     {spec::texture::Preset::kDeburr,
-     "footprint=max count=ceil count_cap=texel axis_cycles=2 cache.line_bytes=128"},
+     "footprint=max count=ceil count_cap=texel kernel=axis axis_cycles=2 cache.line_bytes=128"},
     {spec::texture::Preset::kDeburr,
      "footprint=quarter log2=mitchell kernel=tent spread=80 cache.line_bytes=32 cache.ways=4 "
      "cache.replacement=random"},

@@ -92,7 +92,7 @@ TEST(TextureRtlLevel, LevelOfOneTexelIsSampledOnce) {
     d.max_anisotropy_log2 = 4;
     write_descriptor(store.bus, i, d);
     const int lb_min = 16 * cases[i].l;
-    ends.source.add({ticket(i, i), 0, 0, 0, 0, lb_min + 4 * 4096, lb_min});
+    ends.source.add({ticket(i, i), 0, 0, 0, 0, lb_min + 4 * 4096, lb_min, i % 3 == 0});
   }
   clock.run(40);
   ASSERT_EQ(ends.sink.taken.size(), cases.size());
@@ -100,6 +100,7 @@ TEST(TextureRtlLevel, LevelOfOneTexelIsSampledOnce) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(ends.sink.taken[i].token.level, cases[i].level) << i;
     EXPECT_EQ(ends.sink.taken[i].token.last_index + 1, cases[i].samples) << i;
+    EXPECT_EQ(ends.sink.taken[i].token.diagonal, i % 3 == 0) << i;
   }
 }
 

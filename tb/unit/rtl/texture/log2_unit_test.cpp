@@ -19,7 +19,7 @@ TEST(TextureRtlLog2, LatencyAndIntervalMatchDatasheet) {
       unit.footprints_in(ends.in);
       unit.logs_out(ends.out);
       ends.source.add({ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16});
-      ends.source.add({ticket(10), 1, 2, 3, 4, 1, 0});
+      ends.source.add({ticket(10), 1, 2, 3, 4, 1, 0, true});
       ends.source.add({ticket(11), 1, 2, 3, 4, 7u << 16, 5});
     }
     Log2Unit unit;
@@ -52,6 +52,7 @@ TEST(TextureRtlLog2, LatencyAndIntervalMatchDatasheet) {
       EXPECT_EQ(benches[rule]->unit.idle_cycles(), 20 - busy);
     }
     EXPECT_EQ(taken[0].token.ticket.tag, 9u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(taken[i].token.diagonal, i == 1);
   }
 }
 

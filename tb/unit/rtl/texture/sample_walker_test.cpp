@@ -2,6 +2,7 @@
 // The SampleWalker alone: cycles, stalls and ports. Values are compared in equivalence_test.cpp.
 #include "rtl_model/texture/sample_walker.h"
 
+#include "spec/texture/tables.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -172,6 +173,55 @@ TEST(TextureRtlWalker, BlendLevelEmitsFinerLevelFirst) {
       EXPECT_EQ(b->ends.sink.taken[i].token.last_of_fragment, i == 8);
     }
   }
+}
+
+// `kernel = axis` by hand: from five samples on, a diagonal axis makes a tent of 91/64 of it, which
+// `last_index` tells; all others are boxes. One request per cycle, also through a stall.
+TEST(TextureRtlWalker, KernelAxisMakesTentsOfDiagonals) {
+  using spec::texture::CountRule, spec::texture::Kernel;
+  ClockDomain clock("clock", period());
+  WalkerBench any(clock, "any_", Kernel::kAxis, 64, CountRule::kAny),
+      floor(clock, "floor_", Kernel::kAxis, 64, CountRule::kFloor),
+      long_spread(clock, "long_", Kernel::kAxis, 128, CountRule::kAny);
+  struct Fragment {
+    std::uint8_t n;
+    bool diagonal, tent;
+  };
+  const std::vector<Fragment> fragments = {{1, true, false},  {4, true, false},  {8, true, true},
+                                           {8, false, false}, {16, true, true},  {16, false, false},
+                                           {5, true, true},   {5, false, false}, {13, true, true}};
+  constexpr std::int64_t kAxis = 1 << 20;
+  const auto check = [&](WalkerBench& b, std::int64_t box, std::int64_t tent, bool powers) {
+    SCOPED_TRACE(b.unit.name());
+    std::size_t at = 0;
+    const Cycle first = b.ends.sink.taken.at(0).cycle;
+    for (const Fragment& f : fragments) {
+      if (powers && (f.n & (f.n - 1)) != 0) continue;
+      for (int i = 0; i < f.n; ++i, ++at) {
+        const auto& [cycle, token] = b.ends.sink.taken.at(at);
+        EXPECT_EQ(token.last_index, f.n - 1 + (f.tent ? 16 : 0)) << int{f.n};
+        EXPECT_EQ(token.index, i);
+        const std::int64_t product =
+            (2 * i + 1 - f.n) * (f.tent ? tent : box) * kAxis * spec::texture::kReciprocal[f.n];
+        EXPECT_EQ(token.s, 7 + ((product + (1 << 22)) >> 23)) << int{f.n} << " " << i;
+        EXPECT_EQ(token.t, 9 + ((-product + (1 << 22)) >> 23));
+        EXPECT_EQ(cycle, first + at < 20 ? first + at : first + at + 11);
+      }
+    }
+    EXPECT_EQ(at, b.ends.sink.taken.size());
+  };
+  for (WalkerBench* b : {&any, &floor, &long_spread}) {
+    for (const Fragment& f : fragments)
+      if (b != &floor || (f.n & (f.n - 1)) == 0)
+        b->ends.source.add({ticket(), 7, 9, kAxis, -kAxis, static_cast<std::uint8_t>(f.n - 1), 0, 0,
+                            true, f.diagonal});
+    b->ends.sink.hold_from = 20;
+    b->ends.sink.hold_to = 31;
+  }
+  clock.run(150);
+  check(any, 64, 91, false);
+  check(floor, 64, 91, true);
+  check(long_spread, 128, 181, false);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spec/error.h"
+#include "tb/base/forked.h"
 #include "tb/unit/rtl/datasheets.h"
 #include "tb/unit/rtl/texture/support.h"
 
@@ -201,30 +202,32 @@ TEST(TextureRtlUnit, FragmentCostsNTimesLevels) {
 }
 
 // Footprints of 16 : 1 in level 6 of 64 x 64 texels: one lookup each, and the colour of its texel.
-TEST(TextureRtlUnit, LevelOfOneTexelIsSampledOnce) {
-  using spec::texture::NamedBuild, spec::texture::Preset;
-  for (const NamedBuild build : {NamedBuild::kNarrow, NamedBuild::kWide}) {
-    UnitBench b(preset_parameters(Preset::kDeburr, build));
-    spec::texture::Descriptor d = linear_texture(b.memory, 64);
-    d.max_anisotropy_log2 = 4;
-    for (const std::uint8_t level : std::to_array<std::uint8_t>({6, 5})) {
-      d.min_lod = d.max_lod = static_cast<std::uint16_t>(level << 8);
-      write_descriptor(b.bus, level, d);
-      spec::texture::Quad q = quad_at(kOne / 3, kOne / 3, kOne, kOne / 16);
-      q.texture = level;
-      const std::uint64_t before = b.bus.read(reg::kBilinears);
-      for (int i = 0; i < 10; ++i) b.source.add(q);
-      ASSERT_TRUE(b.finish());
-      EXPECT_EQ(b.bus.read(reg::kBilinears) - before, 40u * (level == 6 ? 1 : 16));
-      if (level == 5) continue;
-      const rtl::texture::TagUnit& tags = b.unit.cache.tag_stage;
-      EXPECT_EQ(tags.hits.value() + tags.merged.value() + tags.misses.value(), 40u);
-      for (const auto& taken : b.sink.taken)
-        for (const spec::texture::Colour& colour : taken.token)
-          EXPECT_THAT(colour.rgba, ElementsAre(0, 0, level, 255));
-    }
-    b.clock.run(5);
+void check_one_texel(spec::texture::NamedBuild build) {
+  UnitBench b(preset_parameters(spec::texture::Preset::kDeburr, build));
+  spec::texture::Descriptor d = linear_texture(b.memory, 64);
+  d.max_anisotropy_log2 = 4;
+  for (const std::uint8_t level : std::to_array<std::uint8_t>({6, 5})) {
+    d.min_lod = d.max_lod = static_cast<std::uint16_t>(level << 8);
+    write_descriptor(b.bus, level, d);
+    spec::texture::Quad q = quad_at(kOne / 3, kOne / 3, kOne, kOne / 16);
+    q.texture = level;
+    const std::uint32_t before = b.bus.read(reg::kBilinears);
+    for (int i = 0; i < 10; ++i) b.source.add(q);
+    ASSERT_TRUE(b.finish());
+    EXPECT_EQ(b.bus.read(reg::kBilinears) - before, 40u * (level == 6 ? 1 : 16));
+    if (level == 5) continue;
+    const rtl::texture::TagUnit& tags = b.unit.cache.tag_stage;
+    EXPECT_EQ(tags.hits.value() + tags.merged.value() + tags.misses.value(), 40u);
+    for (const auto& taken : b.sink.taken)
+      for (const spec::texture::Colour& colour : taken.token)
+        EXPECT_THAT(colour.rgba, ElementsAre(0, 0, level, 255));
   }
+}
+TEST(TextureRtlUnit, LevelOfOneTexelIsSampledOnce) {
+  check_one_texel(spec::texture::NamedBuild::kNarrow);
+}
+TEST(TextureRtlUnit, WideLevelOfOneTexelIsSampledOnce) {
+  check_one_texel(spec::texture::NamedBuild::kWide);
 }
 
 // Shows that the two tests above can fail: when the consumer stops, the distances differ from the
@@ -264,6 +267,43 @@ TEST(TextureRtlUnit, RulesRegisterShowsTheBuild) {
   UnitBench b(p);
   EXPECT_EQ(b.bus.read(reg::kConfiguration),
             4u | 2u << 4 | 1u << 6 | 1u << 8 | 1u << 10 | 1u << 11 | 1u << 12 | 102u << 16);
+}
+
+// Red of a footprint of 12 texels along s for the row and for the column, or for the row only; and
+// the cycles between two of its fragments in a warm cache.
+struct KernelRun {
+  std::uint64_t red, cycles;
+  bool operator==(const KernelRun&) const = default;
+};
+KernelRun run_kernel(spec::texture::Kernel kernel, std::int32_t spread, bool diagonal) {
+  return forked<KernelRun>([&] {
+    spec::texture::Parameters p;
+    p.kernel = kernel;
+    p.spread = spread;
+    UnitBench b(p);
+    spec::texture::Descriptor d = linear_texture(b.memory, 64);
+    d.max_anisotropy_log2 = 4;
+    d.wrap_s = spec::texture::Wrap::kMirroredRepeat;
+    d.max_lod = 0;
+    write_descriptor(b.bus, 0, d);
+    spec::texture::Quad q = quad_at(kOne / 8, kOne / 5, 12 * kTexel, 0);
+    q.t[1] = q.t[3] += kTexel;
+    if (diagonal) q.s[2] = q.s[1], q.s[3] += 12 * kTexel;
+    for (int i = 0; i < 3; ++i) b.source.add(q);
+    b.finish();
+    const auto& taken = b.sink.taken;
+    return KernelRun{taken.at(0).token.colour[0].rgba[0], taken.at(11).cycle - taken.at(10).cycle};
+  });
+}
+// Along a diagonal of the pixel, `kernel = axis` gives a tent of 91/64 of the axis.
+TEST(TextureRtlUnit, KernelAxisMakesTentsOfDiagonals) {
+  using spec::texture::Kernel;
+  const KernelRun box = run_kernel(Kernel::kBox, 64, true),
+                  axis = run_kernel(Kernel::kAxis, 64, true);
+  EXPECT_EQ(axis, run_kernel(Kernel::kTent, 91, true));
+  EXPECT_NE(axis.red, box.red);
+  EXPECT_EQ(axis.cycles, box.cycles);
+  EXPECT_EQ(run_kernel(Kernel::kAxis, 64, false), run_kernel(Kernel::kBox, 64, false));
 }
 
 TEST(TextureRtlUnit, ControlCommandsTakeEffect) {

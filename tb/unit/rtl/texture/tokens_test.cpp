@@ -86,9 +86,43 @@ TEST(TextureRtlTokens, ColourLinkFollowsWidth) {
   }
 }
 
+// With `kernel = axis` one bit accompanies each fragment, and each of its requests.
+TEST(TextureRtlTokens, SelectedKernelTakesOneBit) {
+  const auto bits = [](const spec::texture::Parameters& p) {
+    return std::array{Payload::of<FootprintToken>(footprint_shape(p)).bits(),
+                      Payload::of<Log2Token>(axis_shape(p)).bits(),
+                      Payload::of<LevelToken>(axis_shape(p)).bits(),
+                      Payload::of<SampleToken>(sample_shape(p)).bits(),
+                      Payload::of<TexelToken>(texel_shape(p)).bits(),
+                      Payload::of<CacheToken>(cache_shape(p)).bits(),
+                      Payload::of<TexelQuadToken>(texel_quad_shape(p)).bits()};
+  };
+  spec::texture::Parameters box, axis, two, wide;
+  axis.kernel = two.kernel = spec::texture::Kernel::kAxis;
+  auto expected = bits(box);
+  for (std::uint32_t& one : expected) ++one;
+  EXPECT_EQ(bits(axis), expected);
+  // Positions of the longest tents need a bit more.
+  axis.spread = 102;
+  EXPECT_EQ(bits(axis), expected);
+  axis.spread = 103;
+  expected[3] += 2;
+  EXPECT_EQ(bits(axis), expected);
+  two.axes = spec::texture::Axes::kTwo;
+  box.axes = two.axes;
+  EXPECT_EQ(bits(two), bits(box));
+  // Of a group, once per request.
+  wide = preset_parameters(spec::texture::Preset::kDeburr, spec::texture::NamedBuild::kWide);
+  const auto group = [&] { return Payload::of<CacheGroup>(cache_group_shape(wide)).bits(); };
+  const std::uint32_t of_boxes = group();
+  wide.kernel = spec::texture::Kernel::kAxis;
+  EXPECT_EQ(group(), of_boxes + 4);
+}
+
 // By default, tokens have the widths that the largest caches need.
 TEST(TextureRtlTokens, DefaultWidthsFitTheLargestCaches) {
-  spec::texture::Build large, many;
+  spec::texture::Parameters large, many;
+  large.kernel = spec::texture::Kernel::kAxis;
   large.cache_line_bytes = 128;
   large.cache_bytes = 512 * 128;
   many.cache_line_bytes = 32;

@@ -254,7 +254,8 @@ TEST(TextureRtlWide, Log2UnitHandlesAGroupPerCycle) {
               3,
               4,
               r.word() >> r.below(32),
-              std::uint64_t{r.word()} << r.below(15)};
+              std::uint64_t{r.word()} << r.below(15),
+              r.chance(500)};
     });
     bench->hold();
     units.push_back(std::move(narrow));
@@ -286,7 +287,7 @@ TEST(TextureRtlWide, LevelUnitHandlesAGroupPerCycle) {
   bench.add(40, [](std::uint32_t number) -> Log2Token {
     Random& r = fragments_random;
     const auto lb = [&] { return static_cast<std::int32_t>(r.below(1 << 16)) - (1 << 14); };
-    return {ticket(number), 1, 2, 3, 4, lb(), lb()};
+    return {ticket(number), 1, 2, 3, 4, lb(), lb(), r.chance(500)};
   });
   bench.hold();
   clock.run(200);
@@ -308,11 +309,11 @@ spec::texture::Build four_by_four() {
 struct WalkerBench {
   WalkerBench(ClockDomain& clock, const std::string& name,
               const spec::texture::Build& build = four_by_four(),
-              spec::texture::Blend blend = spec::texture::Blend::kSample)
-      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny,
-             spec::texture::Kernel::kBox, 64, blend, build),
-        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny,
-               spec::texture::Kernel::kBox, 64, blend),
+              spec::texture::Blend blend = spec::texture::Blend::kSample,
+              spec::texture::Kernel kernel = spec::texture::Kernel::kBox)
+      : unit((name + "unit").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend,
+             build),
+        narrow((name + "narrow").c_str(), clock, spec::texture::CountRule::kAny, kernel, 64, blend),
         ends(clock, name),
         narrow_ends(clock, name + "narrow_") {
     unit.levels_in(ends.in);
@@ -325,7 +326,7 @@ struct WalkerBench {
     std::vector<LevelToken> tokens;
     for (const int n : samples) {
       tokens.push_back({ticket(number++), 100, 200, 3000, -5000, static_cast<std::uint8_t>(n - 1),
-                        4, fraction, true});
+                        4, fraction, true, number % 3 == 0});
       narrow_ends.source.add(tokens.back());
     }
     ends.source.add(group_of<FragmentGroup<LevelToken>>(tokens));
@@ -394,7 +395,8 @@ TEST(TextureRtlWide, SampleWalkerKeepsOrderAndValues) {
   two.width = 2;
   two.fragments = 2;
   one.width = 2;
-  WalkerBench four(clock, "four_"), level(clock, "level_", four_by_four(), Blend::kLevel),
+  WalkerBench four(clock, "four_"),
+      level(clock, "level_", four_by_four(), Blend::kLevel, spec::texture::Kernel::kAxis),
       narrow(clock, "narrow_", two, Blend::kLevel), single(clock, "single_", one);
   Random random(3);
   for (int i = 0; i < 40; ++i) {
@@ -575,7 +577,8 @@ struct FilterBench {
       t.control.fraction_v = static_cast<std::uint8_t>(random.below(256));
       t.control.level_weight = two_levels ? (level == 0 ? 179 : 77) : 256;
       t.control.index = static_cast<std::uint8_t>(sample);
-      t.control.last_index = static_cast<std::uint8_t>(samples - 1);
+      const bool tent = configuration.kernel == spec::texture::Kernel::kAxis && tag % 2 == 0;
+      t.control.last_index = static_cast<std::uint8_t>(samples - 1 + (tent ? kTent : 0));
       t.control.format = format;
       t.control.last_of_sample = by_level ? sample == samples - 1 : level == levels - 1;
       t.control.last_of_fragment = i == samples * levels - 1;
@@ -634,7 +637,9 @@ TEST(TextureRtlWide, FilterPipelineDeliversColoursOfAGroupInOneBeat) {
   encoded.blend = spec::texture::Blend::kLevel;
   encoded.kernel = spec::texture::Kernel::kTent;
   encoded.srgb_output = spec::texture::SrgbOutput::kEncoded;
-  FilterBench sample(clock, "sample_", {}), level(clock, "level_", encoded);
+  spec::texture::Configuration by_axis;
+  by_axis.kernel = spec::texture::Kernel::kAxis;
+  FilterBench sample(clock, "sample_", by_axis), level(clock, "level_", encoded);
   for (FilterBench* b : {&sample, &level}) {
     for (int i = 0; i < 200; ++i)
       b->fragment(b->random.chance(600) ? 1 : 1 + static_cast<int>(b->random.below(16)),
