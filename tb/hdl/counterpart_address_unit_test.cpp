@@ -148,7 +148,7 @@ Result compare(const char* settings, std::uint64_t least_requests, std::uint32_t
   for (Driver<Quad>* const source : {&source_of_model, &source_of_counterpart})
     source->send(hdl::those_of(quads));
   hw::AddressUnit model("model", clock, parameters, store.control, store.descriptors, probe);
-  VerilatedUnit<Model, Quad, hw::TexelToken> counterpart("counterpart", clock, seed, configuration);
+  VerilatedUnit<Model, Quad, hw::TexelToken> counterpart("counterpart", clock, seed, parameters);
   Sink<hw::TexelToken> sink_of_model("sink_of_model", clock, after),
       sink_of_counterpart("sink_of_counterpart", clock, after);
   sink_of_model.keep(false);
