@@ -46,6 +46,7 @@ bool RootPipeline::step(const DerivativeToken* next, FootprintToken* result) {
                x_is_major ? token.s_x : token.s_y,
                x_is_major ? token.t_x : token.t_y,
                x_is_major ? done->x.root : done->y.root,
+               false,
                x_is_major ? done->y.root : done->x.root};
   }
   if (Entry* entry = pipe_.at(3)) entry->x_is_major = entry->x.radicand >= entry->y.radicand;

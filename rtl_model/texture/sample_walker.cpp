@@ -77,8 +77,7 @@ void SampleWalkerOf<Width>::scale(Cycle cycle,
     const bool tent = fragment.last_index >= first_tent_ && (!by_axis_ || fragment.diagonal);
     const std::int32_t spread = tent ? tent_spread_ : box_spread_;
     scaled.fragment = fragment;
-    scaled.weights =
-        static_cast<std::uint8_t>(fragment.last_index + (tent && by_axis_ ? kTent : 0));
+    scaled.fragment.diagonal = tent && by_axis_;
     scaled.step_s = fragment.axis_s * spread;
     scaled.step_t = fragment.axis_t * spread;
   });
@@ -96,7 +95,7 @@ void SampleWalkerOf<Width>::divide(Cycle cycle) {
     const std::size_t last = scaled.fragment.last_index;
     const std::int64_t reciprocal =
         i == 0 ? reads_[0].at(cycle, last) : spec::texture::kReciprocal[last + 1];
-    nth(divided_.group, i) = {scaled.fragment, scaled.weights, scaled.step_s * reciprocal,
+    nth(divided_.group, i) = {scaled.fragment, scaled.step_s * reciprocal,
                               scaled.step_t * reciprocal};
   }
   scaled_.occupied = false;
@@ -116,9 +115,9 @@ inline void SampleWalkerOf<Width>::begin(const Prepared& prepared, Walk& walk) c
   walk.fragment = prepared.fragment;
   walk.second_level = false;
   walk.index = 0;
-  walk.weights = prepared.weights;
   // If N is a power of two, N - 1 has lb N ones.
   const std::uint8_t last = prepared.fragment.last_index;
+  walk.weights = static_cast<std::uint8_t>(last + (prepared.fragment.diagonal ? kTent : 0));
   const int up = reciprocal_ ? 0 : kReciprocalBits - std::bit_width(unsigned{last});
   walk.step_s = prepared.step_s << up;
   walk.step_t = prepared.step_t << up;

@@ -58,10 +58,9 @@ class SampleWalkerOf : public SampleWalkerBase {
   static Datasheet datasheet(const spec::texture::Parameters& parameters);
 
  private:
-  // A fragment being prepared.
+  // A fragment being prepared; from here on its `diagonal` says that it selects a tent.
   struct Prepared {
     LevelToken fragment;
-    std::uint8_t weights;         // U5, `last_index` of its requests
     std::int64_t step_s, step_t;  // S10.30, spread x axis; after divide() S10.46
   };
   struct Preparing {
@@ -73,7 +72,7 @@ class SampleWalkerOf : public SampleWalkerBase {
     LevelToken fragment;
     bool second_level;            // the next request is of the coarser level
     std::uint8_t index;           // U4, current sample
-    std::uint8_t weights;         // U5
+    std::uint8_t weights;         // U5, `last_index` of its requests
     std::int64_t step_s, step_t;  // S10.46, spread x axis / N
     std::int64_t walk_s, walk_t;  // S14.46, (2i + 1 - N) x spread x axis / N
   };

@@ -64,8 +64,8 @@ struct FootprintToken {
   std::int32_t s, t;
   std::int64_t axis_s, axis_t;
   std::uint32_t d_max;
-  std::uint64_t minor;    // d_min; from the AxisUnit: area of the footprint
-  bool diagonal = false;  // the major axis is a diagonal of the pixel; only with selects_kernel()
+  bool diagonal;        // the major axis is a diagonal of the pixel; only with selects_kernel()
+  std::uint64_t minor;  // d_min; from the AxisUnit: area of the footprint
   template <class Self, class Visit>
   static constexpr void fields(Self& self, Visit&& visit) {
     visit("ticket", self.ticket);

@@ -45,6 +45,7 @@ TEST(TextureCoverage, EveryBinIsHit) {
         sampler.layout = static_cast<spec::texture::Layout>(layout);
         sampler.format = static_cast<spec::texture::Format>(number % 5);
         sampler.magnification = static_cast<spec::texture::MagFilter>(number & 1);
+        if (number == 17) sampler.anisotropy = 2;  // diagonals with the kernel axis and few samples
         TextureRunOptions options;
         options.texture.cache_bytes = 2048;
         options.texture.cache_outstanding = 4;  // so that the miss queue becomes full

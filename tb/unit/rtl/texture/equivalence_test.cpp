@@ -284,7 +284,7 @@ Verdict compare_log2(const Parameters& p, bool fault) {
       v.first = d;
     if (v.compared % 64 == 0)
       tokens.push_back(
-          {kTicket, 1, 2, 3, 4, static_cast<std::uint32_t>(random.next()), d, (d & 1) != 0});
+          {kTicket, 1, 2, 3, 4, static_cast<std::uint32_t>(random.next()), (d & 1) != 0, d});
   };
   for (std::uint32_t d = 0; d < 1u << 21; ++d) compare(d);             // every smaller value
   for (int bit = 12; bit < 47; ++bit) {                                // an area has 47 bits

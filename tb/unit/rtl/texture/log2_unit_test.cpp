@@ -18,9 +18,9 @@ TEST(TextureRtlLog2, LatencyAndIntervalMatchDatasheet) {
         : unit(name.c_str(), domain, rule), ends(domain, name + "_") {
       unit.footprints_in(ends.in);
       unit.logs_out(ends.out);
-      ends.source.add({ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16});
-      ends.source.add({ticket(10), 1, 2, 3, 4, 1, 0, true});
-      ends.source.add({ticket(11), 1, 2, 3, 4, 7u << 16, 5});
+      ends.source.add({ticket(9), 1, 2, 3, 4, 6u << 16, false, 1u << 16});
+      ends.source.add({ticket(10), 1, 2, 3, 4, 1, true, 0});
+      ends.source.add({ticket(11), 1, 2, 3, 4, 7u << 16, false, 5});
     }
     Log2Unit unit;
     Ends<FootprintToken, Log2Token> ends;
@@ -63,7 +63,7 @@ struct ExactBench {
     ends.source.add(token);
     clock.run(2);  // taken in 1
   }
-  const FootprintToken token{ticket(9), 1, 2, 3, 4, 6u << 16, 1u << 16};
+  const FootprintToken token{ticket(9), 1, 2, 3, 4, 6u << 16, false, 1u << 16};
   ClockDomain clock{"clock", period()};
   Log2Unit unit{"unit", clock, spec::texture::Log2Rule::kExact};
   Ends<FootprintToken, Log2Token> ends{clock};

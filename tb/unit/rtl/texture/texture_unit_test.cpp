@@ -283,10 +283,10 @@ KernelRun run_kernel(spec::texture::Kernel kernel, std::int32_t spread, bool dia
     UnitBench b(p);
     spec::texture::Descriptor d = linear_texture(b.memory, 64);
     d.max_anisotropy_log2 = 4;
-    d.wrap_s = spec::texture::Wrap::kMirroredRepeat;
+    d.wrap_s = spec::texture::Wrap::kRepeat;  // red falls from 63 to 0
     d.max_lod = 0;
     write_descriptor(b.bus, 0, d);
-    spec::texture::Quad q = quad_at(kOne / 8, kOne / 5, 12 * kTexel, 0);
+    spec::texture::Quad q = quad_at(4 * kTexel, kOne / 5, 12 * kTexel, 0);
     q.t[1] = q.t[3] += kTexel;
     if (diagonal) q.s[2] = q.s[1], q.s[3] += 12 * kTexel;
     for (int i = 0; i < 3; ++i) b.source.add(q);

@@ -254,8 +254,8 @@ TEST(TextureRtlWide, Log2UnitHandlesAGroupPerCycle) {
               3,
               4,
               r.word() >> r.below(32),
-              std::uint64_t{r.word()} << r.below(15),
-              r.chance(500)};
+              r.chance(500),
+              std::uint64_t{r.word()} << r.below(15)};
     });
     bench->hold();
     units.push_back(std::move(narrow));
