@@ -240,7 +240,11 @@ std::string value_text(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();
   if (tb::is_infinite(value)) return "identical";
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  if (value.is_number_float()) {
+    const auto number = value.get<double>();
+    return fmt::format("{:.{}g}", number,
+                       std::abs(number) < 1e6 ? 6 : 10);  // 1879648, not 1.87965e+06
+  }
   return tb::json_text(value);
 }
 
