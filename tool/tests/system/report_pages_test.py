@@ -90,7 +90,7 @@ const probe_page = async () => {
     charts: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, chart.chartArea.height, chart.legend?.options.display ? chart.legend.lineWidths.length : 0]),
     labels: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) => chart.scales.y)
-        .filter((y) => y?._labelSizes?.widest.width > y.width).map((y) => y.chart.canvas.id),
+        .filter((y) => y && y._labelSizes?.widest?.width > y.width).map((y) => y.chart.canvas.id),
     ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, Object.entries(chart.scales).filter(([, s]) => s.type !== 'category' || s.ticks.some((t) => 'round' in t))
             .map(([name, s]) => [name, s.ticks.map((t) => String(t.label))])]),
