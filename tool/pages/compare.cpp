@@ -242,8 +242,7 @@ std::string value_text(const Json& value) {
   if (tb::is_infinite(value)) return "identical";
   if (value.is_number_float()) {
     const auto number = value.get<double>();
-    return fmt::format("{:.{}g}", number,
-                       std::abs(number) < 1e6 ? 6 : 10);  // 1879648, not 1.87965e+06
+    return std::abs(number) < 1e6 ? fmt::format("{:.6g}", number) : fmt::format("{:.0f}", number);
   }
   return tb::json_text(value);
 }
