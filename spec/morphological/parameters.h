@@ -286,12 +286,12 @@ void describe(Build& p, Visitor& v) {
             "enough for a burst.");
   v.integer("predictor_units", p.predictor_units, 1, 16, "unit",
             "Predictors for each axis and lane; each tries one step of both sides at a time.");
-  v.integer("trial_cycles", p.trial_cycles, 1, 8, "clock",
+  v.integer("trial_cycles", p.trial_cycles, 1, 8, "clk",
             "Cycles between two trials of a predictor; below 4 stages weight a cycle.");
-  v.integer("divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clock",
+  v.integer("divider.latency", p.divider_latency, kLeastDividerLatency, 64, "clk",
             "Latency of the divider: two cycles of products, then at most two of 24 quotient bits "
             "per cycle.");
-  v.integer("divider.interval", p.divider_interval, 1, 64, "clock",
+  v.integer("divider.interval", p.divider_interval, 1, 64, "clk",
             "Initiation interval of the divider.");
   v.choice("storage", p.storage, kStorageNames,
            "Storage of delayed pixels: on-chip line buffers, or memory (written, then read once).");

@@ -122,6 +122,7 @@ nlohmann::ordered_json write_papers(const std::filesystem::path& directory,
     Json entry{{"id", paper.id}, {"title", paper.title}, {"source", paper.source}};
     mustache::data page;
     page.set("title", fmt::format("{}: {}", paper.id, paper.title));
+    page.set("id", paper.id);
     page.set("source", paper.source);
     entry["tables"] = Json::array();
     mustache::data tables{mustache::data::type::list};

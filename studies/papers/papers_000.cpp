@@ -272,7 +272,7 @@ PaperTable probes(const PaperOptions& options) {
       "extended by N steps on both sides. A walk from a pixel to both ends of its extended line "
       "visits the corners between them one by one; the engine finds runs once, and tests at most "
       "three corners per step.",
-      {"N", "L", "line pixels", "engine, a pixel", "walk, a pixel", "walk / engine", "verdict"},
+      {"N", "L", "line pixels", "engine, per pixel", "walk, per pixel", "walk / engine", "verdict"},
       {}};
   Random random(4);
   const int lines = options.quick ? 2 : 12;

@@ -125,7 +125,7 @@ std::string text_of(const PixelHistory& history, const std::string& report) {
   }
   if (!rows.empty())
     text += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:>9}\n", "step", item, "golden", golden,
-                        "hardware", hardware, "clock");
+                        "hardware", hardware, "cycle");
   std::string part;
   for (const PixelStep* row : rows) {
     if (row->part != part) text += fmt::format("  {}\n", part = row->part);

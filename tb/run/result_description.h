@@ -343,10 +343,10 @@ void describe(const Result& r, Visitor& v) {
     v.value("memories", bits.memories, "",
             "Number of memories of a kind (flops, sram, rom) and of all (total). Separately: "
             "memories with additional flip-flops (registers), and links (links).");
-    v.value("logical", bits.logical, "bit", "Their logical bits.");
-    v.value("physical", bits.physical, "bit", "Their physical bits.");
+    v.value("logical", bits.logical, "bit", "Logical bits of the memories.");
+    v.value("physical", bits.physical, "bit", "Physical bits of the memories.");
     v.value("logical_at_frame_width", bits.logical_at_frame_width, "bit",
-            "Their logical bits for the width of this frame.");
+            "Logical bits of the memories for the width of this frame.");
   });
   if (v.has(r.cost.has_value())) v.group("cost", [&] { describe(r.cost.value_or(Cost{}), v); });
   std::vector<MemoryFigures> not_implementable = r.memories;

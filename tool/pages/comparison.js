@@ -80,7 +80,7 @@
     const metrics = data.metrics;
     const finite = (v) => Number.isFinite(v);
     const shownOr = (v) => shown(v, '-');
-    const titled = (m) => m.unit ? `${m.name} [${m.unit}]` : m.name;
+    const titled = (m) => m.unit ? `${m.name} (${m.unit})` : m.name;
     const decibels = (m) => m.unit === 'dB';
     const every = [...data.points, ...data.only];
     // JSON cannot represent infinity: identical pictures are flagged next to their values.
@@ -130,7 +130,7 @@
         });
         sets.push({
           label: `${name}: ${data.sweeps[s].sweep}`, data: drawn,
-          backgroundColor: drawn.map((p) => tint + (p.front ? '' : '60')), borderColor: ink,
+          backgroundColor: drawn.map((p) => tint + (p.front ? '' : '90')), borderColor: ink,
           borderWidth: drawn.map((p) => p.front ? 1 : 0), pointRadius: drawn.map((p) => p.front ? 6 : 3),
           pointStyle: ['circle', 'rect', 'triangle', 'rectRot'][s % 4],
         });

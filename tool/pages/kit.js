@@ -73,10 +73,10 @@ if (typeof Chart !== 'undefined') {
 function stackedBars(id, names, datasets, x, more = {}) {
   const canvas = byId(id), box = canvas.parentElement;
   const linesOf = (name, width) => {
-    const lines = [''];
-    if (width > 400) return [name];
+    if (width > 600) return [name];
+    const lines = [''], room = width > 400 ? 30 : 18;
     for (const part of name.split(/(?<=_)/)) {
-      if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > 18) lines.push('');
+      if (lines[lines.length - 1] !== '' && (lines[lines.length - 1] + part).length > room) lines.push('');
       lines[lines.length - 1] += part;
     }
     return lines;

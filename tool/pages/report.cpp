@@ -511,7 +511,7 @@ class ReportBuilder {
   }
 
   void fill_origin() {
-    HtmlTable origin("What|Value:mono");
+    HtmlTable origin("What|Value:mono anywhere");
     for (const char* key :
          {"version", "commit", "compiler", "build_type", "systemc", "seed", "started"})
       if (manifest_.contains(key)) origin.row({key, shown_plain(manifest_[key])});

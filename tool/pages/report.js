@@ -147,8 +147,8 @@
       context.fillStyle = 'rgba(0, 0, 0, .5)';
       context.fillRect(middle + ratio(), 0, ratio(), canvas.height);
       drawPointed();
-      tag(stills[state.left].dataset.title, 8 * ratio(), 'left');
-      tag(stills[state.right].dataset.title, canvas.width - 8 * ratio(), 'right');
+      if (middle > 0) tag(stills[state.left].dataset.title, 8 * ratio(), 'left');
+      if (middle < canvas.width) tag(stills[state.right].dataset.title, canvas.width - 8 * ratio(), 'right');
       const percent = state.scale / ratio() * 100;
       byId('zoom').textContent = percent < 1 ? '<1 %' : `${percent.toFixed(0)} %`;
     }
@@ -590,7 +590,7 @@
             .filter(([, bytes]) => bytes && bytes.some((b) => b > 0))
             .map(([what, bytes, k]) => line(`${name}: ${what}, byte/clk`,
                 colours[(3 * i + 1 + k) % colours.length], over(bytes, cycles), {yAxisID: 'bytes'}))
-      ]), 'transactions', {scales: {bytes: axis(['byte/clk', `100 are ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`],
+      ]), 'transactions', {scales: {bytes: axis(['byte/clk', `100: ${(data.result.clock_mhz / 10).toFixed(1)} GB/s`],
                                                 {beginAtZero: true, position: 'right', grid: {display: false}})}});
 
     if (links.length === 0) return;

@@ -58,7 +58,8 @@ void fill_pixel(const ReportSource& source, kainjow::mustache::data& page) {
   const std::string pixel = fmt::format("{:.0f},{:.0f}", number(*found, "x"), number(*found, "y"));
   fill_mismatches(source, pixel, has_history, page);
   page.set("pixel", pixel);
-  page.set("pixel_note", found->value("note", ""));
+  if (const std::string note = found->value("note", ""); !note.empty())
+    page.set("pixel_note", note);
   page.set("pixel_differences", report_text(*found, "differences"));
   HtmlTable steps("Step:name|Value:name|Golden:mono|Hardware:mono|Cycle:n", "history");
   std::string part;

@@ -153,6 +153,8 @@ class CompositionRole {
   // Called after all presets have been applied. Rejects invalid settings and settings without
   // effect.
   virtual void resolve(tb::ParameterSet& set) = 0;
+  // The configuration, as text for a title. Call after resolve().
+  virtual std::string label() const = 0;
   virtual std::vector<std::string> notes() const { return {}; }
   virtual std::vector<Shorthand> shorthands() const { return {}; }
   // Names of pictures in addition to those of the frame, and settings for a long run of a
@@ -221,8 +223,6 @@ class PictureDrawer : public CompositionRole {
 
 class PictureSmoother : public CompositionRole {
  public:
-  // The configuration, as text for a title. Call after resolve().
-  virtual std::string label() const = 0;
   // Whether it blends in linear light; coverage is then averaged in linear light too.
   virtual bool linear_light() const = 0;
   // The golden model's picture of a scene, made without simulation. If it is empty, none is

@@ -91,12 +91,13 @@ void measure_flicker(int frames, RunContext& context, tb::Result& result,
   if (!last.empty())
     result.terminal.push_back(
         {"frames", fmt::format("{} to {}, their quality in frames.csv", first, last)});
-  result.figures.push_back(
-      {reference ? "Flicker over the frames" : "Flicker beyond that of the input", "work.flicker",
-       "largest between two successive frames", "work.flicker_worst"});
+  result.figures.push_back({fmt::format("Flicker over {} frames{}", frames,
+                                        reference ? "" : " beyond that of the input"),
+                            "work.flicker", "largest between two successive frames",
+                            "work.flicker_worst"});
   if (reference)
     result.figures.push_back(
-        {"Flicker, compared with the input", "work.flicker", "went in", "work.flicker_before"});
+        {"Flicker, compared with the input", "work.flicker", "input", "work.flicker_before"});
 }
 
 }  // namespace deburr::tool

@@ -516,6 +516,12 @@ std::string page_of(const Json& json) {
     page.set("limits",
              fmt::format("{}", fmt::join(json.at("limits").get<std::vector<std::string>>(), ", ")));
   }
+  std::vector<std::string> base;
+  for (const Json& setting : json.at("base"))
+    base.push_back(
+        fmt::format("{} = {}", setting[0].get<std::string>(), setting[1].get<std::string>()));
+  page.set("has_base", !base.empty());
+  page.set("base", fmt::format("{}", fmt::join(base, ", ")));
   mustache::data notes{mustache::data::type::list};
   for (const Json& note : json.at("left_out")) {
     mustache::data entry;

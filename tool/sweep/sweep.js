@@ -128,7 +128,7 @@
       return {
         label: label === null ? 'all points' : `${colour.name} = ${label}`,
         data: points.map((p) => ({x: across(p), y: up(p), point: p})),
-        backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '70')),
+        backgroundColor: points.map((p) => palette[i] + (p.front || goals.length === 0 ? '' : '90')),
         borderColor: points.map((p) => p.beyond ? palette[i] : ink),
         borderWidth: points.map((p) => p.beyond ? 1.5 : p.front ? 1 : 0),
         pointRadius: points.map((p) => p.front ? 6 : p.beyond ? 4 : 3),
@@ -171,7 +171,7 @@
       const means = effect.means.map((m) => m[1]);
       const most = Math.max(...means), least = Math.min(...means);
       const span = most - least > 1e-12 * Math.max(Math.abs(most), Math.abs(least)) ? most - least : 0;  // not rounding
-      element('h3', `${effect.axis} (moves it by ${shown(span)})`, box);
+      element('h3', `${effect.axis}, span ${shown(span)} ${columnOf(name).unit}`, box);
       const frame = element('div', undefined, box, 'chart');
       frame.style.height = '150px';
       const canvas = element('canvas', undefined, frame);

@@ -206,7 +206,7 @@ std::vector<Figure> GeometricMeter::work_figures() const {
            key(engine_.pair_fetch ? "pair_fetch_kept_edges" : "edge_classifier_kept_edges"), "of",
            key("edge_classifier_edges")},
           {"Lines", key("line_setup_lines")},
-          {"Pixels walked a clock", key("columns_per_cycle"), "walkers, at most"},
+          {"Pixels walked per cycle", key("columns_per_cycle"), "at most the walkers"},
           {"Vertices found in the cache", key("vertex_hits_percent")},
           {"Depths found in the cache", key("depth_hits_percent")},
           {"Weights found in the cache", key("weight_hits_percent")},
@@ -225,8 +225,8 @@ void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
   result.throughput_unit = "edge/clk";
   result.throughput_bound = ratio(edges, frames_done_ > 0 ? cycles_bound() : 0);
   result.throughput_bound_meaning =
-      "Edges over the cycles of the begin and of both phases, each as its slowest unit or the port "
-      "needs for this work.";
+      "Edges divided by the cycles of the start and of both phases, each as its slowest unit or "
+      "the port needs.";
 
   add(result, "frame_cycles", frame_cycles, "clk", "Cycles of the last frame, from start to end.");
   add(result, "frame_cycles_bound", frame_cycles_bound(), "clk",
@@ -243,10 +243,10 @@ void GeometricMeter::collect_headline(Result& result, double clock_mhz) const {
     result.figures = {{"Frame", "work.frame_cycles", "bound", "work.frame_cycles_bound", true},
                       {"Edges drawn", "work.edge_cycles"},
                       {"Pixels resolved", "work.resolve_cycles"},
-                      {"Clock for 60 frames", "work.clock_for_60_frames", "", "", true},
+                      {"Clock for 60 frame/s", "work.clock_for_60_frames", "", "", true},
                       {"Frames like this", "work.frame_rate"}};
   result.figures.push_back(
-      {"Traffic of a blended pixel", "work.bytes_per_blended_pixel", "", "", true});
+      {"Traffic per blended pixel", "work.bytes_per_blended_pixel", "", "", true});
   for (Figure& figure : work_figures()) result.figures.push_back(std::move(figure));
 
   result.bottleneck = bottleneck(result);

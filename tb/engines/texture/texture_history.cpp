@@ -287,7 +287,7 @@ class TextureHistory::Writer {
     add("footprint", "axis, coordinates",
         golden([](const auto& a) { return pair_of(a.axis.s, a.axis.t, 24); }),
         text(f, [](const auto& t) { return pair_of(t.axis_s, t.axis_t, 24); }), clock(f), true);
-    add("footprint", "lb of the major axis",
+    add("footprint", "log2 of the major axis",
         golden([](const auto& a) { return fixed(a.lod.lb_d_max, 12); }),
         text(f_.log2, [](const auto& t) { return fixed(t.lb_max, 12); }), clock(f_.log2), true);
   }

@@ -23,8 +23,8 @@ TextureMaps::TextureMaps(rtl::ClockDomain& clock, rtl::texture::TextureUnit& uni
                width, height),
       level_("level", "Mip level", "level",
              "Level of detail that a fragment is filtered at, with its fraction.", width, height),
-      misses_("misses", "Misses", "lines", "Lines of the cache that a fragment ordered.", width,
-              height),
+      misses_("misses", "Misses", "lines", "Cache lines that a fragment requested from memory.",
+              width, height),
       latency_(
           "latency", "Latency", "clk",
           "Cycles from a fragment's quad being taken to its colour; of several in a pixel the sum.",

@@ -57,7 +57,7 @@ void TextureMeter::collect_lookups(Result& result, double texel_hits) const {
       "Lookups that requested a fill.");
   result.terminal.push_back(
       {"hits",
-       fmt::format("{:.2f} % of lookups, {:.2f} % more merged with a fill under way; {:.2f} "
+       fmt::format("{:.2f} % of lookups, {:.2f} % more merged with a fill in flight; {:.2f} "
                    "% of texels",
                    of_lookups(tags.hits), of_lookups(tags.merged), texel_hits)});
 }
@@ -80,14 +80,14 @@ void TextureMeter::collect_headline(Result& result) const {
                                         ? "One bilinear request per cycle."
                                         : "Bilinear requests per cycle: texture.width.";
   result.figures = {{"Fragments", key("fragments")},
-                    {"Bilinear requests of a fragment", key("bilinears_per_fragment")},
-                    {"Line fills of a texel", key("misses_per_texel")},
+                    {"Bilinear requests per fragment", key("bilinears_per_fragment")},
+                    {"Line fills per texel", key("misses_per_texel")},
                     {"Texels without a line fill", key("texel_hits_percent")}};
   if (looks_up()) {
     result.figures.push_back({"Lookups that hit", key("lookup_hits_percent")});
-    result.figures.push_back({"Lookups of a line under way", key("lookup_merged_percent")});
+    result.figures.push_back({"Lookups merged with a fill", key("lookup_merged_percent")});
   }
-  result.figures.push_back({"Texels fetched for a fragment", key("texels_fetched_per_fragment")});
+  result.figures.push_back({"Texels fetched per fragment", key("texels_fetched_per_fragment")});
   const rtl::Unit& filter = unit_.filter;
   if (!unit_.address.derivative.replaced() && looks_up() && !filter.replaced())
     result.bottleneck = find_bottleneck(result.units, figure(filter.basename()));

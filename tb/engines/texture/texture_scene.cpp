@@ -161,7 +161,7 @@ void TextureScene::add_blocks(const Texture& texture, const SamplerParameters& s
     levels.push_back({level.width, level.height, encode_blocks(level, d.format)});
   memory_.add(levels_of(levels), d);
   scene_.mesh.notes.push_back(
-      fmt::format("texture '{}' as {}: {:.1f} dB", texture.name, name,
+      fmt::format("texture '{}' as {}: PSNR {:.1f} dB", texture.name, name,
                   block_psnr(texture.image, decoded(levels[0], d.format), d.format)));
 }
 

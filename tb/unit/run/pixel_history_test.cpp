@@ -165,7 +165,7 @@ TEST(PixelHistory, TextIsTable) {
       {.part = "out", .step = "end", .item = "y", .golden = "9", .hardware = "9", .clock = 3}};
   EXPECT_EQ(text_of(history, "r.html"),
             "pixel       (3, 14): 4 steps, 1 of them differ from the golden model: one fragment\n"
-            "  step         golden  hardware      clock\n"
+            "  step         golden  hardware      cycle\n"
             "  fragment 0\n"
             "! level of it  4       2.25            812\n"
             "  colour r     -       7                 -\n"

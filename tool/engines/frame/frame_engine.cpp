@@ -10,6 +10,7 @@
 
 #include "spec/error.h"
 #include "tb/base/interrupt.h"
+#include "tb/run/amount.h"
 #include "tool/engines/frame/frame_composition.h"
 #include "tool/engines/frame/frame_roles.h"
 #include "tool/run/flicker.h"
@@ -50,11 +51,11 @@ class FrameCommand final : public Engine {
     check(scene);
     tb::MeshFiles meshes;
     context.add_inputs(drawer().frames() > 1 ? input_files(meshes) : scene.inputs());
-    context.set_title(
-        "Frame: " + std::filesystem::path(drawer().source()).filename().string(),
-        fmt::format("{} x {} pixels, {} fragments; {}, frame buffer and {}", scene.stream().width,
-                    scene.stream().height, scene.stream().counts.fragments, drawer().title(),
-                    engines_line()));
+    context.set_title("Frame: " + std::filesystem::path(drawer().source()).filename().string(),
+                      fmt::format("{} x {} pixels, {} fragments; {} ({}), frame buffer and {}",
+                                  scene.stream().width, scene.stream().height,
+                                  tb::grouped(scene.stream().counts.fragments), drawer().title(),
+                                  drawer().label(), engines_line()));
     for (const std::string& note : scene.scene().mesh.notes) context.add_note(note);
     for (const PictureSmoother* smoother : roles().chosen_smoothers())
       for (const std::string& note : smoother->notes()) context.add_note(note);

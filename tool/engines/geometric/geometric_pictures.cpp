@@ -114,7 +114,7 @@ void add_edge_pictures(RunContext& context, const tb::geometric::Frame& frame,
                        std::span<const spec::geometric::BlockRecord> blocks,
                        const std::string& weights) {
   context.add_image(weights, weight_picture(frame.image.width, frame.image.height, blocks),
-                    "Weights",
+                    weights == "weights" ? "Weights" : "Weights along edges",
                     "weight of the upper or left neighbour red, of the lower or right one green, "
                     "blue where the two are left and right");
   context.add_image("classes", class_picture(frame, parameters), "Lines",

@@ -228,24 +228,28 @@ class TextureEngine final : public Engine, public tb::TextureTestbench {
       return names[static_cast<std::size_t>(value)];
     };
     return fmt::format(
-        "{}{} fragments, {}, N_max {}, {}{} {}; {}; axes {}, footprint {}, log2 {}, count {}, "
+        "{}{} fragments, {}, N_max {}, {}{} {}{}; {}; axes {}, footprint {}, log2 {}, count {}, "
         "kernel {}, blend {}; width {}, cache {} bytes, {} ways; memory latency {}{}{}",
         scene.stream().width > 0
             ? fmt::format("{} x {} pixels, ", scene.stream().width, scene.stream().height)
             : "",
-        foreign() ? setup.foreign.fragments : scene.stream().counts.fragments,
+        tb::grouped(foreign() ? setup.foreign.fragments : scene.stream().counts.fragments),
         name(sampler_.mode, spec::texture::kMinFilterNames),
         name(sampler_.anisotropy, tb::kAnisotropyNames),
         name(sampler_.format, spec::texture::kFormatNames), sampler_.srgb ? " sRGB" : "",
-        name(sampler_.layout, spec::texture::kLayoutNames), preset_label_,
-        name(texture_.axes, spec::texture::kAxesNames),
+        name(sampler_.layout, spec::texture::kLayoutNames),
+        texture_.decode == spec::texture::Decode::kNone
+            ? ""
+            : fmt::format(", decoded {} the cache",
+                          name(texture_.decode, spec::texture::kDecodeNames)),
+        preset_label_, name(texture_.axes, spec::texture::kAxesNames),
         name(texture_.footprint, spec::texture::kFootprintNames),
         name(texture_.log2, spec::texture::kLog2Names),
         name(texture_.count, spec::texture::kCountNames),
         name(texture_.kernel, spec::texture::kKernelNames),
-        name(texture_.blend, spec::texture::kBlendNames), texture_.width, texture_.cache_bytes,
-        texture_.cache_ways, latency_text(memory_),
-        counterpart_units_.empty() ? "" : "; in SystemVerilog: ",
+        name(texture_.blend, spec::texture::kBlendNames), texture_.width,
+        tb::grouped(static_cast<std::uint64_t>(texture_.cache_bytes)), texture_.cache_ways,
+        latency_text(memory_), counterpart_units_.empty() ? "" : "; in SystemVerilog: ",
         fmt::join(counterpart_units_, ", "));
   }
 

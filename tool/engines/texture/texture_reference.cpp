@@ -17,7 +17,7 @@ namespace deburr::tool {
 using tb::Image;
 
 std::string reference_caption() {
-  return fmt::format("{} samples a pixel", kReferenceSamples * kReferenceSamples);
+  return fmt::format("{} samples per pixel", kReferenceSamples * kReferenceSamples);
 }
 
 std::shared_ptr<const Image> scene_reference(const tb::TextureScene& scene,

@@ -133,7 +133,12 @@ class TextureRole final : public PictureDrawer {
           fmt::format("sampler.{}: the frame buffer keeps codes, and {} delivers linear light: set "
                       "texture.srgb_output = encoded",
                       sampler_.srgb ? "srgb" : "format", sampler_.srgb ? "it" : "srgb8_a8"));
+    label_ = fmt::format("{}, N_max {}, blend {}, width {}", preset_label(set, texture_),
+                         tb::kAnisotropyNames[static_cast<std::size_t>(sampler_.anisotropy)],
+                         spec::texture::kBlendNames[static_cast<std::size_t>(texture_.blend)],
+                         texture_.width);
   }
+  std::string label() const override { return label_; }
   std::vector<Shorthand> shorthands() const override {
     return joined(scene_shorthands("object"), sequence_shorthands());
   }
@@ -196,6 +201,7 @@ class TextureRole final : public PictureDrawer {
   int frames_ = 1;
   spec::texture::Parameters texture_;
   tb::MemoryParameters memory_;
+  std::string label_;
 };
 
 }  // namespace

@@ -160,7 +160,8 @@ lines|cycle 9|pixel (12, 7)|blue|1|2|#follow-12,7|copy its command
 fills|end|line 5|-|5|6
 History of pixel 3,0
 Golden model and hardware side by side, with the cycle in which the hardware did each step.
-Steps that differ: 1. one fragment
+Steps that differ: 1;
+one fragment.
 Step|Value|Golden|Hardware|Cycle
 fragment 0
 differs|level|of it|4|2|812

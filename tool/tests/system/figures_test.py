@@ -97,7 +97,7 @@ class Texture(Figures):
         self.assertEqual(r["memory"]["written_gb_per_s"], 0)
         self.assert_row("Texels without a line fill", work["texel_hits_percent"], "%")
         self.assert_row("Lookups that hit", work["lookup_hits_percent"], "%")
-        self.assert_row("Lookups of a line under way", work["lookup_merged_percent"], "%")
+        self.assert_row("Lookups merged with a fill", work["lookup_merged_percent"], "%")
         self.assert_row("Mean read rate at clock_mhz, over the whole run; 10^9 bytes per second",
                         r["memory"]["read_gb_per_s"], "GB/s")
         self.assert_row("Mean write rate at clock_mhz, over the whole run; 10^9 bytes per second", 0, "GB/s")

@@ -69,8 +69,8 @@ f 1 2 3\nf 1 3 4\n"""
         self.assertEqual(sum(b["count"] for b in r["latency"]["histogram"]), 4, "the lines")
         slower = 100 * (cycles - bound) / bound
         self.assert_tile("Frame", f"{cycles:,}", "clk", f"bound {bound}, {slower:+.1f} %; {cycles / 250e3:.2f} ms at 250 MHz")
-        self.assert_tile("Clock for 60 frames", f"{60 * cycles / 1e6:.4g}", "MHz")
-        self.assert_tile("Traffic of a blended pixel", f"{work['bytes_per_blended_pixel']:.4g}", "byte/pixel")
+        self.assert_tile("Clock for 60 frame/s", f"{60 * cycles / 1e6:.4g}", "MHz")
+        self.assert_tile("Traffic per blended pixel", f"{work['bytes_per_blended_pixel']:.4g}", "byte/pixel")
 
     def test_walker_figures(self):
         for walkers, groups in ((1, 32), (2, 17), (4, 9)):

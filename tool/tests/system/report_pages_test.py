@@ -89,6 +89,8 @@ const probe_page = async () => {
         chart.data.datasets.filter((d) => /^(stalled|busy|idle)/.test(d.label)).map((d) => [d.label, d.backgroundColor])),
     charts: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, chart.chartArea.height, chart.legend?.options.display ? chart.legend.lineWidths.length : 0]),
+    labels: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) => chart.scales.y)
+        .filter((y) => y && y._labelSizes?.widest?.width > y.width).map((y) => y.chart.canvas.id),
     ticks: typeof Chart === 'undefined' ? [] : Object.values(Chart.instances).map((chart) =>
         [chart.canvas.id, Object.entries(chart.scales).filter(([, s]) => s.type !== 'category' || s.ticks.some((t) => 'round' in t))
             .map(([name, s]) => [name, s.ticks.map((t) => String(t.label))])]),
@@ -230,6 +232,7 @@ class PagesTest(unittest.TestCase):
             self.assertGreater(low, 0.75 * high, f"{title}: {name} with {rows} rows of a legend")
             self.rows.add(rows)
         self.assertEqual(desktop["cut"], [], f"{title}: tables that a screen cuts")
+        self.assertEqual(told["labels"] + desktop["labels"], [], f"{title}: charts with cut names")
         with open(self.path(page), encoding="utf-8") as file:
             self.assertEqual(re.findall(r"<td[^>]*>-?[\d.]+e\+\d+<", file.read()), [], "numbers of another form")
         for width in (told, desktop):
@@ -294,7 +297,7 @@ class Runs(PagesTest):
             result = json.load(file)
         figures = result["maps"][role.removeprefix("map_")]
         if result["memory"]["bytes_read"] > 0:
-            self.assertEqual(bytes_axis, ["byte/clk", f"100 are {result['clock_mhz'] / 10:.1f} GB/s"])
+            self.assertEqual(bytes_axis, ["byte/clk", f"100: {result['clock_mhz'] / 10:.1f} GB/s"])
             self.axes += 1
         number = lambda v: f"{v:,.0f}" if v == int(v) else f"{float(f'{v:.6g}'):,}"
         for end in ("min", "max"):

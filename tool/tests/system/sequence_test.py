@@ -148,7 +148,7 @@ class Images(SequenceTest):
         self.check(result, self.pictures("one", 3), befores, befores)
         self.assertEqual(result["work"]["flicker_before"], 0)
         with open(self.path("all/report.html"), encoding="utf-8") as file:
-            self.assertIn("Flicker beyond that of the input", file.read())
+            self.assertIn("Flicker over 3 frames beyond that of the input", file.read())
         said = subprocess.run([DEBURR, "run", self.ENGINE, "--in", "f*.png", "--out", "all"], cwd=self.directory,
                               text=True, capture_output=True, check=True).stdout
         self.assertRegex(said,
@@ -171,7 +171,7 @@ class Images(SequenceTest):
         self.check(result, self.pictures("one", 3), [read_png(self.path(name)) for name in self.NAMES],
                    [read_png(self.path("t_" + name)) for name in self.NAMES])
         with open(self.path("all/report.html"), encoding="utf-8") as file:
-            self.assertIn("Flicker over the frames", file.read())
+            self.assertIn("Flicker over 3 frames", file.read())
         # Every frame is left, with its quality: that of frame 0 is the result's.
         with open(self.path("all/frames.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

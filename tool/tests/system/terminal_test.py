@@ -77,7 +77,7 @@ class Terminal(unittest.TestCase):
             f"{100 * limit['cycles'] / result['cycles']:.1f} % of the cycles"), lines[1])
         work, memory = result["work"], result["memory"]
         self.assertEqual(lines[2], f"hits        {work['lookup_hits_percent']:.2f} % of lookups, "
-                         f"{work['lookup_merged_percent']:.2f} % more merged with a fill under way; "
+                         f"{work['lookup_merged_percent']:.2f} % more merged with a fill in flight; "
                          f"{work['texel_hits_percent']:.2f} % of texels")
         self.assertEqual(lines[3], f"memory      {memory['read_gb_per_s']:.3g} GB/s read, 0 written at 166.67 MHz")
         self.assertTrue(lines[4].startswith("cost        "), lines[4])

@@ -260,7 +260,7 @@ std::vector<Decided> decided(const TextureScene& of, const PixelAddress& pixel,
     add("footprint", two ? "minor axis, texels" : "area, texels",
         numbers(16, {two ? real(a.footprint.d_min) : static_cast<double>(a.footprint.area)}));
     add("footprint", "axis, coordinates", numbers(24, {real(a.axis.s), real(a.axis.t)}));
-    add("footprint", "lb of the major axis", numbers(12, {real(a.lod.lb_d_max)}));
+    add("footprint", "log2 of the major axis", numbers(12, {real(a.lod.lb_d_max)}));
     add("level", "samples N", std::to_string(a.lod.samples));
     add("level", "level and 256ths of the next",
         numbers(0, {real(a.lod.level), real(a.lod.fraction)}));

@@ -45,6 +45,7 @@ class Plain : public Role {
   std::vector<std::string> prefixes() const override { return {name_ + "."}; }
   void apply_preset(ParameterSet&) override {}
   void resolve(ParameterSet&) override {}
+  std::string label() const override { return ""; }
   std::vector<Shorthand> shorthands() const override {
     return {{"--told", name_ + ".told", "Of " + name_}};
   }
@@ -89,7 +90,6 @@ class Drawer final : public Plain<PictureDrawer> {
 class Mesh final : public Plain<MeshSmoother> {
  public:
   using Plain::Plain;
-  std::string label() const override { return ""; }
   bool linear_light() const override { return false; }
   void mark(ParameterSet& set, std::string_view why) override { tell(set, "1", why); }
   std::unique_ptr<MeshStage> build(tb::Simulation&, const DrawnScene&, tb::Image) const override {
@@ -101,7 +101,6 @@ class Rows final : public Plain<RowSmoother> {
  public:
   Rows(std::string name, HandedOn needs, bool looks)
       : Plain(std::move(name), std::move(needs), {}), looks_(looks) {}
-  std::string label() const override { return ""; }
   bool linear_light() const override { return false; }
   bool looks_at_marks() const override { return looks_; }
   void follow(ParameterSet& set, std::string_view why) override { tell(set, "2", why); }
