@@ -167,6 +167,17 @@ class SystemC(Scratch):
         call(CMAKE, "--build", self.folder / "build")
         call(self.folder / "build/user")
 
+    def test_no_other_systemc_than_that_of_root_is_accepted(self):
+        self.package(self.library)
+        root = f"-DSystemC_ROOT={self.folder / 'systemc'}"
+        self.assertIn("SystemC 3.0.1, ", self.configure(root, DEBIAN.replace("ON", "OFF")))
+        self.assertNotIn("SystemC 3.0.1", self.configure("-USystemC_ROOT", DEBIAN))
+        for fresh in (False, True):  # the cache holds Debian's
+            if fresh:
+                shutil.rmtree(self.folder / "build")
+            said = " ".join(self.configure(root, DEBIAN, code=1).split())
+            self.assertIn(f"There is no SystemC in {self.folder / 'systemc'} (SystemC_ROOT or SYSTEMC_HOME)", said)
+
     def test_libraries_configure_with_systemc_3_package(self):
         build = self.folder / "libraries"
         call(CMAKE, "--preset", "libraries", "-B", build, *self.package(self.library), cwd=SOURCE)

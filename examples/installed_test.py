@@ -690,6 +690,10 @@ print(f"{value:016x}")
 
 
 class Libraries(Scratch):
+    def test_example_of_dramsys_needs_its_sources(self):
+        said = call(CMAKE, "-S", EXAMPLES / "dramsys", "-B", self.folder, "-DDRAMSYS_SOURCE=/nowhere", code=1)
+        self.assertIn("There is no DRAMSys at '/nowhere': set -DDRAMSYS_SOURCE", " ".join(said.split()))
+
     def test_libraries_configure_with_only_their_packages(self):
         """The preset `libraries`, where only the packages that scripts/packages.txt lists for it can be found."""
         sections = (SOURCE / "scripts/packages.txt").read_text(encoding="utf-8").split("\n\n")
