@@ -435,13 +435,13 @@ PaperTable quality(const PaperOptions& options) {
   for (std::size_t f = 0; f < spec::texture::kFootprintNames.size(); ++f)
     for (std::size_t g = 0; g < spec::texture::kLog2Names.size(); ++g)
       for (const CountRule count : {CountRule::kFloor, CountRule::kCeil})
-        for (std::size_t k = 0; k < spec::texture::kKernelNames.size(); ++k) {
+        for (const auto kernel : {spec::texture::Kernel::kBox, spec::texture::Kernel::kTent}) {
           spec::texture::Parameters p = papers_configuration();
           p.footprint = static_cast<FootprintRule>(f);
           p.log2 = static_cast<Log2Rule>(g);
           p.count = count;
-          p.kernel = static_cast<spec::texture::Kernel>(k);
-          if (p.kernel == spec::texture::Kernel::kTent) p.spread = 102;  // 1.6 in 1/64
+          p.kernel = kernel;
+          if (kernel == spec::texture::Kernel::kTent) p.spread = 102;  // 1.6 in 1/64
           variants.push_back(p);
         }
   for (const std::int32_t spread : {64, 77, 90, 112, 120, 128}) {
