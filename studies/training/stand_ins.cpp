@@ -14,12 +14,13 @@
 namespace deburr::studies {
 namespace {
 
-constexpr std::array<std::array<double, 3>, 6> kColours = {{{0.8, 0.15, 0.1},
-                                                            {0.15, 0.35, 0.7},
-                                                            {0.9, 0.8, 0.5},
-                                                            {0.25, 0.55, 0.2},
-                                                            {0.35, 0.3, 0.3},
-                                                            {0.9, 0.9, 0.9}}};
+// Written to all digits: the ROMs are trained on colours in single precision.
+constexpr std::array<std::array<float, 3>, 6> kColours = {{{0.8F, 0.15F, 0.1F},
+                                                           {0.15F, 0.35F, 0.7F},
+                                                           {0.9F, 0.8F, 0.5F},
+                                                           {0.25F, 0.55F, 0.2F},
+                                                           {0.35F, 0.3F, 0.3F},
+                                                           {0.9F, 0.9F, 0.9F}}};
 constexpr int kGreen = 3, kBrown = 4;
 
 struct Point {
@@ -66,16 +67,33 @@ class Writer {
   }
   // A wheel: an upright disc of `sides` corners, facing along z.
   void wheel(const Point& centre, double radius, double width, int sides) {
+    struct Corner {
+      int vertex;
+      double x, y;
+    };
+    std::vector<Corner> disc;
     std::vector<int> front, back;
     for (int i = 0; i < sides; ++i) {
       const tb::SinCos a = tb::sin_cos(2 * tb::kPi * i / sides);
       const double x = centre.x + radius * a.cos, y = centre.y + radius * a.sin;
       front.push_back(vertex({x, y, centre.z + width / 2}));
+      disc.push_back({front.back(), x, y});
       back.push_back(vertex({x, y, centre.z - width / 2}));
     }
-    std::string face = "f";
-    for (const int v : front) face += fmt::format(" {}", v);
-    text_ += face + "\n";
+    // Ears are cut here as in the frames that the ROMs are trained on: from another cut, texture
+    // coordinates are interpolated with other rounding errors, so the importer must not choose it.
+    for (std::size_t first = 0; disc.size() >= 3;) {
+      const std::size_t left = disc.size();
+      first = left > 3 ? first % left : 0;
+      const std::size_t ear = (first + 1) % left;
+      const Corner &a = disc[first], &b = disc[ear], &c = disc[(first + 2) % left];
+      if (left > 3 && a.x * b.y < a.y * b.x) {  // clockwise about the origin
+        ++first;
+        continue;
+      }
+      text_ += fmt::format("f {} {} {}\n", a.vertex, b.vertex, c.vertex);
+      disc.erase(disc.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
     for (std::size_t i = 0; i < front.size(); ++i) {
       const std::size_t next = (i + 1) % front.size();
       text_ += fmt::format("f {} {} {} {}\n", back[i], back[next], front[next], front[i]);
@@ -156,8 +174,8 @@ std::filesystem::path write_stand_in(const std::filesystem::path& folder, const 
     forest(out, random);
   std::string materials;
   for (std::size_t i = 0; i < kColours.size(); ++i)
-    materials +=
-        fmt::format("newmtl c{}\nKd {} {} {}\n", i, kColours[i][0], kColours[i][1], kColours[i][2]);
+    materials += fmt::format("newmtl c{}\nKd {} {} {}\n", i, double{kColours[i][0]},
+                             double{kColours[i][1]}, double{kColours[i][2]});
   write(folder / (name + ".mtl"), materials);
   write(folder / (name + ".obj"), out.text());
   return folder / (name + ".obj");

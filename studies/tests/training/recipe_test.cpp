@@ -47,8 +47,10 @@ TEST(Recipe, FrameHashesMatch) {
   const std::vector<FrameSource> sources = training_set({});
   ASSERT_EQ(frames.size(), sources.size());
   std::vector<std::string> names = {"shapes100", "wires2_1"};
-  // With sanitizers these two take half a minute.
-  if (!tb::kSanitized) names.insert(names.end(), {"cube_512x512", "vehicle11_512x512_1"});
+  // With sanitizers these take a minute.
+  if (!tb::kSanitized)
+    names.insert(names.end(),
+                 {"cube_512x512", "vehicle11_512x512", "vehicle11_512x512_1", "forest11_512x512"});
   for (const std::string& name : names) {
     const auto found = std::find_if(sources.begin(), sources.end(),
                                     [&](const FrameSource& source) { return source.name == name; });
