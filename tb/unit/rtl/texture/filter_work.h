@@ -35,12 +35,6 @@ struct FilterWork {
     colour.tag = static_cast<std::uint32_t>(colours.size());
     colour.lane = static_cast<std::uint8_t>(colour.tag & 3);
     colour.last = (colour.tag & 5) != 0;
-    // With `kernel = axis` every second fragment of five and more samples is a tent.
-    using spec::texture::Kernel;
-    const bool tent = hw::selects_kernel(configuration) && samples > 4 && (colour.tag & 1) != 0;
-    const Kernel kernel = tent                                    ? Kernel::kTent
-                          : configuration.kernel == Kernel::kTent ? Kernel::kTent
-                                                                  : Kernel::kBox;
     std::array<std::uint32_t, 4> sum{};
     using spec::texture::Kernel;
     const bool by_axis = configuration.kernel == Kernel::kAxis,
