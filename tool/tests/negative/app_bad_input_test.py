@@ -139,12 +139,6 @@ class MeshFiles(CommandTest):
         self.run_texture(2, "--scene", "plain", says="plane")
 
 
-class Kernel(CommandTest):
-    def test_rejects_kernel_by_axis_without_diagonals(self):
-        self.run_texture(2, "--preset", "paper", "--set", "texture.kernel=axis",
-                         says="texture.axes = two has no diagonals")
-
-
 class CompressedFormats(CommandTest):
     """Formats of blocks."""
 
@@ -241,6 +235,10 @@ class Configuration(CommandTest):
 
     def config(self, code, text, says=()):
         return self.run_texture(code, "--config", self.write("run.yaml", text), says=says)
+
+    def test_rejects_kernel_by_axis_without_diagonals(self):
+        self.run_texture(2, "--preset", "paper", "--set", "texture.kernel=axis",
+                         says="texture.axes = two has no diagonals")
 
     def test_accepts_configuration_file(self):
         self.config(0, "texture:\n  cache: {bytes: 8192}\nsampler.mode: linear\n", says="PASS")
