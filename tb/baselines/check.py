@@ -19,7 +19,8 @@ import subprocess
 import sys
 import tempfile
 
-ENGINES = pathlib.Path(__file__).resolve().parents[1] / "engines"
+ROOT = pathlib.Path(__file__).resolve().parents[2]  # files in commands are relative to it
+ENGINES = ROOT / "tb/engines"
 FRAME = re.compile(r"@(\w+)-(\d+)-(\d+)x(\d+)")
 SHOWN = 12  # differences shown per run
 
@@ -66,7 +67,7 @@ def measure(program, run):
         out = pathlib.Path(folder) / "out"
         command = [program, "run", *command_line(run, folder, program), "--out", out]
         done = subprocess.run([str(word) for word in command], capture_output=True, text=True,
-                              check=False)
+                              check=False, cwd=ROOT)
         if done.returncode != 0:
             sys.exit(f"{run}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
         return counts(json.loads((out / "result.json").read_text(encoding="utf-8")))

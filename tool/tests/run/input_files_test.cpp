@@ -10,8 +10,10 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tool/pages/input_files.h"
 #include "tool/run/run_once.h"
 
 namespace deburr::tool::input_files_test {
@@ -53,7 +55,8 @@ TEST_F(InputFilesOfEngines, ContainEveryFileNamedByParameters) {
       bound.set.set(parameter.name, file.string(), "test");
       if (const auto beside = kBeside.find(parameter.name); beside != kBeside.end())
         bound.set.set(beside->second, (path_ / "frame.png").string(), "test");
-      const std::vector<fs::path> files = another->input_files(meshes);
+      std::vector<fs::path> files = another->input_files(meshes);
+      for (fs::path& other : surroundings_files(bound.set)) files.push_back(std::move(other));
       EXPECT_THAT(files, Contains(file)) << parameter.name;
       EXPECT_EQ(std::count(files.begin(), files.end(), path_ / "m.mtl"), mesh) << parameter.name;
     }
