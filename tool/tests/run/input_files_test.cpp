@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A file named by a parameter of an engine is one of the engine's input files.
+#include "tool/pages/input_files.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "tool/pages/input_files.h"
 #include "tool/run/run_once.h"
 
 namespace deburr::tool::input_files_test {
