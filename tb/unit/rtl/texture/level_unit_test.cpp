@@ -82,7 +82,8 @@ TEST(TextureRtlLevel, LevelOfOneTexelIsSampledOnce) {
   Ends<Log2Token, LevelToken> ends(clock);
   unit.logs_in(ends.in);
   unit.levels_out(ends.out);
-  for (std::uint8_t i = 0; i < cases.size(); ++i) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto handle = static_cast<std::uint8_t>(i);
     spec::texture::Descriptor d;
     d.width = cases[i].width;
     d.height = cases[i].height;
@@ -90,9 +91,9 @@ TEST(TextureRtlLevel, LevelOfOneTexelIsSampledOnce) {
     d.min_filter = cases[i].filter;
     d.max_lod = 12 << 8;
     d.max_anisotropy_log2 = 4;
-    write_descriptor(store.bus, i, d);
+    write_descriptor(store.bus, handle, d);
     const int lb_min = 16 * cases[i].l;
-    ends.source.add({ticket(i, i), 0, 0, 0, 0, lb_min + 4 * 4096, lb_min, i % 3 == 0});
+    ends.source.add({ticket(handle, handle), 0, 0, 0, 0, lb_min + 4 * 4096, lb_min, i % 3 == 0});
   }
   clock.run(40);
   ASSERT_EQ(ends.sink.taken.size(), cases.size());
