@@ -230,7 +230,7 @@ Datasheet SampleWalkerOf<Width>::datasheet(const spec::texture::Parameters& p) {
                   .registers = f * (fragment + moves * 2 * z.step)}},
       .formats =
           "axis S9.24, spread U2.6, 1/N U1.16, step S10.46, offset rounded to S9.24, position "
-          "exact in S9.24.",
+          "exact in S9.24 (S10.24 with `kernel = axis` and a longer tent).",
       .cost = "`spread` is a constant."};
   auto& stages = sheet.stages;
   for (const std::uint32_t constant : {box, tent})

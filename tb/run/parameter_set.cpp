@@ -75,7 +75,8 @@ class Manifest {
     for (const auto& parameter : entry_of(root, "parameters"))
       from_[scalar_of(parameter, "name")] = scalar_of(parameter, "from");
     for (const auto& input : entry_of(root, "inputs"))
-      if (scalar_of(input, "role").empty()) inputs_.insert(scalar_of(input, "file"));
+      if (const std::string role = scalar_of(input, "role"); role.empty() || role == "surroundings")
+        inputs_.insert(scalar_of(input, "file"));
   }
 
   void apply(ParameterSet& set) const {

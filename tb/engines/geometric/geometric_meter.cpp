@@ -85,9 +85,14 @@ std::uint64_t GeometricMeter::cycles_bound() const {
       golden::geometric::touched_words(frame.image.width, frame.image.height));
   std::uint64_t begin = std::max(
       {words, words_of(p.vertex_lines), words_of(p.depth_lines), words_of(p.weight_blocks)});
-  if (p.select == spec::geometric::Select::kEdges)
-    begin = std::max(begin, lines_for(frame.screen.faces, spec::geometric::kFacesInLine) +
-                                static_cast<std::uint64_t>(setup_.memory.latency));
+  if (p.select == spec::geometric::Select::kEdges) {
+    auto latency = static_cast<std::uint64_t>(setup_.memory.latency);
+    if (!setup_.memory.latency_file.empty()) {
+      const std::vector<std::uint32_t> listed = read_latencies(setup_.memory.latency_file);
+      latency = *std::min_element(listed.begin(), listed.end());
+    }
+    begin = std::max(begin, lines_for(frame.screen.faces, spec::geometric::kFacesInLine) + latency);
+  }
   const std::uint64_t divided = work.lines - e.line_setup.table_lines.value();
   const std::uint64_t resolve_weights = e.block_fetch.weights_read.value(),
                       colours = e.block_fetch.lines_read.value(),

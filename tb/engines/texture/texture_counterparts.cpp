@@ -48,7 +48,8 @@ std::string configuration(const CounterpartUnit& unit,
         fmt::format("{}{}={}", text.empty() ? "" : " ", name, spec::value_text(parameters, name));
   // Requests then have one bit more.
   if (unit.name != "address" && rtl::texture::selects_kernel(parameters))
-    text += " with kernel=axis, axes=four or eight";
+    text += fmt::format(" axes={}{}", spec::value_text(parameters, "axes"),
+                        unit.name == "cache" ? " kernel=axis" : "");
   return text;
 }
 
