@@ -17,6 +17,9 @@ function(deburr_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(DEBURR_SANITIZE)
+    math(EXPR ARG_TIMEOUT "2 * ${ARG_TIMEOUT}")  # a suite of one test may take 90 s
+  endif()
   list(GET ARG_LABELS 0 kind)
   if(NOT ARG_PROGRAM)
     cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY "${PROJECT_SOURCE_DIR}"
