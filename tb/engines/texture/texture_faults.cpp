@@ -75,7 +75,9 @@ std::vector<InjectedFault> TextureFaults::list(const platform::TextureMemory& te
       {"wrong-sample", "Gives request 401 the weight of another number of samples.",
        "flip:texture.texel_quads:401:control.last_index.2"},
       {"wrong-kernel", "Fragments on a diagonal have the box of all others instead of a tent.", "",
-       setup_.texture.kernel == Kernel::kAxis ? "" : "texture.kernel = axis"},
+       setup_.texture.kernel != Kernel::kAxis ? "texture.kernel = axis"
+       : setup_.stand_ins                     ? "the SystemC unit: leave out run.hdl"
+                                              : ""},
       {"wrong-replacement", "The cache replaces by FIFO where LRU was ordered."}};
   for (const BlockFault& fault : kBlockFaults) {
     const auto& all = textures.descriptors();
